@@ -1,0 +1,69 @@
+"""A batch of parameter points and their solution, as plain arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+#: Regimes of the contact over the stationary cycle, in the order of their flag values.
+REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
+
+
+@dataclass(frozen=True)
+class Points:
+    """A batch of n parameter points that share one profile family (eq. 20).
+
+    Attributes
+    ----------
+    profile
+        Name of the profile, a key of `swtstudy.parameters.PROFILE_SHAPES`.
+    poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
+        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad.
+    p, q
+        Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
+    shape
+        Shape parameters κ_i of the profile, each of shape (n,).
+    """
+
+    profile: str
+    poisson_ratio: FloatArray
+    friction: FloatArray
+    normal_amplitude: FloatArray
+    p: IntArray
+    q: IntArray
+    tangential_amplitude: FloatArray
+    phase: FloatArray
+    shape: dict[str, FloatArray] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.phase)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """The solution of a batch of points, each array of shape (n,).
+
+    Attributes
+    ----------
+    s
+        SWT/SWT0 (eqs. 10, 19), –.
+    s_error
+        Estimated absolute error of s, –.
+    critical_x
+        Position of the critical point on the surface, signed, in a_H = √(R δ0).
+    critical_angle
+        Angle of the critical plane's normal against the x axis, degrees in (-90, 90].
+    regime
+        Index into `REGIMES`.
+    """
+
+    s: FloatArray
+    s_error: FloatArray
+    critical_x: FloatArray
+    critical_angle: FloatArray
+    regime: NDArray[np.int8]

@@ -1,0 +1,106 @@
+"""The one table of the study's non-dimensional parameters (eq. 20, Table 1 of the paper).
+
+Validation, coordinate attributes, axis labels, the command line's help and the documentation all read
+it; none of them repeats a name, a symbol, a default or a range.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One non-dimensional parameter.
+
+    Attributes
+    ----------
+    name
+        Name of the dimension, the keyword and the TOML key.
+    symbol
+        Symbol as in the paper, LaTeX without dollar signs.
+    meaning
+        One line, used as ``long_name`` and in help texts.
+    default
+        Value of Table 1; None for a shape parameter that its profile requires.
+    lower, upper
+        Allowed range, in the unit of the parameter.
+    open_lower
+        True if ``lower`` itself is not allowed.
+    kind
+        "number", "ratio" (a rational number p/q) or "profile".
+    units
+        CF units: "1", or "rad" for the phase.
+    """
+
+    name: str
+    symbol: str
+    meaning: str
+    default: float | str | None = None
+    lower: float = 0.0
+    upper: float = 1.0
+    open_lower: bool = False
+    kind: str = "number"
+    units: str = "1"
+
+    @property
+    def allowed(self) -> str:
+        """The allowed range in words, for messages and help."""
+        if self.kind == "profile":
+            return "one of " + ", ".join(PROFILE_SHAPES)
+        interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"
+        if self.kind == "ratio":
+            return f"a positive rational p/q with p, q ≤ {self.upper:g}"
+        if self.units == "rad":
+            return f"a finite angle in {interval} rad"
+        return f"a number in {interval}"
+
+
+#: Largest numerator and denominator of a frequency ratio: the common period grows with them.
+LARGEST_FREQUENCY_TERM = 64
+
+PARAMETERS: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter("poisson_ratio", r"\nu", "Poisson ratio", 0.3, 0.0, 0.5),
+        Parameter("friction", r"\mu", "coefficient of friction", 0.3, 0.0, 10.0),
+        Parameter(
+            "normal_amplitude", r"\delta_A/\delta_0", "amplitude of the normal oscillation", 0.75, 0.0, 10.0
+        ),
+        Parameter(
+            "frequency_ratio",
+            r"\omega_2/\omega_1",
+            "frequency of the tangential over that of the normal oscillation",
+            1.0,
+            0.0,
+            LARGEST_FREQUENCY_TERM,
+            open_lower=True,
+            kind="ratio",
+        ),
+        Parameter(
+            "tangential_amplitude",
+            r"G^* u_A/(\mu E^* \delta_0)",
+            "amplitude of the tangential oscillation",
+            5 / 6,
+            0.0,
+            100.0,
+        ),
+        Parameter(
+            "phase", r"\psi", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
+        ),
+        Parameter("profile", "f", "profile of the indenter", "paraboloid", kind="profile"),
+        Parameter("flat_radius", r"b/a_H", "radius of the punch face", None, 0.0, 100.0),
+        Parameter("waviness_amplitude", r"h/\delta_0", "amplitude of the waviness", None, 0.0, 10.0),
+        Parameter(
+            "wavelength", r"\lambda/\sqrt{hR}", "wavelength of the waviness", None, 0.0, 1000.0, open_lower=True
+        ),
+    )
+}
+
+#: Every profile with the shape parameters κ_i that it has (eqs. 3–6).
+PROFILE_SHAPES: dict[str, tuple[str, ...]] = {
+    "paraboloid": (),
+    "rounded_punch": ("flat_radius",),
+    "truncated_paraboloid": ("flat_radius",),
+    "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
+}
