@@ -1,0 +1,227 @@
+"""The contact solution: the memory diagram of the MDR springs in the depth coordinate G = g(ξ)/δ0.
+
+A spring at G carries the normal compression w = δ − G and the tangential force τ = u − o, |τ| ≤ w. Its
+offset o(G, t) is the only memory: while in contact it is clipped to [ℓ + G, r − G] with ℓ = u − δ and
+r = u + δ, and it starts with o = u at touch-down. Hence o(G) is made of few pieces: lines of slope ±1 left
+by slip (o = ℓ + G, o = r − G), the curve o = u(touch-down of G) left by growth in stick, and o = 0 where
+nothing ever slipped. They form a stack: slip pops pieces from the edge and pushes one, the loss of contact
+pops. The solution does not depend on the profile.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.protocol import Protocol, turning_instants
+from swtstudy.mechanics.roots import monotone_roots
+
+#: Value of `Memory.slope` that marks a piece left by growth in stick.
+GROWTH = 2.0
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Stacks of pieces of o(G), from the centre outwards, along the last axis d.
+
+    Attributes
+    ----------
+    start
+        Depth G at which the piece begins; +inf behind the last piece.
+    offset
+        o at the start.
+    slope
+        do/dG of the piece: −1, 0, +1 or `GROWTH`.
+    branch, stop
+        Of a growth: 2πk of its branch of δ (`Protocol.touch_down`) and the depth at which it ended.
+    """
+
+    start: FloatArray
+    offset: FloatArray
+    slope: FloatArray
+    branch: FloatArray
+    stop: FloatArray
+
+    def take(self, index: tuple[NDArray[np.intp] | slice, ...]) -> Memory:
+        """The stacks at ``index`` of the leading axes."""
+        return Memory(*(getattr(self, field.name)[index] for field in fields(self)))
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The stationary cycle of n protocols, cut into i intervals between turning instants.
+
+    Within an interval δ, u − δ and u + δ are monotone, the slip front only moves inwards, and the memory
+    inside of the front does not change.
+
+    Attributes
+    ----------
+    protocol
+        The n protocols.
+    edges
+        Shape (n, i + 1): first and last instants of the intervals, φ in [0, 2π].
+    memory
+        Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
+    forward, backward
+        Shape (n, i): whether u − δ rises, so that springs slip at τ = +w, and whether u + δ falls, so
+        that they slip at τ = −w.
+    growth
+        Shape (n, i): whether neither happens while δ rises: new ground sticks.
+    branch
+        Shape (n, i): 2πk of the branch of δ, see `Protocol.touch_down`.
+    gross_slip, lift_off
+        Shape (n,): whether the whole contact slides, or is lost, somewhere in the cycle.
+    """
+
+    protocol: Protocol
+    edges: FloatArray
+    memory: Memory
+    forward: NDArray[np.bool_]
+    backward: NDArray[np.bool_]
+    growth: NDArray[np.bool_]
+    branch: FloatArray
+    gross_slip: NDArray[np.bool_]
+    lift_off: NDArray[np.bool_]
+
+
+def solve_cycle(protocol: Protocol) -> Cycle:
+    """March the memory diagram through the first period and record the second one, which is stationary.
+
+    Parameters
+    ----------
+    protocol
+        The n load protocols (eqs. 7, 8), started at t = 0 from δ(0) and u = 0.
+    """
+    n = len(protocol)
+    first, last = np.zeros((n, 1)), np.full((n, 1), 2.0 * np.pi)
+    edges = np.concatenate([first, turning_instants(protocol), last], axis=1)
+    middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
+    displacement_rate, depth_rate = protocol.displacement_rate(middle), protocol.depth_rate(middle)
+    forward = displacement_rate > depth_rate
+    backward = displacement_rate < -depth_rate
+    growth = ~forward & ~backward & (depth_rate > 0.0)
+    branch = 2.0 * np.pi * np.round((protocol.q * middle + protocol.phase[:, None]) / (2.0 * np.pi))
+    depth, displacement = np.maximum(protocol.depth(edges), 0.0), protocol.displacement(edges)
+
+    intervals = middle.shape[1]
+    shape = (n, 2 * intervals + 3)
+    stack = Memory(np.full(shape, np.inf), *(np.zeros(shape) for _ in range(4)))
+    stack.start[depth[:, 0] > 0.0, 0] = 0.0
+    record = Memory(*(np.empty((n, intervals, shape[1])) for _ in range(5)))
+    gross_slip = np.zeros(n, dtype=bool)
+    flat = np.zeros(n)
+    for period in range(2):
+        for i in range(intervals):
+            before, now, u = depth[:, i], depth[:, i + 1], displacement[:, i + 1]
+            sticks = growth[:, i] & (now > 0.0)
+            grown = np.full(n, GROWTH)
+            _push(stack, sticks, Memory(before, displacement[:, i], grown, branch[:, i], now))
+            if period == 1:
+                for name in record.__dataclass_fields__:
+                    getattr(record, name)[:, i] = getattr(stack, name)
+            stack.start[stack.start >= now[:, None]] = np.inf
+            front, sign, _ = slip_front(protocol, stack, forward[:, i], backward[:, i], now, u)
+            slips = front < now
+            _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
+            if period == 1:
+                gross_slip |= slips & (front <= 0.0)
+    deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
+    memory = record.take((slice(None), slice(None), slice(deepest)))
+    lift_off = protocol.normal_amplitude >= 1.0
+    return Cycle(protocol, edges, memory, forward, backward, growth, branch, gross_slip, lift_off)
+
+
+def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
+    """Pop what begins at or outside of the piece's start, then push the piece, in the rows ``where``."""
+    row = np.flatnonzero(where)
+    keep = stack.start[row] < piece.start[row, None]
+    stack.start[row] = np.where(keep, stack.start[row], np.inf)
+    place = keep.sum(axis=1)
+    for name in stack.__dataclass_fields__:
+        getattr(stack, name)[row, place] = getattr(piece, name)[row]
+
+
+def slip_front(
+    protocol: Protocol,
+    memory: Memory,
+    forward: NDArray[np.bool_],
+    backward: NDArray[np.bool_],
+    depth: FloatArray,
+    displacement: FloatArray,
+) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
+    """Depth G of the slip front: from there outwards the springs slip.
+
+    Forward slip brings the spring at G to o = ℓ + G. Since h(G) = o(G) − G never rises, the front is
+    where h = ℓ; backward slip is its mirror image, o → −o, u → −u.
+
+    Parameters
+    ----------
+    protocol
+        n protocols.
+    memory
+        Pieces inside of the front, shape (n, …, d).
+    forward, backward
+        Shape (n, …): the senses in which springs may slip.
+    depth, displacement
+        Shape (n, …): δ ≥ 0 and u at the instants.
+
+    Returns
+    -------
+    front, sign, piece
+        Shape (n, …): the depth of the front, 0 ≤ front ≤ δ; do/dG outside of it, +1 for forward slip,
+        −1 for backward slip; the number of the piece in which the front lies.
+    """
+    front, sign = depth, np.ones_like(depth)
+    piece = (memory.start < depth[..., None]).sum(axis=-1) - 1
+    for sense, active in ((1.0, forward), (-1.0, backward)):
+        if not np.any(active):
+            continue
+        target = sense * displacement - depth
+        height = sense * memory.offset - memory.start
+        inside = (height > target[..., None]).sum(axis=-1) - 1
+        found = _front_in_piece(protocol, memory, sense, target, inside, active)
+        nearer = active & (found < front)
+        front, sign = np.where(nearer, np.maximum(found, 0.0), front), np.where(nearer, sense, sign)
+        piece = np.where(nearer, inside, piece)
+    return front, sign, np.maximum(piece, 0)
+
+
+def _front_in_piece(
+    protocol: Protocol,
+    memory: Memory,
+    sense: float,
+    target: FloatArray,
+    piece: NDArray[np.intp],
+    active: NDArray[np.bool_],
+) -> FloatArray:
+    """Solve sense·o(G) − G = target in the given piece; −inf where piece < 0."""
+    column = np.maximum(piece, 0)[..., None]
+
+    def of_piece(values: FloatArray) -> FloatArray:
+        return np.asarray(np.take_along_axis(values, column, axis=-1)[..., 0])
+
+    start, offset, slope = (of_piece(values) for values in (memory.start, memory.offset, memory.slope))
+    steep = 1.0 - sense * np.where(slope == GROWTH, 0.0, slope)
+    fall = np.where(piece < 0, 0.0, sense * offset - start - target)
+    # On a line of the same sense h is constant: the front is at its end, in a tie that recurs every cycle.
+    last = memory.start.shape[-1] - 1
+    end = np.take_along_axis(memory.start, np.minimum(column + 1, last), axis=-1)[..., 0]
+    end = np.where(column[..., 0] == last, np.inf, end)
+    front = np.where(steep > 0.0, start + fall / np.where(steep > 0.0, steep, 1.0), end)
+    grown = active & (slope == GROWTH) & (piece >= 0)
+    if np.any(grown):
+        where = np.nonzero(grown)
+        one = protocol.take(where[0])
+        goal, branch = target[where], of_piece(memory.branch)[where]
+        low = one.touch_down(start[where], branch)
+        high = one.touch_down(of_piece(memory.stop)[where], branch)
+
+        def height(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
+            value = sense * one.displacement(instant) - one.depth(instant) - goal
+            return value, sense * one.displacement_rate(instant) - one.depth_rate(instant)
+
+        front[where] = one.depth(monotone_roots(height, low, high))
+    return np.where(piece < 0, -np.inf, front)

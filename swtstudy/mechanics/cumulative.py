@@ -1,0 +1,60 @@
+"""Running integrals of smooth functions, as Chebyshev series on [−1, 1].
+
+A table holds the series of ∫_{−1}^{y} f dy′ along its last axis, so that any number of upper limits cost a
+short recurrence each, whatever the integrand cost.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from swtstudy.mechanics.points import FloatArray
+
+
+@lru_cache(maxsize=16)
+def nodes(count: int) -> FloatArray:
+    """The ``count`` Chebyshev points of the first kind, ascending, shape (count,)."""
+    return -np.cos(np.pi * (np.arange(count) + 0.5) / count)
+
+
+@lru_cache(maxsize=16)
+def _integration_matrix(count: int) -> FloatArray:
+    """Matrix from values at `nodes` to the coefficients of the running integral, (count, count + 1)."""
+    values_to_series = np.linalg.inv(chebyshev.chebvander(nodes(count), count - 1))
+    integral = chebyshev.chebint(values_to_series, lbnd=-1.0, axis=0)
+    return np.ascontiguousarray(integral.T)
+
+
+def running_integral(values: FloatArray) -> FloatArray:
+    """Series of the running integral of functions given by their values at `nodes`.
+
+    Parameters
+    ----------
+    values
+        Shape (…, count).
+
+    Returns
+    -------
+    Shape (…, count + 1), coefficients of T_0, T_1, …
+    """
+    return values @ _integration_matrix(values.shape[-1])
+
+
+def evaluate(series: FloatArray, y: FloatArray) -> FloatArray:
+    """Value of the series at y by Clenshaw's recurrence.
+
+    Parameters
+    ----------
+    series
+        Shape (…, k); its leading axes broadcast against y.
+    y
+        Abscissae in [−1, 1].
+    """
+    twice = 2.0 * y
+    later, latest = series[..., -1], np.zeros(())
+    for k in range(series.shape[-1] - 2, 0, -1):
+        later, latest = series[..., k] + twice * later - latest, later
+    return np.asarray(series[..., 0] + y * later - latest)

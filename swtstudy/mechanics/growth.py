@@ -1,0 +1,121 @@
+"""Stress integrals over the springs that touched down and stuck: their slope do/dG = u̇/δ̇ is not constant.
+
+Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
+for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
+integral is exact to rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics import cumulative
+from swtstudy.mechanics.contact import Cycle
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.profiles.base import Profile
+
+
+class GrowthIntegrals:
+    """Running integrals of the primitives' kernels times −u̇/δ̇ over each growth of each cycle.
+
+    Parameters
+    ----------
+    cycle, profile
+        n cycles and n profiles.
+    position
+        Shape (n, X), r = |x|.
+    count
+        Number of Chebyshev nodes of each series.
+    """
+
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
+        grows = cycle.growth
+        self.count = int(grows.sum(axis=1).max(initial=0))
+        order = np.argsort(~grows, axis=1, kind="stable")[:, : self.count]
+        depth = np.maximum(cycle.protocol.depth(cycle.edges), 0.0)
+        #: Shape (n, k): depth at which each growth begins; its identity.
+        self.begin = np.take_along_axis(depth[:, :-1], order, axis=1)
+        end = np.where(
+            np.take_along_axis(grows, order, axis=1),
+            np.take_along_axis(depth[:, 1:], order, axis=1),
+            self.begin,
+        )
+        branch = np.take_along_axis(cycle.branch, order, axis=1)
+        # Axes from here on: profile n, position X, growth k, node.
+        self.position = position[:, :, None]
+        self.flat = profile.flat_radius[:, None, None]
+        low, high = (profile.radius(g)[:, None, :] for g in (self.begin, end))
+        y = np.sin(0.25 * np.pi * (1.0 + cumulative.nodes(count)))
+        share, rate = y * y, 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
+
+        def slope(radius: FloatArray) -> FloatArray:
+            instant = cycle.protocol.touch_down(profile.depth(radius), branch[:, None, :, None])
+            du, dd = cycle.protocol.displacement_rate(instant), cycle.protocol.depth_rate(instant)
+            # At a common turning point of u and δ the ratio is bounded by 1, as everywhere in stick.
+            ratio = np.divide(du, dd, out=np.zeros_like(du), where=np.abs(dd) > 1e-300)
+            return -np.clip(ratio, -1.0, 1.0)
+
+        r, b = self.position[..., None], self.flat[..., None]
+        self.inner_low, inner_high = self._inner_angle(low), self._inner_angle(high)
+        self.inner_span = inner_high - self.inner_low
+        angle = self.inner_low[..., None] + self.inner_span[..., None] * share
+        radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
+        density = profile.weighted_slope(radius) * slope(radius) * rate * self.inner_span[..., None]
+        first = density * 2.0 / r
+        inner = np.stack([first, first * (radius / r) ** 2])
+
+        self.outer_low, outer_high = self._outer_root(low), self._outer_root(high)
+        self.outer_span = outer_high - self.outer_low
+        root = self.outer_low[..., None] + self.outer_span[..., None] * share
+        radius = np.sqrt(root * root + r * r)
+        gap = np.sqrt(np.maximum(radius * radius - b * b, 1e-300))
+        outer = profile.weighted_slope(radius) / (radius * gap) * slope(radius)
+        values = np.concatenate([inner, (outer * rate * self.outer_span[..., None])[None]])
+        #: Shape (3, n, X, k, count + 1): series for T1, T3 and Π.
+        self.series = cumulative.running_integral(values)
+
+    def _inner_angle(self, radius: FloatArray) -> FloatArray:
+        r, b = self.position, self.flat
+        sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, 1e-300)
+        return np.asarray(np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0))))
+
+    def _outer_root(self, radius: FloatArray) -> FloatArray:
+        return np.sqrt(np.maximum(radius**2 - self.position**2, 0.0))
+
+    def index(self, cycle: Cycle) -> NDArray[np.intp]:
+        """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
+        same = cycle.memory.start[..., None] == self.begin[:, None, None, :]
+        return np.asarray(same.argmax(axis=-1))
+
+    def up_to(
+        self,
+        row: NDArray[np.intp],
+        column: NDArray[np.intp],
+        index: NDArray[np.intp],
+        radius: FloatArray,
+    ) -> FloatArray:
+        """Integrals T1, T3, Π over single growths up to ``radius``, shape (3, m).
+
+        Parameters
+        ----------
+        row, column, index, radius
+            Shape (m,): point, position, number of the growth (see `index`), upper limit ξ.
+        """
+        at = row, column, index
+        r2, b2 = self.position[row, column, 0] ** 2, self.flat[row, 0, 0] ** 2
+        sine = np.maximum(radius**2 - b2, 0.0) / np.maximum(r2 - b2, 1e-300)
+        angle = np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0)))
+        root = np.sqrt(np.maximum(radius**2 - r2, 0.0))
+        inner = _share(angle, self.inner_low[at], self.inner_span[at])
+        outer = _share(root, self.outer_low[at], self.outer_span[at])
+        series = self.series[:, row, column, index]
+        both = cumulative.evaluate(series[:2], inner)
+        return np.concatenate([both, cumulative.evaluate(series[2:], outer)])
+
+
+def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:
+    """Abscissa in [−1, 1] of the sin² map."""
+    part = np.divide(value - low, span, out=np.zeros_like(value), where=span > 0.0)
+    return np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) * (4.0 / np.pi) - 1.0
+

@@ -1,0 +1,72 @@
+"""What a profile must know: its MDR profile g, and the integrals of the surface stress over it.
+
+Lengths are in a_H = √(R δ0), depths in δ0. A batch of n profiles of one family is one object; its methods
+take arrays of shape (n, …).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+
+
+class Primitives(ABC):
+    """Full-slip integrals at fixed positions r = |x|, shape (n, X), as functions of the radius.
+
+    With m(ξ) = g′ √(ξ² − b²), ξ² = b² + (r² − b²) sin²α and v² = ξ² − r² both ends are regular.
+    """
+
+    @abstractmethod
+    def inner(self, radius: FloatArray) -> FloatArray:
+        """Integrals over the springs inside r up to ``radius``, shape (2, n, X, …).
+
+        T1 = ∫ 2 (ξ/r) g′ dξ/√(r²−ξ²) and T3 = ∫ 2 (ξ/r)³ g′ dξ/√(r²−ξ²), ξ from b to min(radius, r):
+        the in-plane stress by tangential load is made of them (theory of the surface stress).
+        """
+
+    @abstractmethod
+    def outer(self, radius: FloatArray) -> FloatArray:
+        """Integrals over the springs outside r up to ``radius``, shape (2, n, X, …).
+
+        Π = ∫ g′ dξ/√(ξ²−r²) (pressure, traction) and V = ∫ √(ξ²−r²) g′ dξ (load), ξ from
+        max(r, b) to radius; 0 where the radius is smaller.
+        """
+
+
+class Profile(ABC):
+    """n profiles of one family."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+
+    @abstractmethod
+    def take(self, index: FloatArray) -> Profile:
+        """The profiles at ``index``."""
+
+    @property
+    def flat_radius(self) -> FloatArray:
+        """Shape (n,): radius b inside of which g = 0."""
+        return np.zeros(self.count)
+
+    @abstractmethod
+    def depth(self, radius: FloatArray) -> FloatArray:
+        """MDR profile g(ξ)/δ0 (eq. 11)."""
+
+    @abstractmethod
+    def radius(self, depth: FloatArray) -> FloatArray:
+        """Contact radius ξ/a_H at the indentation depth: the inverse of `depth`, b at depth 0."""
+
+    @abstractmethod
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        """m(ξ) = g′(ξ) √(ξ² − b²), regular also where g′ is not."""
+
+    @abstractmethod
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        """∫ ξ g′ dξ from b to ``radius``: half of the normal force over E* δ0 a_H."""
+
+    @abstractmethod
+    def primitives(self, position: FloatArray) -> Primitives:
+        """The full-slip integrals at r = ``position``, shape (n, X)."""

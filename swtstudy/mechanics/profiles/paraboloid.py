@@ -1,0 +1,54 @@
+"""The paraboloid (eq. 3): g = ξ², everything in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.profiles.base import Primitives, Profile
+
+
+class ParaboloidPrimitives(Primitives):
+    """Hamilton's full-slip solution on the surface, split into its two integrals."""
+
+    def __init__(self, position: FloatArray) -> None:
+        self.position = position
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        r = _align(self.position, radius)
+        sine = np.minimum(radius / r, 1.0)
+        cosine = np.sqrt(1.0 - sine * sine)
+        product = sine * cosine
+        lens = r * (np.arcsin(sine) - product)
+        return np.stack([2.0 * lens, 1.5 * lens - r * sine * sine * product])
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        r = _align(self.position, radius)
+        v = np.sqrt(np.maximum(radius * radius - r * r, 0.0))
+        return np.stack([2.0 * v, (2.0 / 3.0) * v**3])
+
+
+class Paraboloid(Profile):
+    """n paraboloids; they are all the same in a_H and δ0."""
+
+    def take(self, index: FloatArray) -> Paraboloid:
+        return Paraboloid(len(index))
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return radius * radius
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        return np.sqrt(np.maximum(depth, 0.0))
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        return 2.0 * radius * radius
+
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        return (2.0 / 3.0) * radius**3
+
+    def primitives(self, position: FloatArray) -> Primitives:
+        return ParaboloidPrimitives(position)
+
+
+def _align(position: FloatArray, like: FloatArray) -> FloatArray:
+    return position.reshape(position.shape + (1,) * (like.ndim - 2))

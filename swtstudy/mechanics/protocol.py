@@ -1,0 +1,167 @@
+"""The bimodal load protocol (eqs. 7, 8), its common period and its symmetry in the phase.
+
+Time is the angle φ = ω1 t/q of the common period, 0 ≤ φ < 2π, for ω2/ω1 = p/q in lowest terms. The
+indentation depth is measured in δ0, the tangential displacement as G* u/(μ E* δ0).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.roots import monotone_roots
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """n load protocols with the same frequency ratio p/q.
+
+    Attributes
+    ----------
+    normal_amplitude, tangential_amplitude, phase
+        Shape (n,): δA/δ0, G*uA/(μE*δ0), ψ in rad.
+    p, q
+        ω2/ω1 = p/q in lowest terms.
+
+    Notes
+    -----
+    The methods take instants φ of shape (n, …) and return arrays of the same shape.
+    """
+
+    normal_amplitude: FloatArray
+    tangential_amplitude: FloatArray
+    phase: FloatArray
+    p: int
+    q: int
+
+    def __len__(self) -> int:
+        return len(self.phase)
+
+    def take(self, index: NDArray[np.intp]) -> Protocol:
+        """The protocols at ``index``, repetitions allowed."""
+        return Protocol(
+            self.normal_amplitude[index], self.tangential_amplitude[index], self.phase[index], self.p, self.q
+        )
+
+    def depth(self, instant: FloatArray) -> FloatArray:
+        """Indentation depth δ/δ0 (eq. 7)."""
+        d, psi = (_expand(v, instant) for v in (self.normal_amplitude, self.phase))
+        return 1.0 + d * np.sin(self.q * instant + psi)
+
+    def displacement(self, instant: FloatArray) -> FloatArray:
+        """Tangential displacement G* u/(μ E* δ0) (eq. 8)."""
+        return _expand(self.tangential_amplitude, instant) * np.sin(self.p * instant)
+
+    def depth_rate(self, instant: FloatArray) -> FloatArray:
+        """dδ/dφ."""
+        d, psi = (_expand(v, instant) for v in (self.normal_amplitude, self.phase))
+        return self.q * d * np.cos(self.q * instant + psi)
+
+    def displacement_rate(self, instant: FloatArray) -> FloatArray:
+        """du/dφ."""
+        return self.p * _expand(self.tangential_amplitude, instant) * np.cos(self.p * instant)
+
+    def touch_down(self, depth: FloatArray, branch: FloatArray) -> FloatArray:
+        """Instant at which the depth is reached on a rising branch of δ.
+
+        ``branch`` is 2πk for the branch −π/2 ≤ qφ + ψ − 2πk ≤ π/2.
+        """
+        d, psi = (_expand(v, depth) for v in (self.normal_amplitude, self.phase))
+        sine = np.divide(depth - 1.0, d, out=np.zeros_like(depth), where=d > 0.0)
+        return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
+
+
+def _expand(values: FloatArray, like: FloatArray) -> FloatArray:
+    """Append axes to ``values`` of shape (n,) so that it broadcasts against ``like`` of shape (n, …)."""
+    return values.reshape(values.shape + (1,) * (like.ndim - 1))
+
+
+def fold_phase(
+    phase: FloatArray, p: IntArray, q: IntArray
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
+
+    Shifting time by π/ω2 flips u and mirrors x.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    p, q
+        Shape (n,), ω2/ω1 = p/q in lowest terms.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
+    """
+    period = np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p
+    turns = np.floor(phase / period + 1e-12)
+    folded = np.maximum(phase - turns * period, 0.0)
+    mirrored = (q % 2 == 1) & (turns % 2 == 1)
+    return folded, mirrored
+
+
+def turning_instants(protocol: Protocol) -> FloatArray:
+    """All instants at which δ, u − δ or u + δ turns, or contact is made or lost, sorted.
+
+    Returns
+    -------
+    Shape (n, k), within [0, 2π]; rows with fewer instants are filled up with 2π.
+    """
+    q = protocol.q
+    quarter = np.pi * (np.arange(2 * q) + 0.5)
+    columns = [np.mod((quarter - protocol.phase[:, None]) / q, 2.0 * np.pi)]
+    columns += [_turning_points_of_slip_line(protocol, sign) for sign in (1.0, -1.0)]
+    d = protocol.normal_amplitude
+    if np.any(d > 1.0):
+        fall = np.arcsin(1.0 / np.maximum(d, 1.0))
+        turns = 2.0 * np.pi * np.arange(q)
+        for angle in (-fall, np.pi + fall):
+            instants = np.mod((angle[:, None] + turns - protocol.phase[:, None]) / q, 2.0 * np.pi)
+            columns.append(np.where(d[:, None] > 1.0, instants, 2.0 * np.pi))
+    return np.sort(np.concatenate(columns, axis=1), axis=1)
+
+
+def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
+    """Zeros of d(u − sign·δ)/dφ in [0, 2π], shape (n, k), filled up with 2π."""
+    order = max(protocol.p, protocol.q)
+    # The offset keeps nodes off the zeros of symmetric protocols.
+    step = 2.0 * np.pi / (24 * order)
+    grid = step * np.arange(24 * order + 2) + 0.0123 / order
+    nodes = np.broadcast_to(grid, (len(protocol), grid.size))
+    rate = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
+
+    row, cell = np.nonzero((rate[:, :-1] < 0.0) != (rate[:, 1:] < 0.0))
+    low, high = grid[cell], grid[cell + 1]
+    # A close pair of zeros inside a cell pair shows as a parabola whose vertex crosses zero.
+    left, mid, right = rate[:, :-2], rate[:, 1:-1], rate[:, 2:]
+    curvature = left - 2.0 * mid + right
+    with np.errstate(divide="ignore", invalid="ignore"):
+        offset = 0.5 * (left - right) / curvature
+        vertex = mid - 0.25 * (left - right) * offset
+        pair = (left * mid > 0.0) & (mid * right > 0.0) & (vertex * mid < 0.0) & (abs(offset) <= 1.0)
+    pair_row, pair_cell = np.nonzero(pair)
+    if pair_row.size:
+        split = grid[pair_cell + 1] + step * offset[pair_row, pair_cell]
+        row = np.concatenate([row, pair_row, pair_row])
+        low = np.concatenate([low, grid[pair_cell], split])
+        high = np.concatenate([high, split, grid[pair_cell + 2]])
+
+    line = protocol.take(row)
+    p, q = protocol.p, protocol.q
+
+    def rate_and_slope(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
+        slope = -p * p * line.displacement(instant) + sign * q * q * (line.depth(instant) - 1.0)
+        return line.displacement_rate(instant) - sign * line.depth_rate(instant), slope
+
+    roots = np.mod(monotone_roots(rate_and_slope, low, high), 2.0 * np.pi)
+    count = np.bincount(row, minlength=len(protocol))
+    filled = np.full((len(protocol), max(count.max(initial=0), 1)), 2.0 * np.pi)
+    order_by_row = np.argsort(row, kind="stable")
+    column = np.arange(row.size) - np.repeat(np.cumsum(count) - count, count)
+    filled[row[order_by_row], column] = roots[order_by_row]
+    return filled

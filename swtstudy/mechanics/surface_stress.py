@@ -1,0 +1,173 @@
+"""Stress on the surface line y = 0, z = 0 over the stationary cycle.
+
+The stress at x is a short sum over the memory diagram: with the full-slip primitives A(r; ξ) of the profile
+(`swtstudy.mechanics.profiles.base.Primitives`) a piece of slope do/dG = s from ξ1 to ξ2 contributes
+−s [A(ξ2) − A(ξ1)], since τ′ = −o′. Nothing here depends on ν or μ; `combine` brings them in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.growth import GrowthIntegrals
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.profiles.base import Profile
+
+
+@dataclass(frozen=True)
+class History:
+    """The building blocks of the stress at n × X positions and T instants, each (n, X, T).
+
+    Attributes
+    ----------
+    pressure
+        p in E* √(δ0/R).
+    mean_pressure
+        Load inside r over π r², same unit.
+    tangential_1, tangential_3
+        T1 and T3 with the springs' τ′: (1/π) ∫ 2 sin φ τ′ dφ and (1/π) ∫ 2 sin³φ τ′ dφ.
+    traction
+        (1/π) ∫ τ′ dξ/√(ξ²−r²) over the springs outside r: −q/μ.
+    """
+
+    pressure: FloatArray
+    mean_pressure: FloatArray
+    tangential_1: FloatArray
+    tangential_3: FloatArray
+    traction: FloatArray
+
+
+class SurfaceLine:
+    """n × X positions on the surface line of n points, ready for any instants.
+
+    Parameters
+    ----------
+    cycle, profile
+        n cycles and n profiles, one pair a point.
+    position
+        Shape (n, X): r = |x| > 0 in a_H.
+    growth_nodes
+        Number of Chebyshev nodes for the springs that stuck at touch-down.
+    """
+
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, growth_nodes: int) -> None:
+        self.cycle, self.profile, self.position = cycle, profile, position
+        self.primitives = profile.primitives(position)
+        memory = cycle.memory
+        n, intervals, depth = memory.start.shape
+        finite = np.isfinite(memory.start)
+        radius = profile.radius(np.where(finite, memory.start, 0.0).reshape(n, -1))
+        at_start = self._full_slip(radius[:, None, :]).reshape(3, n, -1, intervals, depth)
+
+        slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
+        # Integral over each complete piece, up to the start of the next one.
+        piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
+        self.growth = GrowthIntegrals(cycle, profile, position, growth_nodes)
+        self.grown = finite & (memory.slope == GROWTH)
+        if self.growth.count:
+            self.growth_index = self.growth.index(cycle)
+            row, i, d = np.nonzero(self.grown[..., :-1] & finite[..., 1:])
+            up_to = radius.reshape(n, intervals, depth)[row, i, d + 1]
+            index = self.growth_index[row, i, d]
+            columns = np.arange(position.shape[1])
+            many = (a.ravel() for a in np.broadcast_arrays(
+                row[:, None], columns, index[:, None], up_to[:, None]))
+            grown = self.growth.up_to(*many).reshape(3, row.size, -1)
+            piece[:, row, :, i, d] = np.moveaxis(grown, 0, 1)
+        inside = np.zeros_like(at_start)
+        np.cumsum(piece, axis=-1, out=inside[..., 1:])
+        #: Shape (3, n, X, i·d): integral up to the front = base − slope · A(front), for lines.
+        self.base = (inside + slope * at_start).reshape(3, n, -1, intervals * depth)
+
+    def _full_slip(self, radius: FloatArray) -> FloatArray:
+        """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
+        inner, outer = self.primitives.inner(radius), self.primitives.outer(radius)
+        return np.concatenate([inner, outer[:1]])
+
+    def history(self, interval: NDArray[np.intp], instant: FloatArray) -> History:
+        """Stress building blocks at the given instants.
+
+        Parameters
+        ----------
+        interval, instant
+            Shape (n, X, T) or (n, 1, T): intervals of the cycle and instants φ within them.
+        """
+        cycle, profile = self.cycle, self.profile
+        n = len(instant)
+        depth = np.maximum(cycle.protocol.depth(instant), 0.0)
+        row = np.arange(n)[:, None, None]
+        front, sign, piece = slip_front(
+            cycle.protocol,
+            cycle.memory.take((row, interval)),
+            cycle.forward[row, interval],
+            cycle.backward[row, interval],
+            depth,
+            cycle.protocol.displacement(instant),
+        )
+        edge_radius = profile.radius(depth.reshape(n, -1)).reshape(depth.shape)
+        front_radius = profile.radius(front.reshape(n, -1)).reshape(depth.shape)
+
+        at_front = self._full_slip(front_radius)
+        inner, outer = self.primitives.inner(edge_radius), self.primitives.outer(edge_radius)
+        at_edge = np.concatenate([inner, outer[:1]])
+        shape = at_front.shape[1:]
+        slope = self.cycle.memory.slope[row, interval, piece]
+        grown = slope == GROWTH
+        slope = np.where(grown, 0.0, slope)
+        place = interval * self.cycle.memory.start.shape[2] + piece
+        base = np.take_along_axis(self.base, np.broadcast_to(place, shape)[None], axis=-1)
+        total = base - slope * at_front - sign * (at_edge - at_front)
+        if np.any(grown):
+            self._add_growth(total, grown, interval, piece, front_radius)
+        total /= np.pi
+        r = self.position[:, :, None]
+        half_load = profile.half_load(edge_radius.reshape(n, -1)).reshape(depth.shape)
+        load = 2.0 * (half_load - outer[1])
+        return History(at_edge[2] / np.pi, load / (np.pi * r * r), *total)
+
+    def _add_growth(
+        self,
+        total: FloatArray,
+        grown: NDArray[np.bool_],
+        interval: NDArray[np.intp],
+        piece: NDArray[np.intp],
+        front_radius: FloatArray,
+    ) -> None:
+        """Add the part of a growth inside of the front, where the front cuts it."""
+        shape = total.shape[1:]
+        where = np.nonzero(np.broadcast_to(grown, shape))
+        row, column, _ = where
+        interval, piece, radius = (
+            np.broadcast_to(a, shape)[where] for a in (interval, piece, front_radius)
+        )
+        index = self.growth_index[row, interval, piece]
+        total[:, *where] += self.growth.up_to(row, column, index, radius)
+
+
+def stresses(
+    history: History, poisson_ratio: FloatArray, friction: FloatArray, side: float | FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """σ_xx, σ_yy, σ_zz, σ_xz in E* √(δ0/R), tension positive.
+
+    Parameters
+    ----------
+    history
+        Building blocks at r = |x|.
+    poisson_ratio, friction
+        Shape (n,).
+    side
+        Sign of x.
+    """
+    nu, mu = (v.reshape(v.shape + (1,) * (history.pressure.ndim - 1)) for v in (poisson_ratio, friction))
+    spread = 0.5 * (1.0 - 2.0 * nu) * history.mean_pressure
+    pull = side * mu
+    sigma_xx = spread - history.pressure + pull * (
+        (1.0 + nu) * history.tangential_1 - nu * history.tangential_3
+    )
+    sigma_yy = -spread - 2.0 * nu * history.pressure + pull * nu * history.tangential_3
+    return sigma_xx, sigma_yy, -history.pressure, mu * history.traction
+
