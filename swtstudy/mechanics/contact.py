@@ -86,6 +86,11 @@ class Cycle:
     gross_slip: NDArray[np.bool_]
     lift_off: NDArray[np.bool_]
 
+    def take(self, index: NDArray[np.intp]) -> Cycle:
+        """The cycles at ``index``, repetitions allowed."""
+        rest = (getattr(self, field.name)[index] for field in fields(self)[3:])
+        return Cycle(self.protocol.take(index), self.edges[index], self.memory.take((index,)), *rest)
+
 
 def solve_cycle(protocol: Protocol) -> Cycle:
     """March the memory diagram through the first period and record the second one, which is stationary.

@@ -27,14 +27,15 @@ def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
 
     Returns
     -------
-    Shape (n, X, i, 4), ascending: begin of the interval, slip front passes, contact edge passes, end. What
-    does not happen in an interval coincides with its begin or end.
+    Shape (n, X, i, 4), ascending: begin of the interval, passage of the slip front and of the contact edge,
+    end. What does not happen in an interval coincides with its begin or end.
     """
     begin, end = cycle.edges[:, None, :-1], cycle.edges[:, None, 1:]
     edge = _edge_passes(cycle, depth)
-    front = np.minimum(_front_passes(cycle, depth), edge)
+    front = _front_passes(cycle, depth)
+    first, second = np.minimum(front, edge), np.maximum(front, edge)
     shape = edge.shape
-    return np.stack([np.broadcast_to(begin, shape), front, edge, np.broadcast_to(end, shape)], axis=-1)
+    return np.stack([np.broadcast_to(begin, shape), first, second, np.broadcast_to(end, shape)], axis=-1)
 
 
 def cosine_nodes(ends: FloatArray, count: int) -> tuple[NDArray[np.intp], FloatArray]:

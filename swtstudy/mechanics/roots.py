@@ -16,7 +16,7 @@ def monotone_roots(
     function: Callable[[FloatArray], tuple[FloatArray, FloatArray]],
     low: FloatArray,
     high: FloatArray,
-    tolerance: float = 4e-16,
+    tolerance: float = 1e-9,
 ) -> FloatArray:
     """Root of a monotone function inside each bracket: Newton's method, safeguarded by bisection.
 
@@ -28,7 +28,7 @@ def monotone_roots(
         Ends of the brackets. Where the function does not change sign between them, the end nearer to
         the root is returned.
     tolerance
-        Step below which the iteration ends, relative to max(1, |root|).
+        Size of the last Newton step; the error of the root is about its square.
 
     Returns
     -------
@@ -52,6 +52,6 @@ def monotone_roots(
         new = np.where(inside, newton, 0.5 * (low + high))
         moved = np.abs(new - root)
         root = new
-        if np.all(moved <= tolerance * np.maximum(1.0, np.abs(root))):
+        if np.all(moved <= tolerance):
             break
     return root

@@ -76,7 +76,7 @@ class SurfaceLine:
             columns = np.arange(position.shape[1])
             many = (a.ravel() for a in np.broadcast_arrays(
                 row[:, None], columns, index[:, None], up_to[:, None]))
-            grown = self.growth.up_to(*many).reshape(3, row.size, -1)
+            grown = self.growth.up_to(*many).reshape(3, row.size, columns.size)
             piece[:, row, :, i, d] = np.moveaxis(grown, 0, 1)
         inside = np.zeros_like(at_start)
         np.cumsum(piece, axis=-1, out=inside[..., 1:])

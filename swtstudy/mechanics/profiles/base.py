@@ -42,6 +42,11 @@ class Profile(ABC):
     def __init__(self, count: int) -> None:
         self.count = count
 
+    @classmethod
+    def check(cls, largest_depth: float, **shape: float) -> str | None:
+        """Why the contact is not a full disc up to ``largest_depth``, or None."""
+        return None
+
     @abstractmethod
     def take(self, index: FloatArray) -> Profile:
         """The profiles at ``index``."""

@@ -1,0 +1,126 @@
+"""The critical plane (eq. 9) at points of the surface line, where σ_xy = σ_yz = 0.
+
+On a plane whose normal lies at the angle θ from x towards z, both σ_n and ε_n are A + B cos 2θ + C sin 2θ at
+each instant. For given instants of their extremes swt(θ) is a product of two such functions, whose maximum
+Newton's method finds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import FloatArray
+
+NEWTON_STEPS = 4
+#: Largest step of 2θ in one Newton step, rad.
+LARGEST_STEP = 0.4
+
+
+@dataclass(frozen=True)
+class PlaneHistory:
+    """σ_n and ε_n over the planes through y, at many points and instants.
+
+    Attributes
+    ----------
+    stress
+        Shape (3, …, T): A, B, C of σ_n in E* √(δ0/R).
+    strain
+        Shape (3, …, T): A, B, C of ε_n in √(δ0/R).
+    """
+
+    stress: FloatArray
+    strain: FloatArray
+
+    @classmethod
+    def from_stresses(
+        cls, sigma: tuple[FloatArray, FloatArray, FloatArray, FloatArray], poisson_ratio: FloatArray
+    ) -> PlaneHistory:
+        """From σ_xx, σ_yy, σ_zz, σ_xz of shape (n, …, T) and ν of shape (n,), with E = (1 − ν²) E*."""
+        xx, yy, zz, xz = sigma
+        nu = poisson_ratio.reshape((-1,) + (1,) * (xx.ndim - 1))
+        stress = np.stack([0.5 * (xx + zz), 0.5 * (xx - zz), np.broadcast_to(xz, xx.shape)])
+        strain = stress / (1.0 - nu)
+        strain[0] -= (nu / (1.0 - nu * nu)) * (2.0 * stress[0] + yy)
+        return cls(stress, strain)
+
+    def on_plane(self, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """σ_n and ε_n, shape (…, T), on the planes at 2θ, shape (…)."""
+        cosine, sine = np.cos(double_angle)[..., None], np.sin(double_angle)[..., None]
+        stress, strain = (a + b * cosine + c * sine for a, b, c in (self.stress, self.strain))
+        return stress, strain
+
+
+def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArray]:
+    """Largest swt over ``count`` equally spaced planes, and the angle 2θ of that plane.
+
+    Returns
+    -------
+    swt, double_angle
+        Shape of the points (…): swt over E* δ0/R, interpolated by a parabola between planes; 2θ in rad.
+    """
+    values = []
+    angles = 2.0 * np.pi * np.arange(count) / count
+    for cosine, sine in zip(np.cos(angles), np.sin(angles), strict=True):
+        a, b, c = history.stress
+        largest = (a + b * cosine + c * sine).max(axis=-1)
+        a, b, c = history.strain
+        strain = a + b * cosine + c * sine
+        values.append(product(largest, strain.max(axis=-1), strain.min(axis=-1)))
+    table = np.stack(values)
+    best = table.argmax(axis=0)
+    left, middle, right = (np.take_along_axis(table, (best + k)[None] % count, axis=0)[0] for k in (-1, 0, 1))
+    shift, rise = parabola(left, middle, right)
+    return middle + rise, angles[best] + shift * angles[1]
+
+
+def product(stress: FloatArray, high: FloatArray, low: FloatArray) -> FloatArray:
+    """swt of a plane from the extremes in time of σ_n and ε_n (eq. 9); 0 where σ_n is never positive."""
+    return np.asarray(np.maximum(stress, 0.0) * 0.5 * (high - low))
+
+
+def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) -> FloatArray:
+    """Maximum over 2θ of (A + B cos + C sin)(D + E cos + F sin) near ``double_angle``.
+
+    Parameters
+    ----------
+    peak, swing
+        Shape (3, …): coefficients of σ_n at its maximum, and of ε_n between its extremes.
+    double_angle
+        Shape (…), rad.
+    """
+    (a, b, c), (d, e, f) = peak, swing
+    angle = double_angle
+    for _ in range(NEWTON_STEPS):
+        cosine, sine = np.cos(angle), np.sin(angle)
+        u, v = b * cosine + c * sine, e * cosine + f * sine
+        du, dv = c * cosine - b * sine, f * cosine - e * sine
+        slope = du * (d + v) + (a + u) * dv
+        bend = -u * (d + v) + 2.0 * du * dv - (a + u) * v
+        step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
+        angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
+    return angle
+
+
+def pick(values: FloatArray, index: NDArray[np.intp]) -> FloatArray:
+    """Values of shape (…, T) at the index of shape (…)."""
+    index = np.broadcast_to(index, values.shape[:-1])
+    return np.asarray(np.take_along_axis(values, index[..., None], axis=-1)[..., 0])
+
+
+def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Vertex of the parabola through three equally spaced values whose middle one is not the least.
+
+    Returns
+    -------
+    shift, rise
+        Abscissa of the vertex in steps from the middle, within [−1, 1], and its value above the middle;
+        0 where there is no maximum.
+    """
+    bend = left - 2.0 * middle + right
+    peaked = bend < 0.0
+    shift = np.where(peaked, 0.5 * (left - right) / np.where(peaked, bend, 1.0), 0.0)
+    inside = np.abs(shift) <= 1.0
+    return np.where(inside, shift, 0.0), np.where(inside, -0.25 * (left - right) * shift, 0.0)

@@ -1,0 +1,80 @@
+"""From parameter points to s: batches that share protocols, bounded in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.maximum import Accuracy, maximum
+from swtstudy.mechanics.points import REGIMES, Points, Solution
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.swt_line import Scene
+
+#: Points of one batch: large enough to hide the interpreter, small enough to stay in the cache.
+BATCH_SIZE = 16
+
+
+def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
+    """s of every point (eqs. 7–20).
+
+    Parameters
+    ----------
+    points
+        n points of one profile family.
+    rtol
+        Relative accuracy asked for.
+
+    Returns
+    -------
+    Solution
+        Arrays of shape (n,). The value of a point does not depend on the others.
+    """
+    n = len(points)
+    s, error, position, angle = (np.zeros(n) for _ in range(4))
+    regime = np.zeros(n, dtype=np.int8)
+    accuracy = Accuracy.for_tolerance(rtol)
+    for index in _batches(points):
+        protocol, load = _shared_protocols(points, index)
+        cycle = solve_cycle(protocol).take(load)
+        profile = make_profile(points.profile, {name: v[index] for name, v in points.shape.items()}, len(index))
+        scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
+        found = maximum(scene, accuracy)
+        s[index], error[index] = found.swt, found.error
+        position[index] = found.position
+        angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
+        state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")
+        state = np.where(cycle.lift_off, "lift_off", state)
+        state = np.where(cycle.protocol.tangential_amplitude == 0.0, "stick", state)
+        regime[index] = [REGIMES.index(name) for name in state]
+    return Solution(s, error, position, angle, regime)
+
+
+def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
+    """Indices of points with the same frequency ratio, neighbouring loads together."""
+    order = np.lexsort(
+        (points.phase, points.tangential_amplitude, points.normal_amplitude, points.p, points.q)
+    )
+    p, q = points.p[order], points.q[order]
+    ends = np.flatnonzero((np.diff(p) != 0) | (np.diff(q) != 0)) + 1
+    for group in np.split(order, ends):
+        for begin in range(0, len(group), BATCH_SIZE):
+            yield group[begin : begin + BATCH_SIZE]
+
+
+def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol, NDArray[np.intp]]:
+    """The distinct load protocols of a batch, and which of them each point has."""
+    loads = np.stack(
+        [points.normal_amplitude[index], points.tangential_amplitude[index], points.phase[index]], axis=1
+    )
+    distinct, load = np.unique(loads, axis=0, return_inverse=True)
+    first = index[0]
+    return Protocol(*distinct.T, int(points.p[first]), int(points.q[first])), load.reshape(-1)
+
+
+def _fold_angle(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same plane's angle in (−90, 90]."""
+    return 90.0 - np.mod(90.0 - degrees, 180.0)
