@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics import cumulative
-from swtstudy.mechanics.contact import Cycle
+from swtstudy.mechanics.contact import GROWTH, Cycle
+from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
@@ -30,22 +31,26 @@ class GrowthIntegrals:
     """
 
     def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
-        grows = cycle.growth
-        self.count = int(grows.sum(axis=1).max(initial=0))
-        order = np.argsort(~grows, axis=1, kind="stable")[:, : self.count]
-        depth = np.maximum(cycle.protocol.depth(cycle.edges), 0.0)
+        memory = cycle.memory
+        n = len(memory.start)
+        grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+        start = np.where(grown, memory.start, np.inf).reshape(n, -1)
+        order = np.argsort(start, axis=1, kind="stable")
+        start, stop, branch = (gather(v.reshape(n, -1), order) for v in (start, memory.stop, memory.branch))
+        first = np.isfinite(start)
+        first[:, 1:] &= start[:, 1:] != start[:, :-1]
+        self.count = int(first.sum(axis=1).max(initial=0))
+        if not self.count:
+            return
+        # Rows with fewer growths repeat one; nothing refers to it.
+        first[:, 0] = True
+        begin, end, branch = packed(first, np.where(np.isfinite(start), start, 0.0), stop, branch)
         #: Shape (n, k): depth at which each growth begins; its identity.
-        self.begin = np.take_along_axis(depth[:, :-1], order, axis=1)
-        end = np.where(
-            np.take_along_axis(grows, order, axis=1),
-            np.take_along_axis(depth[:, 1:], order, axis=1),
-            self.begin,
-        )
-        branch = np.take_along_axis(cycle.branch, order, axis=1)
+        self.begin = begin
         # Axes from here on: profile n, position X, growth k, node.
         self.position = position[:, :, None]
         self.flat = profile.flat_radius[:, None, None]
-        low, high = (profile.radius(g)[:, None, :] for g in (self.begin, end))
+        low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
         y = np.sin(0.25 * np.pi * (1.0 + cumulative.nodes(count)))
         share, rate = y * y, 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
 
@@ -102,14 +107,16 @@ class GrowthIntegrals:
         row, column, index, radius
             Shape (m,): point, position, number of the growth (see `index`), upper limit ξ.
         """
-        at = row, column, index
-        r2, b2 = self.position[row, column, 0] ** 2, self.flat[row, 0, 0] ** 2
+        columns, count = self.position.shape[1], self.count
+        at = (row * columns + column) * count + index
+        r2 = self.position.take(row * columns + column) ** 2
+        b2 = self.flat.take(row) ** 2
         sine = np.maximum(radius**2 - b2, 0.0) / np.maximum(r2 - b2, 1e-300)
         angle = np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0)))
         root = np.sqrt(np.maximum(radius**2 - r2, 0.0))
-        inner = _share(angle, self.inner_low[at], self.inner_span[at])
-        outer = _share(root, self.outer_low[at], self.outer_span[at])
-        series = self.series[:, row, column, index]
+        inner = _share(angle, self.inner_low.take(at), self.inner_span.take(at))
+        outer = _share(root, self.outer_low.take(at), self.outer_span.take(at))
+        series = self.series.reshape(3, -1, self.series.shape[-1]).take(at, axis=1)
         both = cumulative.evaluate(series[:2], inner)
         return np.concatenate([both, cumulative.evaluate(series[2:], outer)])
 

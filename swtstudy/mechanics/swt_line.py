@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, pick, product
+from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, product
+from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
@@ -97,7 +98,8 @@ def scan(
     """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
-    history = line.history(*cosine_nodes(ends, resolution.nodes))
+    nodes = cosine_nodes(ends, resolution.nodes)
+    history = line.history(nodes.interval, nodes.instant)
     sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
     return swt, angle
@@ -129,12 +131,13 @@ def refine(
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
-    planes = scene.planes(line.history(*cosine_nodes(ends, resolution.nodes)), side)
+    nodes = cosine_nodes(ends, resolution.nodes)
+    planes = scene.planes(line.history(nodes.interval, nodes.instant), side)
     angle = double_angle
     for _ in range(ANGLE_ROUNDS):
         at = _extremes([planes] * 3, angle)
         angle = best_angle(*_active([planes] * 3, at), angle)
-    node = np.stack(_extremes([planes] * 3, angle), axis=-1)
+    node = gather(nodes.number, np.stack(_extremes([planes] * 3, angle), axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
         near = _parts(scene.planes(line.history(*brackets.samples()), side))
