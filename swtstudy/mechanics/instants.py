@@ -46,48 +46,77 @@ def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True)
 class Nodes:
-    """Instants at n × X positions.
+    """Instants at n × X positions, T each.
+
+    Where no event cuts an interval, all positions have the same instants: they are listed once.
 
     Attributes
     ----------
     interval, instant
-        Shape (n, X, T): intervals of the cycle and instants φ.
-    number
-        Shape (n, X, T): stretch · (count + 1) + place in the stretch, see `cosine_nodes`.
+        Shape (n, k): the distinct instants φ, and their intervals of the cycle.
+    index
+        Shape (n, X, T): which of the k.
     """
 
     interval: NDArray[np.intp]
     instant: FloatArray
-    number: NDArray[np.intp]
+    index: NDArray[np.intp]
 
 
-def cosine_nodes(ends: FloatArray, count: int) -> Nodes:
+def cosine_nodes(cycle: Cycle, ends: FloatArray, count: int) -> tuple[Nodes, NDArray[np.intp]]:
     """Cosine-spaced nodes on each stretch that is one, without repetitions where stretches meet.
 
     Parameters
     ----------
+    cycle
+        n cycles.
     ends
         Shape (n, X, i, 4), see `stretches`.
     count
         Number of steps of each stretch.
+
+    Returns
+    -------
+    nodes, number
+        The nodes; stretch · (count + 1) + place in the stretch, shape (n, X, T).
     """
-    shape = ends.shape[:2]
-    low, high = ends[..., :-1].reshape(*shape, -1), ends[..., 1:].reshape(*shape, -1)
+    n, columns, intervals, _ = ends.shape
+    low, high = (ends[..., side].reshape(n, columns, -1) for side in (slice(3), slice(1, 4)))
     real = high - low > NO_STRETCH
-    total = low.shape[-1]
-    following = np.where(real, np.arange(total), total - 1)[..., ::-1]
-    following = np.minimum.accumulate(following, axis=-1)[..., ::-1]
-    after = np.roll(following, -1, axis=-1)
-    after[..., -1] = total - 1
-    meets = (gather(low, after) == high) & (after > np.arange(total)) & gather(real, after)
     keep = np.repeat(real[..., None], count + 1, axis=-1)
-    keep[..., -1] &= ~meets
-    number = np.broadcast_to(np.arange(total * (count + 1)), (*shape, total * (count + 1)))
-    (number,) = packed(keep.reshape(number.shape), number)
+    keep[..., -1] &= ~_meets_next(low, high, real)
+    keep = keep.reshape(n, columns, -1)
+    (number,) = packed(keep, np.broadcast_to(np.arange(keep.shape[-1]), keep.shape))
     stretch, place = number // (count + 1), number % (count + 1)
     share = 0.5 - 0.5 * np.cos(np.pi * np.arange(count + 1) / count)
-    low = gather(low, stretch)
-    return Nodes(stretch // 3, low + (gather(high, stretch) - low) * share[place], number)
+
+    interval = np.repeat(np.arange(intervals), count + 1)
+    begin, end = np.repeat(cycle.begin, count + 1, axis=1), np.repeat(cycle.end, count + 1, axis=1)
+    common = begin + (end - begin) * np.tile(share, intervals)
+
+    low, high = gather(low, stretch).reshape(n, -1), gather(high, stretch).reshape(n, -1)
+    place, of_interval = place.reshape(n, -1), stretch.reshape(n, -1) // 3
+    index = of_interval * (count + 1) + place
+    own = (low != gather(cycle.begin, of_interval)) | (high != gather(cycle.end, of_interval))
+    index = np.where(own, common.shape[1] + np.cumsum(own, axis=1) - 1, index)
+    # A row without instants of its own keeps one for the others' sake.
+    own[:, 0] |= ~own.any(axis=1)
+    own_interval, own_instant = packed(own, of_interval), packed(own, low + (high - low) * share[place])
+    nodes = Nodes(
+        np.concatenate([np.broadcast_to(interval, common.shape), *own_interval], axis=1),
+        np.concatenate([common, *own_instant], axis=1),
+        index.reshape(number.shape),
+    )
+    return nodes, number
+
+
+def _meets_next(low: FloatArray, high: FloatArray, real: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether the end of each stretch is the begin of the next one that has a length."""
+    total = low.shape[-1]
+    number = np.arange(total)
+    following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
+    after = np.append(following[..., 1:], np.full((*low.shape[:-1], 1), total), axis=-1)
+    return (after < total) & (gather(low, np.minimum(after, total - 1)) == high)
 
 
 def _edge_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:

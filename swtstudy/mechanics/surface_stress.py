@@ -8,6 +8,7 @@ The stress at x is a short sum over the memory diagram: with the full-slip primi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +16,11 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
 from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.growth import GrowthIntegrals
+from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
+
+T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
@@ -92,30 +96,33 @@ class SurfaceLine:
         inner, outer = self.primitives.inner(radius), self.primitives.outer(radius)
         return np.concatenate([inner, outer[:1]])
 
-    def history(self, interval: NDArray[np.intp], instant: FloatArray) -> History:
-        """Stress building blocks at the given instants.
-
-        Parameters
-        ----------
-        interval, instant
-            Shape (n, X, T): intervals of the cycle and instants φ within them.
-        """
+    def history(self, nodes: Nodes) -> History:
+        """Stress building blocks at the given instants, index of shape (n, X, T)."""
         cycle, profile = self.cycle, self.profile
         n, intervals, pieces = cycle.memory.start.shape
-        depth = np.maximum(cycle.protocol.depth(instant), 0.0)
+        depth = np.maximum(cycle.protocol.depth(nodes.instant), 0.0)
+        displacement = cycle.protocol.displacement(nodes.instant)
         senses = cycle.forward, cycle.backward
-        displacement = cycle.protocol.displacement(instant)
         front, sign, piece = slip_front(
-            cycle.protocol, cycle.memory, *senses, interval, depth, displacement
+            cycle.protocol, cycle.memory, *senses, nodes.interval, depth, displacement
         )
-        edge_radius, front_radius = profile.radius(depth), profile.radius(front)
-
-        at_front = self._full_slip(front_radius)
-        inner, outer = self.primitives.inner(edge_radius), self.primitives.outer(edge_radius)
-        place = interval * pieces + piece
-        slope = cycle.memory.slope.take(np.arange(n)[:, None, None] * (intervals * pieces) + place)
+        place = nodes.interval * pieces + piece
+        slope = gather(cycle.memory.slope.reshape(n, -1), place)
         grown = slope == GROWTH
         slope = np.where(grown, 0.0, slope)
+        front_radius, edge_radius = profile.radius(front), profile.radius(depth)
+        half_load = profile.half_load(edge_radius)
+
+        shape = nodes.index.shape
+        flat = nodes.index.reshape(n, -1)
+
+        def at_positions(values: NDArray[T]) -> NDArray[T]:
+            return gather(values, flat).reshape(shape)
+
+        place, sign, slope = at_positions(place), at_positions(sign), at_positions(slope)
+        edge = at_positions(edge_radius)
+        at_front = self._full_slip(at_positions(front_radius))
+        inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         total = np.empty(at_front.shape)
         for result, base, front_part, edge_part in zip(
             total, self.base, at_front, (*inner, outer[0]), strict=True
@@ -123,24 +130,23 @@ class SurfaceLine:
             np.subtract(gather(base, place), sign * edge_part, out=result)
             result += (sign - slope) * front_part
         if np.any(grown):
-            self._add_growth(total, grown, interval, piece, front_radius)
+            self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
         total /= np.pi
         r = self.position[:, :, None]
-        load = 2.0 * (profile.half_load(edge_radius) - outer[1])
+        load = 2.0 * (at_positions(half_load) - outer[1])
         return History(outer[0] / np.pi, load / (np.pi * r * r), *total)
 
     def _add_growth(
         self,
         total: FloatArray,
         grown: NDArray[np.bool_],
-        interval: NDArray[np.intp],
-        piece: NDArray[np.intp],
+        place: NDArray[np.intp],
         front_radius: FloatArray,
     ) -> None:
         """Add the part of a growth inside of the front, where the front cuts it."""
         where = np.nonzero(grown)
         row, column, _ = where
-        index = self.growth_index[row, interval[where], piece[where]]
+        index = self.growth_index.reshape(len(total[0]), -1)[row, place[where]]
         total[:, *where] += self.growth.up_to(row, column, index, front_radius[where])
 
 

@@ -98,8 +98,8 @@ def scan(
     """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
-    nodes = cosine_nodes(ends, resolution.nodes)
-    history = line.history(nodes.interval, nodes.instant)
+    nodes, _ = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    history = line.history(nodes)
     sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
     return swt, angle
@@ -131,16 +131,16 @@ def refine(
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
-    nodes = cosine_nodes(ends, resolution.nodes)
-    planes = scene.planes(line.history(nodes.interval, nodes.instant), side)
+    nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    planes = scene.planes(line.history(nodes), side)
     angle = double_angle
     for _ in range(ANGLE_ROUNDS):
         at = _extremes([planes] * 3, angle)
         angle = best_angle(*_active([planes] * 3, at), angle)
-    node = gather(nodes.number, np.stack(_extremes([planes] * 3, angle), axis=-1))
+    node = gather(number, np.stack(_extremes([planes] * 3, angle), axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
-        near = _parts(scene.planes(line.history(*brackets.samples()), side))
+        near = _parts(scene.planes(line.history(brackets.samples()), side))
         angle = best_angle(*_active(near, _extremes(near, angle)), angle)
         best = _extremes(near, angle)
         if turn < resolution.zooms - 1:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.critical_plane import parabola
 from swtstudy.mechanics.gather import gather, pick
-from swtstudy.mechanics.instants import NO_STRETCH
+from swtstudy.mechanics.instants import NO_STRETCH, Nodes
 from swtstudy.mechanics.points import FloatArray
 
 #: Steps into which each side of a bracket is divided.
@@ -85,8 +85,8 @@ class TimeBrackets:
         start = np.stack([left, right], axis=-1)
         return cls(low, high, sides // 3, start, np.pi / count, np.zeros(node.shape), 1.0)
 
-    def samples(self) -> tuple[NDArray[np.intp], FloatArray]:
-        """Intervals and instants of the samples, each of shape (n, X, e · k)."""
+    def samples(self) -> Nodes:
+        """The samples of the extremes, index of shape (n, X, e · k)."""
         c = np.clip(self.centre[..., None] + self.width * OFFSETS, -1.0, 1.0)
         right = c > 0.0
 
@@ -96,8 +96,10 @@ class TimeBrackets:
         alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
         low = side(self.low)
         instant = low + (side(self.high) - low) * (0.5 - 0.5 * np.cos(alpha))
-        shape = (*c.shape[:2], -1)
-        return side(self.interval).reshape(shape), instant.reshape(shape)
+        n, columns = c.shape[:2]
+        instant = instant.reshape(n, -1)
+        index = np.broadcast_to(np.arange(instant.shape[1]), instant.shape).reshape(n, columns, -1)
+        return Nodes(side(self.interval).reshape(n, -1), instant, index)
 
     def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
         """The brackets around the best samples, shape (n, X, e)."""
