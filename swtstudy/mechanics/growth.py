@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics import cumulative
-from swtstudy.mechanics.contact import GROWTH, Cycle
+from swtstudy.mechanics.contact import GROWTH, Cycle, Memory
 from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
@@ -34,19 +34,22 @@ class GrowthIntegrals:
         memory = cycle.memory
         n = len(memory.start)
         grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
-        start = np.where(grown, memory.start, np.inf).reshape(n, -1)
-        order = np.argsort(start, axis=1, kind="stable")
-        start, stop, branch = (gather(v.reshape(n, -1), order) for v in (start, memory.stop, memory.branch))
-        first = np.isfinite(start)
-        first[:, 1:] &= start[:, 1:] != start[:, :-1]
+        key = np.where(grown, _identity(memory), np.inf).reshape(n, -1)
+        order = np.argsort(key, axis=1, kind="stable")
+        key, start, stop, branch = (
+            gather(v.reshape(n, -1), order) for v in (key, memory.start, memory.stop, memory.branch)
+        )
+        first = np.isfinite(key)
+        first[:, 1:] &= key[:, 1:] != key[:, :-1]
         self.count = int(first.sum(axis=1).max(initial=0))
         if not self.count:
             return
         # Rows with fewer growths repeat one; nothing refers to it.
         first[:, 0] = True
-        begin, end, branch = packed(first, np.where(np.isfinite(start), start, 0.0), stop, branch)
-        #: Shape (n, k): depth at which each growth begins; its identity.
-        self.begin = begin
+        begin = np.where(np.isfinite(key), start, 0.0)
+        begin, end, branch, key = packed(first, begin, stop, branch, key)
+        #: Shape (n, k): tells the growths apart.
+        self.key = key
         # Axes from here on: profile n, position X, growth k, node.
         self.position = position[:, :, None]
         self.flat = profile.flat_radius[:, None, None]
@@ -90,7 +93,7 @@ class GrowthIntegrals:
 
     def index(self, cycle: Cycle) -> NDArray[np.intp]:
         """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
-        same = cycle.memory.start[..., None] == self.begin[:, None, None, :]
+        same = _identity(cycle.memory)[..., None] == self.key[:, None, None, :]
         return np.asarray(same.argmax(axis=-1))
 
     def up_to(
@@ -119,6 +122,11 @@ class GrowthIntegrals:
         series = self.series.reshape(3, -1, self.series.shape[-1]).take(at, axis=1)
         both = cumulative.evaluate(series[:2], inner)
         return np.concatenate([both, cumulative.evaluate(series[2:], outer)])
+
+
+def _identity(memory: Memory) -> FloatArray:
+    """A number of its own for every growth: depths are below 4π."""
+    return memory.start + 2.0 * memory.branch
 
 
 def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:

@@ -22,6 +22,8 @@ from swtstudy.mechanics.zoom import TimeBrackets
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
+#: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
+STARTS = (0.0, -0.25, 0.25)
 
 
 @dataclass(frozen=True)
@@ -133,11 +135,8 @@ def refine(
     side = side[:, None, None]
     nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
     planes = scene.planes(line.history(nodes), side)
-    angle = double_angle
-    for _ in range(ANGLE_ROUNDS):
-        at = _extremes([planes] * 3, angle)
-        angle = best_angle(*_active([planes] * 3, at), angle)
-    node = gather(number, np.stack(_extremes([planes] * 3, angle), axis=-1))
+    angle, at = _best_plane(planes, double_angle)
+    node = gather(number, np.stack(at, axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
         near = _parts(scene.planes(line.history(brackets.samples()), side))
@@ -149,6 +148,22 @@ def refine(
         brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))
     ]
     return product(tops[0], tops[1], -tops[2]), angle
+
+
+def _best_plane(
+    planes: PlaneHistory, double_angle: FloatArray
+) -> tuple[FloatArray, list[NDArray[np.intp]]]:
+    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes."""
+    parts = [planes] * 3
+    best, best_start = np.full(double_angle.shape, -1.0), double_angle
+    for start in STARTS:
+        angle = double_angle + start
+        for _ in range(ANGLE_ROUNDS):
+            angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
+        stress, high, low = (curve.max(axis=-1) for curve in _curves(parts, angle))
+        swt = product(stress, high, -low)
+        best, best_start = np.where(swt > best, swt, best), np.where(swt > best, angle, best_start)
+    return best_start, _extremes(parts, best_start)
 
 
 def _parts(planes: PlaneHistory) -> list[PlaneHistory]:
