@@ -197,9 +197,9 @@ def slip_front(
     """
     n, intervals, pieces = memory.start.shape
     place = np.arange(n).reshape((n,) + (1,) * (depth.ndim - 1)) * intervals + interval
-    last = np.maximum(np.isfinite(memory.start).sum(axis=-1) - 1, 0)
     front, sign = depth, np.ones_like(depth)
-    piece = np.broadcast_to(last.take(place), depth.shape)
+    # Where nothing slips the front is the edge, and during unloading that need not be in the last piece.
+    piece = (memory.start.reshape(-1, pieces).take(place, axis=0) < depth[..., None]).sum(axis=-1) - 1
     for sense, senses in ((1.0, forward), (-1.0, backward)):
         if not np.any(senses):
             continue
