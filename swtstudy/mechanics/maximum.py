@@ -23,7 +23,7 @@ OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
 #: How the width shrinks while the best position is the outermost one.
 WALKING = 2.0 / 3.0
-LARGEST_ROUND_COUNT = 12
+LARGEST_ROUND_COUNT = 9
 #: Values closer than this are equal, relative.
 TIE = 1e-12
 
