@@ -10,17 +10,22 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.positions import SPREAD, PositionBrackets, cusps, first_look
-from swtstudy.mechanics.swt_line import Resolution, Scene, refine, scan
+from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_of_first_look
+from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
 #: Planes that the first look tries.
 SCAN_PLANES = 8
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
-CANDIDATE_SHARES = (0.9, 0.97, 0.995, 0.999)
+CANDIDATE_SHARES = np.array([0.9, 0.97, 0.995, 0.999])
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
-FIRST_WIDTH, SHRINKING = 0.2, 0.2
+FIRST_WIDTH, SHRINKING = 0.25, 0.2
+#: How the width shrinks while the best position is the outermost one.
+WALKING = 2.0 / 3.0
+LARGEST_ROUND_COUNT = 9
+#: Values closer than this are equal, relative.
+TIE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -72,38 +77,102 @@ class Maximum:
     double_angle: FloatArray
 
 
+@dataclass
+class _Climb:
+    """The local search of m local maxima; arrays of shape (m,).
+
+    Attributes
+    ----------
+    point, side, column
+        Number of the point, sign of x, and column of the position around which is searched.
+    hot
+        Shape (m, i): intervals of the cycle that are looked at.
+    angle
+        2θ of the best plane so far, rad.
+    centre, width
+        Where the next round looks, in the c of `PositionBrackets`.
+    top
+        Estimated maximum of swt.
+    rounds
+        Rounds that narrowed the search.
+    """
+
+    point: NDArray[np.intp]
+    side: FloatArray
+    column: NDArray[np.intp]
+    hot: NDArray[np.bool_]
+    angle: FloatArray
+    centre: FloatArray
+    width: FloatArray
+    top: FloatArray
+    rounds: NDArray[np.intp]
+
+    @classmethod
+    def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
+        """From the first look at the scene, for its finer division."""
+        peak = local_maxima(look.swt)
+        point, side, column = peak
+        hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
+        zero = np.zeros(len(point))
+        width, rounds = zero + FIRST_WIDTH, zero.astype(np.intp)
+        return cls(point, 1.0 - 2.0 * side, column, hot, look.double_angle[peak], zero, width, zero.copy(), rounds)
+
+    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
+        return _Climb(*(values[index] for values in vars(self).values()))
+
+    def brackets(self, positions: Positions) -> PositionBrackets:
+        return PositionBrackets.around(positions, self.point, self.column)
+
+
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt on the surface line of each of the n points of the scene."""
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
-    positions = first_look(cusps(split.cycle, scene.profile), SPREAD)
-    swt, angle = scan(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
-    point, side, column = local_maxima(swt)
-    brackets = PositionBrackets.around(positions, point, 1.0 - 2.0 * side, column)
-    angle = angle[point, side, column]
-    centre, width = np.zeros(len(point)), FIRST_WIDTH
-    for turn in range(accuracy.rounds):
-        c = _look(centre, width)
-        values, angles = refine(
-            split.take(brackets.point),
-            brackets.radius(c),
-            brackets.side,
-            np.repeat(angle[:, None], c.shape[1], axis=1),
-            accuracy.search,
-        )
-        best = values.argmax(axis=1)
-        angle = pick(angles, best)
-        centre, top = _vertex(c, values, brackets.is_corner)
+    positions = positions_of_first_look(split.cycle, scene.profile)
+    climb = _Climb.start(split, first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES), scene)
+    for _ in range(LARGEST_ROUND_COUNT):
+        active = np.flatnonzero(climb.rounds < accuracy.rounds)
+        if not active.size:
+            break
+        _step(split, positions, climb, active, accuracy)
         largest = np.zeros(len(scene))
-        np.maximum.at(largest, brackets.point, top)
-        open_ = top >= CANDIDATE_SHARES[min(turn + 1, 3)] * largest[brackets.point]
-        brackets, angle, centre, top = brackets.take(open_), angle[open_], centre[open_], top[open_]
-        width *= SHRINKING
-    order = np.lexsort((-top, brackets.point))
-    first = order[np.unique(brackets.point[order], return_index=True)[1]]
-    brackets, angle, centre, top = brackets.take(first), angle[first], centre[first], top[first]
-    r = brackets.radius(centre[:, None])
-    value, angle = refine(split, r, brackets.side, angle[:, None], accuracy.check)
-    return Maximum(value[:, 0], np.abs(value[:, 0] - top), brackets.side * r[:, 0], angle[:, 0])
+        np.maximum.at(largest, climb.point, climb.top)
+        share = CANDIDATE_SHARES[climb.rounds.clip(0, len(CANDIDATE_SHARES) - 1)]
+        climb = climb.take(climb.top >= share * largest[climb.point])
+    order = np.lexsort((-climb.top, climb.point))
+    best = climb.take(order[np.unique(climb.point[order], return_index=True)[1]])
+    r = best.brackets(positions).radius(best.centre[:, None])
+    value, angle = refine(split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check)
+    error = np.abs(value[:, 0] - best.top)
+    return Maximum(value[:, 0], error, best.side * r[:, 0], angle[:, 0])
+
+
+def _step(
+    scene: Scene, positions: Positions, climb: _Climb, active: NDArray[np.intp], accuracy: Accuracy
+) -> None:
+    """Look around the centres of the active local maxima, move there and narrow the search."""
+    now = climb.take(active)
+    brackets = now.brackets(positions)
+    c = _look(now.centre, now.width)
+    start = np.repeat(now.angle[:, None], c.shape[1], axis=1)
+    values, angles = refine(
+        scene.select(now.point, now.hot), brackets.radius(c), now.side, start, accuracy.search
+    )
+    # Equal values, as beyond the last position, count for the centre.
+    best = (values * (1.0 - TIE * np.abs(c - now.centre[:, None]))).argmax(axis=1)
+    found = pick(c, best)
+    centre, top = _vertex(c, values, best, brackets.is_corner)
+    # A maximum next to a corner shows only once the search is narrow.
+    last = now.rounds + 1 == accuracy.rounds
+    centre = np.where(brackets.is_corner & (found == 0.0) & ~last, 0.0, centre)
+    # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
+    beyond = (np.abs(found) == 1.0) & (now.column + found.astype(np.intp) != positions.r.shape[1])
+    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != 0.0)
+    climb.column[active] += np.where(beyond, found.astype(np.intp), 0)
+    climb.centre[active] = np.where(beyond, 0.0, centre)
+    climb.angle[active], climb.top[active] = pick(angles, best), top
+    narrower = now.width * np.where(outermost, WALKING, SHRINKING)
+    climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
+    climb.rounds[active] += ~outermost
 
 
 def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
@@ -122,21 +191,20 @@ def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], N
     return np.nonzero(peak)
 
 
-def _look(centre: FloatArray, width: float) -> FloatArray:
+def _look(centre: FloatArray, width: FloatArray) -> FloatArray:
     """Values of c around the centres, ascending, shape (m, k), on the centre's side of a corner."""
-    c = np.clip(centre[:, None] + width * OFFSETS, -1.0, 1.0)
+    c = np.clip(centre[:, None] + width[:, None] * OFFSETS, -1.0, 1.0)
     c = np.where(centre[:, None] > 0.0, np.maximum(c, 0.0), c)
     return np.where(centre[:, None] < 0.0, np.minimum(c, 0.0), c)
 
 
 def _vertex(
-    c: FloatArray, values: FloatArray, is_corner: NDArray[np.bool_]
+    c: FloatArray, values: FloatArray, best: NDArray[np.intp], is_corner: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray]:
-    """Abscissa and value of the maximum of a parabola through the best value and its neighbours.
+    """Abscissa and value of the maximum of a parabola through the ``best`` value and its neighbours.
 
     At a corner each side has its own parabola, through the corner and the next two values.
     """
-    best = values.argmax(axis=1)
     last = c.shape[1] - 1
     corner = is_corner & (pick(c, best) == 0.0)
     position, top = pick(c, best), pick(values, best)

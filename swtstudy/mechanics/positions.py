@@ -17,8 +17,8 @@ from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
-#: Positions that the first look spreads over the contact, besides the cusps.
-SPREAD = 16
+#: Positions that the first look spreads over the contact besides the cusps, and over each wave.
+SPREAD, SPREAD_PER_WAVE = 16, 8
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
 #: Depths of cusps nearer than this are one.
@@ -61,7 +61,7 @@ def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
     return np.sort(np.maximum(np.append(radius, innermost, axis=1), innermost), axis=1)
 
 
-def first_look(ends: FloatArray, spread: int) -> Positions:
+def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     """Cosine-spaced positions between the cusps, about ``spread`` of them and two for each cusp at most.
 
     Parameters
@@ -69,13 +69,13 @@ def first_look(ends: FloatArray, spread: int) -> Positions:
     ends
         Shape (n, k), see `cusps`.
     spread
-        Number of positions over the whole range, were there no cusps.
+        Shape (n,): number of positions over the whole range, were there no cusps.
     """
     n, count = ends.shape
     low, high = ends[:, :-1], ends[:, 1:]
     length = high - low
     total = ends[:, -1:] - ends[:, :1]
-    steps = np.clip(np.ceil(length / total * spread), 1, None).astype(np.intp)
+    steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
     most = int(steps.max())
     number = np.arange(most + 1)
     real = length > 0.0
@@ -104,26 +104,27 @@ def first_look(ends: FloatArray, spread: int) -> Positions:
     )
 
 
+def positions_of_first_look(cycle: Cycle, profile: Profile) -> Positions:
+    """Positions of the first look at each of the n points."""
+    ends = cusps(cycle, profile)
+    waves = (ends[:, -1] - ends[:, 0]) / profile.feature_length
+    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves)
+
+
 def _cosine(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
     return low + (high - low) * (0.5 - 0.5 * np.cos(alpha))
 
 
 @dataclass(frozen=True)
 class PositionBrackets:
-    """m brackets of local maxima, walked by c from −1 (left neighbour) to 1 (right neighbour).
+    """m brackets around positions, walked by c from −1 (left neighbour) to 1 (right neighbour).
 
     Attributes
     ----------
-    point
-        Shape (m,): number of the point.
-    side
-        Shape (m,): sign of x.
     low, high, alpha, step
         Shape (m, 2), as in `Positions`.
     """
 
-    point: NDArray[np.intp]
-    side: FloatArray
     low: FloatArray
     high: FloatArray
     alpha: FloatArray
@@ -131,24 +132,11 @@ class PositionBrackets:
 
     @classmethod
     def around(
-        cls, positions: Positions, point: NDArray[np.intp], side: FloatArray, column: NDArray[np.intp]
+        cls, positions: Positions, row: NDArray[np.intp], column: NDArray[np.intp]
     ) -> PositionBrackets:
-        """Brackets around the positions ``column`` of the rows ``point``, each of shape (m,)."""
-        at = point, column
-        return cls(
-            point, side, positions.low[at], positions.high[at], positions.alpha[at], positions.step[at]
-        )
-
-    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> PositionBrackets:
-        """The brackets at ``index``."""
-        return PositionBrackets(
-            self.point[index],
-            self.side[index],
-            self.low[index],
-            self.high[index],
-            self.alpha[index],
-            self.step[index],
-        )
+        """Brackets around the positions in ``column`` of ``row``, each of shape (m,)."""
+        at = row, column
+        return cls(positions.low[at], positions.high[at], positions.alpha[at], positions.step[at])
 
     @property
     def is_corner(self) -> NDArray[np.bool_]:

@@ -14,8 +14,8 @@ from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
-#: Points of one batch: large enough to hide the interpreter, small enough to stay in the cache.
-BATCH_SIZE = 16
+#: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
+BATCH_SIZE = 1600
 
 
 def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
@@ -62,8 +62,10 @@ def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
     p, q = points.p[order], points.q[order]
     ends = np.flatnonzero((np.diff(p) != 0) | (np.diff(q) != 0)) + 1
     for group in np.split(order, ends):
-        for begin in range(0, len(group), BATCH_SIZE):
-            yield group[begin : begin + BATCH_SIZE]
+        turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
+        size = max(BATCH_SIZE // turns, 1)
+        for begin in range(0, len(group), size):
+            yield group[begin : begin + size]
 
 
 def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol, NDArray[np.intp]]:
