@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,3 +57,25 @@ def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:
         result[k] = np.where(g < front[k], displacement[k] - held, sign[k] * w)
         result[k][w <= 0.0] = 0.0
     return result
+
+
+def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[float], float]]]:
+    """dτ/dG of the first cycle at an instant: from depth, to depth, slope over G."""
+    load = cycle.protocol
+    front, sign, piece, interval = (values[0] for values in front_at(cycle, np.array([instant])))
+    start, slope, branch = (getattr(cycle.memory, name)[0, interval] for name in ("start", "slope", "branch"))
+
+    def piece_slope(g: float, k: int) -> float:
+        if slope[k] != GROWTH:
+            return -float(slope[k])
+        touch = load.touch_down(np.array([g]), branch[k : k + 1])
+        return -float((load.displacement_rate(touch) / load.depth_rate(touch))[0])
+
+    ends = np.append(np.minimum(start[: piece + 1], front), front)
+    found: list[tuple[float, float, Callable[[float], float]]] = [
+        (ends[k], ends[k + 1], partial(piece_slope, k=k)) for k in range(piece + 1) if ends[k] < ends[k + 1]
+    ]
+    depth = load.depth(np.array([[instant]]))[0, 0]
+    if depth > front:
+        found.append((front, depth, lambda g: -float(sign)))
+    return found

@@ -15,6 +15,11 @@ from scipy.integrate import quad
 from scipy.special import struve
 
 
+def one(xi: float) -> float:
+    """No weight."""
+    return 1.0
+
+
 @dataclass(frozen=True)
 class Indenter:
     """One profile: f′(r), the radius b of its flat face, and m = g′ w over w = √(ξ² − b²)."""
@@ -35,39 +40,51 @@ class Indenter:
         rise = np.sqrt(xi * xi - self.flat_radius**2)
         return self.weighted_slope(rise) / rise
 
-    def inner(self, r: float, radius: float) -> tuple[float, float]:
-        """T1, T3 = ∫ 2 (ξ/r)ⁿ g′ dξ/√(r²−ξ²), n = 1, 3, with w = √(r²−b²) sin α."""
+    def inner(
+        self, r: float, radius: float, weight: Callable[[float], float] = one, start: float = 0.0
+    ) -> tuple[float, float]:
+        """T1, T3 = ∫ 2 (ξ/r)ⁿ g′ dξ/√(r²−ξ²), n = 1, 3, with w = √(r²−b²) sin α.
+
+        From ξ = ``start`` to ``radius``, with a further ``weight`` over ξ.
+        """
         b2 = self.flat_radius**2
         gap = r * r - b2
         if gap <= 0.0:
             return 0.0, 0.0
-        last = np.arcsin(np.sqrt(min(max(radius**2 - b2, 0.0) / gap, 1.0)))
+        first, last = (np.arcsin(np.sqrt(min(max(end**2 - b2, 0.0) / gap, 1.0))) for end in (start, radius))
 
         def kernel(alpha: float, power: int) -> float:
             rise = np.sqrt(gap) * np.sin(alpha)
-            return 2.0 * (np.hypot(rise, self.flat_radius) / r) ** (power - 1) / r * self.weighted_slope(rise)
+            xi = np.hypot(rise, self.flat_radius)
+            return 2.0 * (xi / r) ** (power - 1) / r * self.weighted_slope(rise) * weight(xi)
 
-        first, third = (integral(partial(kernel, power=n), 0.0, last) for n in (1, 3))
-        return first, third
+        return integral(partial(kernel, power=1), first, last), integral(
+            partial(kernel, power=3), first, last
+        )
 
-    def outer(self, r: float, radius: float) -> tuple[float, float]:
+    def outer(
+        self, r: float, radius: float, weight: Callable[[float], float] = one, start: float = 0.0
+    ) -> tuple[float, float]:
         """Π = ∫ g′ dξ/√(ξ²−r²) and V = ∫ √(ξ²−r²) g′ dξ, over v = √(ξ² − max(r, b)²)."""
         b, low = self.flat_radius, max(r, self.flat_radius)
-        if radius <= low:
+        if radius <= max(low, start):
             return 0.0, 0.0
-        last, near = np.sqrt(radius**2 - low**2), np.sqrt(abs(r - b) * (r + b))
+        first, last = (np.sqrt(max(end**2 - low**2, 0.0)) for end in (start, radius))
+        near = np.sqrt(abs(r - b) * (r + b))
 
         def kernel(v: float, power: int) -> float:
             xi, other = np.hypot(v, low), np.hypot(v, near)
             if r < b:
-                return self.weighted_slope(v) / xi * other**power
-            return self.weighted_slope(other) / other * v ** (power + 1) / xi
+                return self.weighted_slope(v) / xi * other**power * weight(xi)
+            return self.weighted_slope(other) / other * v ** (power + 1) / xi * weight(xi)
 
         # Next to the face's edge the integrand turns within v ~ near: geometric steps.
-        steps = np.append(0.0, np.geomspace(max(near, 1e-9), last, 12)) if 0.0 < near < last else [0.0, last]
-        pairs = list(pairwise(steps))
-        first, third = (sum(integral(partial(kernel, power=n), *ends) for ends in pairs) for n in (-1, 1))
-        return first, third
+        steps = np.geomspace(max(near, 1e-9), last, 12) if 0.0 < near < last else np.array([last])
+        ends = np.concatenate([[first], steps[steps > first]])
+        pressure, load = (
+            sum(integral(partial(kernel, power=n), *pair) for pair in pairwise(ends)) for n in (-1, 1)
+        )
+        return pressure, load
 
 
 def integral(function: Callable[[float], float], low: float, high: float) -> float:
