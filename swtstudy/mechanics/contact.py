@@ -137,7 +137,6 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     stack.start[depth[:, 0] > 0.0, 0, 0] = 0.0
     record = Memory(*(np.empty((n, intervals, shape[2])) for _ in range(5)))
     only = np.zeros((n, 1), dtype=np.intp)
-    gross_slip = np.zeros(n, dtype=bool)
     flat = np.zeros(n)
     for period in range(2):
         for i in range(intervals):
@@ -156,10 +155,11 @@ def solve_cycle(protocol: Protocol) -> Cycle:
             )
             slips = front < now
             _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
-            if period == 1:
-                gross_slip |= slips & (front <= 0.0)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
+    # Beyond this no offset lets the spring at the centre stick all through the cycle.
+    height = protocol.depth(edges)
+    gross_slip = (displacement - height).max(axis=1) > (displacement + height).min(axis=1)
     lift_off = protocol.normal_amplitude > 1.0
     number = np.broadcast_to(np.arange(intervals), (n, intervals))
     return Cycle(
