@@ -1,0 +1,92 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.reading import read_grid
+from swtstudy.runner.plan import cut, loads, take, unique_points
+
+
+def grid_of(fixed=None, **axes):
+    grid, mistakes = read_grid(fixed or {}, axes)
+    assert not mistakes, mistakes
+    return grid
+
+
+def count(fixed=None, **axes):
+    return len(unique_points(grid_of(fixed, **axes)).table)
+
+
+def test_values_are_told_apart_by_twelve_digits():
+    one, _ = grid_of({"friction": 0.2}).canonical()
+    other, _ = grid_of({"friction": 0.1 + 0.1 + 1e-16}).canonical()
+    third, _ = grid_of({"friction": 0.2 + 1e-9}).canonical()
+    assert (one == other).all()
+    assert (one != third).any()
+
+
+PHASES = [i * np.pi / 72 for i in range(145)]  # 2.5° steps over 0…2π
+
+
+@pytest.mark.parametrize(
+    ("ratio", "distinct"), [("1/4", 144), ("1/2", 144), ("1", 72), ("3/2", 48), ("2", 36), ("3", 24)]
+)
+def test_symmetric_phases_are_one_point(ratio, distinct):
+    assert count({"frequency_ratio": ratio}, phase=PHASES) == distinct
+
+
+@given(st.integers(1, 12), st.integers(1, 12), st.integers(-20, 20), st.integers(-20, 20), st.integers(1, 36))
+def test_the_phase_folds_whatever_its_rounding_error(p, q, numerator, turns, denominator):
+    ratio = np.float64(p) / q
+    p, q = int(p // np.gcd(p, q)), int(q // np.gcd(p, q))
+    phase = np.pi * numerator / denominator
+    period = (2 if q % 2 == 0 else 1) * np.pi / p
+    first, mirrored = grid_of({"frequency_ratio": ratio, "phase": phase}).canonical()
+    second, mirrored_again = grid_of({"frequency_ratio": ratio, "phase": phase + turns * period}).canonical()
+    assert (first == second).all()
+    assert (mirrored[0] ^ mirrored_again[0]) == (q % 2 == 1 and turns % 2 == 1)
+    assert 0 <= first[0, COLUMNS.index("phase")] < period
+
+
+def test_what_does_not_matter_makes_no_new_point():
+    profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
+    assert count({"profile": "paraboloid", "flat_radius": 0.5}) == 1
+    assert count(profile=profiles, flat_radius=[0, 0.5]) == 3  # b = 0 is the paraboloid
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0}
+    assert count(wavy, wavelength=[5, 6]) == 1
+    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2]) == 1
+
+
+def test_groups_are_the_distinct_rows():
+    table = np.random.default_rng(0).integers(0, 3, (500, 4)).astype(float)
+    first, group = group_rows(table)
+    assert (table[first][group] == table).all()
+    assert len(first) == len(np.unique(table, axis=0))
+    assert (table[first] == np.unique(table, axis=0)).all()
+
+
+def test_slabs_of_a_grid_are_the_grid():
+    grid = grid_of(phase=PHASES[:7], profile=["paraboloid", "rounded_punch"], flat_radius=[0.1, 0.2, 0.3])
+    whole, mirrored = grid.canonical()
+    parts = [grid.canonical(start, min(start + 5, grid.size)) for start in range(0, grid.size, 5)]
+    assert (np.concatenate([rows for rows, _ in parts]) == whole).all()
+    assert (np.concatenate([flags for _, flags in parts]) == mirrored).all()
+
+
+@given(st.integers(1, 40))
+def test_chunks_cover_all_points_once_and_have_one_profile(size):
+    profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
+    axes = {"profile": profiles, "flat_radius": [0.1, 0.5], "phase": [0, 1, 2], "friction": [0.1, 0.2, 0.3]}
+    table = unique_points(grid_of(**axes)).table
+    chunks = list(cut(table, 0, lambda: size))
+    assert (np.concatenate([chunk.table for chunk in chunks]) == table).all()
+    assert all(len(set(chunk.table[:, 0])) == 1 and len(chunk) <= size for chunk in chunks)
+    assert loads(table) == 3
+
+
+def test_chunks_end_between_loads():
+    table = unique_points(grid_of(phase=[0, 1, 2], friction=[0.1, 0.2, 0.3, 0.4])).table
+    assert take(table, 0, 6) == 4
+    assert take(table, 0, 8) == 8
+    assert take(table, 0, 3) == 3  # a load that is larger than a chunk is cut
