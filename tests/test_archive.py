@@ -41,7 +41,7 @@ def test_cf_rules(small, tmp_path):
         assert variable.attrs["long_name"]
         if name in PARAMETERS:
             assert variable.attrs["symbol"] == PARAMETERS[name].symbol
-        if name not in ("regime", "profile"):
+        if name not in ("regime", "status", "profile"):
             assert variable.attrs["units"] in ("1", "rad", "degree")
     assert all(name in dataset for name in dataset.s.attrs["ancillary_variables"].split())
     assert dataset.regime.attrs["flag_values"].dtype == dataset.regime.dtype

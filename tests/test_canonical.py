@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.grid.reading import read_grid
-from swtstudy.runner.plan import cut, loads, take, unique_points
+from swtstudy.runner.plan import block_ends, chunks, loads, unique_points, weights
 
 
 def grid_of(fixed=None, **axes):
@@ -74,19 +74,44 @@ def test_slabs_of_a_grid_are_the_grid():
     assert (np.concatenate([flags for _, flags in parts]) == mirrored).all()
 
 
-@given(st.integers(1, 40))
-def test_chunks_cover_all_points_once_and_have_one_profile(size):
+@given(st.integers(0, 100), st.integers(0, 2**36 - 1))
+def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
     axes = {"profile": profiles, "flat_radius": [0.1, 0.5], "phase": [0, 1, 2], "friction": [0.1, 0.2, 0.3]}
     table = unique_points(grid_of(**axes)).table
-    chunks = list(cut(table, 0, lambda: size))
-    assert (np.concatenate([chunk.table for chunk in chunks]) == table).all()
-    assert all(len(set(chunk.table[:, 0])) == 1 and len(chunk) <= size for chunk in chunks)
+    wanted = np.array([bool(bits >> i & 1) for i in range(len(table))])
+    cut = list(chunks(table, wanted, lambda: size))
+    rows = np.concatenate([chunk.rows for chunk in cut]) if cut else []
+    assert (rows == np.flatnonzero(wanted)).all()
+    assert all((chunk.table == table[chunk.rows]).all() for chunk in cut)
+    block = np.searchsorted(block_ends(table), np.arange(len(table)), "right")
+    for chunk in cut:
+        assert sum(chunk.lengths) == len(chunk)
+        parts = np.split(block[chunk.rows], np.cumsum(chunk.lengths)[:-1])
+        assert all(len(set(part)) == 1 for part in parts)
+        assert weights(chunk.table).sum() <= size or len(chunk.lengths) == 1
+    assert len({chunk.name for chunk in cut}) == len(cut)
     assert loads(table) == 3
 
 
-def test_chunks_end_between_loads():
-    table = unique_points(grid_of(phase=[0, 1, 2], friction=[0.1, 0.2, 0.3, 0.4])).table
-    assert take(table, 0, 6) == 4
-    assert take(table, 0, 8) == 8
-    assert take(table, 0, 3) == 3  # a load that is larger than a chunk is cut
+def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads():
+    phases = [i / 10 for i in range(5)]
+    axes = {"phase": phases, "friction": [i / 10 for i in range(1, 13)], "frequency_ratio": [1, "1/4"]}
+    table = unique_points(grid_of(**axes)).table
+    blocks = np.split(table, block_ends(table)[:-1])
+    assert all(len(np.unique(block[:, :3], axis=0)) == 1 for block in blocks)
+    assert {len(block) for block in blocks} == {24, 12}  # two loads with a ratio of 1, one with 1/4
+    assert sum(map(len, blocks)) == len(table)
+
+
+def test_a_load_that_is_larger_than_a_block_is_cut():
+    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
+    assert np.diff(block_ends(table), prepend=0).tolist() == [32, 32, 32, 4]
+
+
+def test_a_split_chunk_is_the_same_points():
+    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
+    (chunk,) = chunks(table, np.ones(100, bool), lambda: 1e9)
+    parts = list(chunk.split())
+    assert [len(part) for part in parts] == [32, 32, 32, 4]
+    assert [part.rows.tolist() for part in parts[3].split()] == [[96], [97], [98], [99]]

@@ -24,9 +24,9 @@ SHAPE_COLUMNS = tuple(dict.fromkeys(name for shape in PROFILE_SHAPES.values() fo
 #: Columns of a table of canonical points; the profile is an index into `PROFILES`, ω2/ω1 = p/q.
 COLUMNS = (
     "profile",
-    "normal_amplitude",
     "p",
     "q",
+    "normal_amplitude",
     "tangential_amplitude",
     "phase",
     *SHAPE_COLUMNS,
