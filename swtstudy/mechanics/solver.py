@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.maximum import Accuracy, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.profiles import make_profile, roughness
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
@@ -55,12 +55,12 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
-    """Indices of points with the same frequency ratio, neighbouring loads together."""
-    order = np.lexsort(
-        (points.phase, points.tangential_amplitude, points.normal_amplitude, points.p, points.q)
-    )
-    p, q = points.p[order], points.q[order]
-    ends = np.flatnonzero((np.diff(p) != 0) | (np.diff(q) != 0)) + 1
+    """Indices of points with the same frequency ratio and roughness, neighbouring loads together."""
+    level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    loads = points.phase, points.tangential_amplitude, points.normal_amplitude
+    order = np.lexsort((*loads, level, points.p, points.q))
+    kind = np.stack([points.p, points.q, level])[:, order]
+    ends = np.flatnonzero((np.diff(kind, axis=1) != 0).any(axis=0)) + 1
     for group in np.split(order, ends):
         turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
         size = max(BATCH_SIZE // turns, 1)
