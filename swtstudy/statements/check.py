@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swtstudy.statements import (
     critical_point,
@@ -18,6 +19,10 @@ from swtstudy.statements import (
 )
 from swtstudy.statements.select import NotInArchiveError
 from swtstudy.statements.statement import Finding, Statement
+from swtstudy.suite import SUITE
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: All statements, in the order of the figures.
 STATEMENTS: tuple[Statement, ...] = (
@@ -30,6 +35,10 @@ STATEMENTS: tuple[Statement, ...] = (
     *figure7.STATEMENTS,
     *figure8.STATEMENTS,
 )
+
+
+#: Names of the studies that the statements are about.
+STUDIES = tuple(dict.fromkeys(name for statement in STATEMENTS for name in statement.studies))
 
 
 @dataclass(frozen=True)
@@ -52,36 +61,44 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Returns
     -------
     list of Outcome
-        One for each statement; those whose archives are missing have no finding.
+        One for each statement, in the order of `STATEMENTS`; without a finding if an archive is missing or
+        has gaps.
 
     Raises
     ------
-    swtstudy.archive.read.ArchiveError
-        If a file is there that is not an archive.
+    ArchiveError
+        A ValueError, if a file is there that is not an archive.
     """
+    archives: dict[str, xr.Dataset] = {}
+    problems: dict[str, str] = {}
+    for name in STUDIES:
+        path = Path(results) / f"{name}.nc"
+        problem = _problem(name, path, archives)
+        if problem:
+            problems[name] = problem
+    return [_outcome(statement, archives, problems) for statement in STATEMENTS]
+
+
+def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
+    """Read an archive into the others; what is wrong if it cannot be used."""
     from swtstudy.archive.read import open_results
 
-    folder = Path(results)
-    names = dict.fromkeys(name for statement in STATEMENTS for name in statement.studies)
-    paths = {name: folder / f"{name}.nc" for name in names}
-    archives = {name: open_results(path) for name, path in paths.items() if path.is_file()}
-    outcomes = []
-    for statement in STATEMENTS:
-        missing = [str(paths[name]) for name in statement.studies if name not in archives]
-        if missing:
-            outcomes.append(Outcome(statement, None, f"missing: {', '.join(missing)}"))
-            continue
-        try:
-            finding = statement.test(*(archives[name] for name in statement.studies))
-        except NotInArchiveError as error:
-            sources = ", ".join(str(paths[name]) for name in statement.studies)
-            outcomes.append(Outcome(statement, None, f"{sources}: {error}"))
-        else:
-            outcomes.append(Outcome(statement, finding))
-    return outcomes
+    command = f"swtstudy run {Path(SUITE) / name}.toml"
+    if not path.is_file():
+        return f"{path} is missing; made by: {command}"
+    dataset = open_results(path)
+    gaps = int(dataset.s.isnull().sum())
+    if gaps:
+        return f"{path} has no value at {gaps} of {dataset.s.size} points; made by: {command} --retry-failed"
+    archives[name] = dataset
+    return ""
 
 
-def missing_studies(results: str | PathLike[str] = "results") -> list[str]:
-    """Names of the studies whose archives are not in a folder."""
-    names = dict.fromkeys(name for statement in STATEMENTS for name in statement.studies)
-    return [name for name in names if not (Path(results) / f"{name}.nc").is_file()]
+def _outcome(statement: Statement, archives: dict[str, xr.Dataset], problems: dict[str, str]) -> Outcome:
+    found = [problems[name] for name in statement.studies if name in problems]
+    if found:
+        return Outcome(statement, None, "\n".join(found))
+    try:
+        return Outcome(statement, statement.test(*(archives[name] for name in statement.studies)))
+    except NotInArchiveError as error:
+        return Outcome(statement, None, f"{', '.join(statement.studies)}: {error} in the archive")
