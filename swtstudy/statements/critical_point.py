@@ -1,4 +1,4 @@
-"""Section 4.1: where the critical point lies, and how the critical plane is turned.
+"""Section 4.1: where the critical point lies, how the critical plane is turned, and how contacts slip.
 
 That the point lies on the surface and at y = 0 is not tested here: the archives' values are the maxima over
 that line.
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.mechanics.points import REGIMES
 from swtstudy.statements.statement import Finding, Statement
 from swtstudy.statements.stick_zone import stick_radius
 
@@ -60,7 +61,22 @@ def normal_along_x(*archives: xr.Dataset) -> Finding:
     return Finding(measured, share >= _BASICALLY_ALL)
 
 
+def slips_partially(*archives: xr.Dataset) -> Finding:
+    """Share of the points in each regime."""
+    regime = np.concatenate([archive.regime.values.ravel() for archive in archives])
+    shares = {name: float((regime == REGIMES.index(name)).mean()) for name in REGIMES}
+    words = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items() if share)
+    return Finding(f"of {len(regime)} points: {words}", shares["partial_slip"] >= _BASICALLY_ALL)
+
+
 STATEMENTS = (
+    Statement(
+        "Title",
+        "The contacts oscillate in partial slip.",
+        "at 95 % of all points no gross slip (max(u − δ) > min(u + δ)) recurs in the cycle",
+        _ALL,
+        slips_partially,
+    ),
     Statement(
         "Section 4.1",
         "For basically all simulations the critical point lies well outside the zone of permanent stick.",

@@ -26,15 +26,19 @@ def largest_fall(dataset: xr.Dataset, dim: str) -> float:
 
     A fall within the estimated errors of the two values is none; 0 if s falls nowhere.
     """
-    ordered = dataset.sortby(dim)
-    before, after = (ordered.isel({dim: part}).drop_vars(dim) for part in (slice(-1), slice(1, None)))
-    fall = (before.s - after.s - before.s_error - after.s_error) / before.s
-    return max(float(fall.max()), 0.0)
+    return _largest_change(dataset, dim, -1)
 
 
 def largest_rise(dataset: xr.Dataset, dim: str) -> float:
     """Largest relative rise of s; see `largest_fall`."""
-    return largest_fall(dataset.assign_coords({dim: -dataset[dim]}), dim)
+    return _largest_change(dataset, dim, 1)
+
+
+def _largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
+    ordered = dataset.sortby(dim)
+    before, after = (ordered.isel({dim: part}).drop_vars(dim) for part in (slice(-1), slice(1, None)))
+    change = (sense * (after.s - before.s) - before.s_error - after.s_error) / before.s
+    return max(float(change.max()), 0.0)
 
 
 def coupling(values: xr.DataArray, dim: str) -> float:
