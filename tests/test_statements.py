@@ -1,82 +1,17 @@
-"""Statements on made-up results that hold and that do not, and the command that checks them."""
+"""Statements on made-up results that hold and that do not."""
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from click.testing import CliRunner
 
-from swtstudy import Study, run
-from swtstudy.cli import main
-from swtstudy.labelled import ATTRIBUTES
-from swtstudy.statements import (
-    critical_point,
-    figure3,
-    figure4,
-    figure5,
-    figure6,
-    figure7,
-    figure8,
-    parameters,
-)
-from swtstudy.statements.check import STATEMENTS, STUDIES, check
-from swtstudy.statements.measures import coupling, largest_fall, largest_rise, period, turning_points
-from swtstudy.statements.report import markdown, summary, terminal_table
+from swtstudy.statements import figure3, figure4, figure5, figure6, figure7, figure8, parameters
 from swtstudy.statements.select import NotInArchiveError, at
-from swtstudy.statements.stick_zone import stick_radius
-from tests import stand_in
+from tests.made_up import PHASES, made_up
 
-PHASES = np.linspace(0, 2 * np.pi, 49)
-FOLDER = Path(__file__).parent.parent / "studies"
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
 H = np.geomspace(0.002, 0.05, 201)
-
-
-def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset:
-    """Results with s = function(axes), and everything else as it usually is."""
-    arrays = {name: xr.DataArray(np.atleast_1d(values), dims=name) for name, values in axes.items()}
-    coords = {name: array.values for name, array in arrays.items()}
-    s = sum((0 * array for array in arrays.values() if array.dtype.kind == "f"), function(**arrays))
-    for name in axes:
-        s = s if name in s.dims else s.expand_dims({name: coords[name]})
-    s = s.assign_coords(coords).transpose(*axes)
-    zero = xr.zeros_like(s)
-    return xr.Dataset(
-        {"s": s, "s_error": zero + 1e-6, "critical_x": zero + 1, "critical_angle": zero, "regime": zero + 1}
-    )
-
-
-def test_measures():
-    curve = made_up(lambda friction: friction**2, friction=[0.1, 0.2, 0.3])
-    assert largest_fall(curve, "friction") == 0
-    assert largest_rise(curve, "friction") == pytest.approx(3, abs=1e-3)
-    assert largest_fall(curve.isel(friction=[2, 0, 1]), "friction") == 0
-    product = made_up(
-        lambda friction, phase: friction * (2 + np.cos(phase)), friction=[1.0, 2.0], phase=PHASES
-    )
-    assert coupling(product.s, "friction") < 1e-20
-    coupled = made_up(lambda friction, phase: 2 + np.cos(friction * phase), friction=[1.0, 2.0], phase=PHASES)
-    assert coupling(coupled.s, "friction") > 0.3
-
-
-@pytest.mark.parametrize("waves", [1, 2, 3, 4, 6])
-def test_the_period_is_found_with_kinks_and_without(waves):
-    assert period(2 + np.cos(waves * PHASES)) == pytest.approx(2 * np.pi / waves)
-    assert period(2 + abs(np.cos(waves * PHASES / 2 - 0.3))) == pytest.approx(2 * np.pi / waves)
-
-
-def test_a_constant_has_no_period():
-    assert period(np.ones(49)) == math.inf
-
-
-def test_turning_points_leave_out_ripples_and_ends():
-    x = np.linspace(0, 6 * np.pi, 601)
-    curve = np.sin(x) + 0.01 * np.sin(40 * x)
-    assert x[turning_points(curve, 0.2)] == pytest.approx(np.pi * np.arange(0.5, 6), abs=0.1)
-    assert turning_points(x, 0.2) == []
 
 
 def of_amplitude(depth: float) -> xr.Dataset:
@@ -285,84 +220,8 @@ def test_parameters():
     assert not parameters.poisson_ratio_is_intricate(strong).holds
 
 
-def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:
-    results = made_up(lambda phase: 1 + phase, phase=[0.0, math.pi / 2])
-    table = {
-        "poisson_ratio": 0.3,
-        "friction": 0.3,
-        "normal_amplitude": 0.75,
-        "frequency_ratio": 1.0,
-        "tangential_amplitude": 5 / 6,
-        "profile": profile,
-    }
-    return results.assign_coords({**table, **shape})
-
-
-def test_the_radius_of_permanent_stick():
-    # Table 1: u + δ ≥ 1 − 19/12 and u − δ ≤ −1 + 1/12 for ψ = 0, so G_s = 1/6; for ψ = π/2 all slides.
-    np.testing.assert_allclose(stick_radius(located()), [math.sqrt(1 / 6), 0], rtol=1e-9)
-    np.testing.assert_allclose(stick_radius(located("rounded_punch", flat_radius=0.0)), [math.sqrt(1 / 6), 0])
-    punch = stick_radius(located("truncated_paraboloid", flat_radius=0.5)).values
-    assert punch[0] ** 2 * (punch[0] ** 2 - 0.25) == pytest.approx(1 / 36)
-    assert punch[1] == 0
-
-
-@pytest.mark.parametrize(("x", "holds"), [(-1.0, True), (0.42, False), (0.1, False)])
-def test_the_critical_point_lies_outside_of_stick(x, holds):
-    results = located()
-    results["critical_x"] = results.critical_x * x
-    finding = critical_point.outside_of_stick(results, results)
-    assert finding.holds == holds
-    assert finding.measured.startswith("2 of 4 points")
-
-
-@pytest.mark.parametrize(("angle", "holds"), [(-9.0, True), (12.0, False)])
-def test_the_critical_plane(angle, holds):
-    results = located()
-    results["critical_angle"] = results.critical_angle + angle
-    assert critical_point.normal_along_x(results).holds == holds
-
-
-@pytest.mark.parametrize(("regime", "holds"), [(1, True), (2, False)])
-def test_the_regime(regime, holds):
-    results = located()
-    results["regime"] = results.regime * regime
-    finding = critical_point.slips_partially(results)
-    assert finding.holds == holds
-    assert ATTRIBUTES["regime"]["flag_meanings"].split()[regime].replace("_", " ") in finding.measured
-
-
 def test_what_an_archive_lacks_is_named():
     with pytest.raises(NotInArchiveError, match="no normal_amplitude = 8/9"):
         at(of_amplitude(0.3).isel(normal_amplitude=[0, 1]), normal_amplitude=8 / 9)
     with pytest.raises(NotInArchiveError, match="no axis phase"):
         figure3.small_amplitude_is_flat(of_amplitude(0.3).isel(phase=0))
-
-
-def test_missing_archives_are_named_with_the_command_that_makes_them(tmp_path):
-    result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
-    assert result.exit_code == 2
-    assert f"{len(STATEMENTS)} not checked" in result.stdout
-    for name in STUDIES:
-        assert f"{tmp_path / name}.nc is missing; made by: swtstudy run studies/{name}.toml" in result.stderr
-    assert "swtstudy run --all" in result.stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_all_archives_make_a_table(tmp_path):
-    for name in STUDIES:
-        study = Study.from_toml(FOLDER / f"{name}.toml")
-        run(study, tmp_path / f"{name}.nc", solver=stand_in.smooth, workers=1)
-    result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
-    assert result.exit_code == 0, result.output
-    table = (tmp_path / "statements.md").read_text(encoding="utf-8")
-    rows = [line for line in table.splitlines() if line.startswith("| ")][1:]
-    assert len(rows) == len(STATEMENTS)
-    assert all(row.count(" | ") >= 4 for row in rows)
-    assert summary(check(tmp_path)) in table
-
-
-def test_tables_fit():
-    outcomes = check("nowhere")
-    assert max(map(len, terminal_table(outcomes, 100).splitlines())) <= 100
-    assert "**not checked**" in markdown(outcomes)

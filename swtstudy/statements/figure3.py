@@ -83,7 +83,7 @@ STATEMENTS = (
     Statement(
         "Abstract",
         "A normal oscillation can raise or lower s markedly, depending on phase and frequency ratio.",
-        "by 10 % or more either way, against s without it",
+        "by 10% or more either way, against s without it",
         ("figure3", "figure4", "tangential_amplitude"),
         oscillation_raises_and_lowers,
     ),

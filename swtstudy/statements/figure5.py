@@ -84,14 +84,14 @@ STATEMENTS = (
     Statement(
         "Figure 5",
         "Rounded punch: b/a_H and phase are practically not coupled.",
-        "at most 1 % of the variance of ln s is left over by a product f(b)·g(ψ)",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
         ("figure5",),
         rounded_punch_uncoupled,
     ),
     Statement(
         "Figure 5",
         "Truncated paraboloid: b/a_H and phase are weakly coupled.",
-        "at most 10 % of the variance of ln s is left over by a product f(b)·g(ψ)",
+        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
         ("figure5",),
         truncated_paraboloid_weakly_coupled,
     ),

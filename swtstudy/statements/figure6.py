@@ -22,8 +22,12 @@ def all_curves_fall(figure6: xr.Dataset) -> Finding:
     rise = largest_rise(with_dims(figure6, "flat_radius"), "flat_radius")
     ordered = figure6.s.sortby("flat_radius")
     end = ordered.isel(flat_radius=-1) / ordered.isel(flat_radius=0)
-    words = f"s at b/a_H = {float(ordered.flat_radius[-1]):g} over s at 0: {float(end.min()):.2f} to "
-    return Finding(f"{words}{float(end.max()):.2f}; largest rise {rise:.1e}", rise == 0)
+    words = f"rises by up to {rise:.1e} from one b to the next" if rise else "rises nowhere"
+    measured = (
+        f"s {words}; at b/a_H = {float(ordered.flat_radius[-1]):g} it is {float(end.min()):.2f} to "
+        f"{float(end.max()):.2f} of s at 0"
+    )
+    return Finding(measured, rise == 0)
 
 
 def curves_are_alike(figure6: xr.Dataset) -> Finding:
@@ -61,14 +65,14 @@ STATEMENTS = (
     Statement(
         "Figure 6",
         "All curves fall in exactly the same way: no coupling of load and profile can be seen.",
-        "the curves s/s(b = 0) are nowhere further apart than 2 % of the figure's height",
+        "the curves s/s(b = 0) are nowhere further apart than 2% of the figure's height",
         ("figure6",),
         curves_are_alike,
     ),
     Statement(
         "Figure 6",
         "Rounded punch: the coupling of b/a_H with the load is negligible.",
-        "at most 1 % of the variance of ln s is left over by a product f(b)·g(ψ, ω2/ω1)",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ, ω2/ω1)",
         ("figure6",),
         loads_do_not_couple,
     ),

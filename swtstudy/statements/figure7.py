@@ -106,7 +106,7 @@ STATEMENTS = (
     Statement(
         "Abstract",
         "A small waviness can raise or lower s markedly.",
-        "by 10 % or more either way against the paraboloid, for both δA/δ0",
+        "by 10% or more either way against the paraboloid, for both δA/δ0",
         ("figure3", "figure7"),
         waviness_raises_and_lowers,
     ),
@@ -114,14 +114,14 @@ STATEMENTS = (
         "Figure 7",
         "s oscillates at small waviness amplitudes, with periods and amplitudes that shrink as h → 0.",
         "from one oscillation to the next, period and rise (or fall) grow with h in 4 of 5 cases; ripples "
-        "below 10 % of a curve's range do not count",
+        "below 10% of a curve's range do not count",
         ("figure7",),
         oscillations_shrink,
     ),
     Statement(
         "Figure 7",
         "The normal oscillation hardly changes how much the waviness matters.",
-        "ln(max/min) over h/δ0, mean over the wavelengths, differs by at most 25 % between the two δA/δ0",
+        "ln(max/min) over h/δ0, mean over the wavelengths, differs by at most 25% between the two δA/δ0",
         ("figure7",),
         effects_are_alike,
     ),

@@ -61,7 +61,7 @@ STATEMENTS = (
     Statement(
         "Figure 8",
         "Waviness and load are weakly coupled.",
-        "at most 10 % of the variance of ln s is left over by a product f(h)·g(ψ, ω2/ω1)",
+        "at most 10% of the variance of ln s is left over by a product f(h)·g(ψ, ω2/ω1)",
         ("figure8",),
         loads_couple_weakly,
     ),

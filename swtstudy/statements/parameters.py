@@ -31,9 +31,8 @@ def _rises(archive: xr.Dataset, dim: str, symbol: str) -> Finding:
     fall = largest_fall(with_dims(archive, dim), dim)
     low, high = float(archive[dim].min()), float(archive[dim].max())
     curves = archive.s.size // archive.sizes[dim]
-    return Finding(
-        f"{symbol} from {low:g} to {high:g} on {curves} curves: largest fall of s {fall:.1e}", fall == 0
-    )
+    words = f"falls by up to {fall:.1e} from one value to the next" if fall else "falls nowhere"
+    return Finding(f"s {words}, {symbol} from {low:g} to {high:g} on {curves} curves", fall == 0)
 
 
 def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:
@@ -77,7 +76,7 @@ STATEMENTS = (
     Statement(
         "Section 4.1",
         "The dependence on the Poisson ratio is very weak.",
-        "s changes by at most 5 % over ν = 0.25…0.35, for every μ",
+        "s changes by at most 5% over ν = 0.25…0.35, for every μ",
         ("poisson_ratio",),
         poisson_ratio_is_weak,
     ),
