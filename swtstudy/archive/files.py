@@ -59,9 +59,9 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
 
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
-    """Write a Dataset as compressed netCDF-4, atomically; see `replacing` for `beside`."""
+    """Write a Dataset as compressed netCDF-4 with checksums, atomically; see `replacing` for `beside`."""
     encoding = {
-        name: {"zlib": True, "complevel": 4, "shuffle": True}
+        name: {"zlib": True, "complevel": 4, "shuffle": True, "fletcher32": True}
         for name, variable in dataset.data_vars.items()
         if variable.ndim
     }
