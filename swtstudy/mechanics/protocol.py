@@ -74,7 +74,7 @@ class Protocol:
         return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
 
     def slip_line_instant(
-        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+        self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
     ) -> FloatArray:
         """Instant in [low, high] at which the slip line sense·u − δ, monotone there, has the value goal.
 
@@ -83,14 +83,17 @@ class Protocol:
         if self.p == self.q:
             return self._harmonic_instant(sense, goal, low, high)
 
-        def line(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-            value = sense * self.displacement(instant) - self.depth(instant) - goal
-            return value, sense * self.displacement_rate(instant) - self.depth_rate(instant)
+        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+            one = self.take(active)
+            u, depth = sense * one.displacement(instant), one.depth(instant)
+            slope = sense * one.displacement_rate(instant) - one.depth_rate(instant)
+            bend = self.q**2 * (depth - 1.0) - self.p**2 * u
+            return u - depth - goal[active], slope, bend
 
         return monotone_roots(line, low, high)
 
     def _harmonic_instant(
-        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+        self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
     ) -> FloatArray:
         """`slip_line_instant` for p = q = 1, where the slip line is C sin(φ − β) − 1."""
         a = sense * self.tangential_amplitude - self.normal_amplitude * np.cos(self.phase)
@@ -109,9 +112,7 @@ def _expand(values: FloatArray, like: FloatArray) -> FloatArray:
     return values.reshape(values.shape + (1,) * (like.ndim - 1))
 
 
-def fold_phase(
-    phase: FloatArray, p: IntArray, q: IntArray
-) -> tuple[FloatArray, NDArray[np.bool_]]:
+def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
 
     Shifting time by π/ω2 flips u and mirrors x.
@@ -156,19 +157,34 @@ def turning_instants(protocol: Protocol) -> FloatArray:
     return np.sort(np.concatenate(columns, axis=1), axis=1)
 
 
+def stick_depth(protocol: Protocol) -> FloatArray:
+    """Depth G_s = (min(u + δ) − max(u − δ))/2 up to which springs stick all through the stationary cycle.
+
+    A spring at G can keep one offset if that fits into all of its bounds [u − δ + G, u + δ − G]. Negative
+    if the whole contact slides, or is lost, once a cycle.
+
+    Returns
+    -------
+    Shape (n,), in δ0.
+    """
+    instants = turning_instants(protocol)
+    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+    return 0.5 * ((displacement + depth).min(axis=1) - (displacement - depth).max(axis=1))
+
+
 def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     """Zeros of d(u − sign·δ)/dφ in [0, 2π], shape (n, k), filled up with 2π."""
     order = max(protocol.p, protocol.q)
     # The offset keeps nodes off the zeros of symmetric protocols.
     step = 2.0 * np.pi / (24 * order)
-    grid = step * np.arange(24 * order + 2) + 0.0123 / order
+    grid = np.asarray(step * np.arange(24 * order + 2) + 0.0123 / order, dtype=np.float64)
     nodes = np.broadcast_to(grid, (len(protocol), grid.size))
-    rate = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
+    rates = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
 
-    row, cell = np.nonzero((rate[:, :-1] < 0.0) != (rate[:, 1:] < 0.0))
+    row, cell = np.nonzero((rates[:, :-1] < 0.0) != (rates[:, 1:] < 0.0))
     low, high = grid[cell], grid[cell + 1]
     # A close pair of zeros inside a cell pair shows as a parabola whose vertex crosses zero.
-    left, mid, right = rate[:, :-2], rate[:, 1:-1], rate[:, 2:]
+    left, mid, right = rates[:, :-2], rates[:, 1:-1], rates[:, 2:]
     curvature = left - 2.0 * mid + right
     with np.errstate(divide="ignore", invalid="ignore"):
         offset = 0.5 * (left - right) / curvature
@@ -184,11 +200,13 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     line = protocol.take(row)
     p, q = protocol.p, protocol.q
 
-    def rate_and_slope(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-        slope = -p * p * line.displacement(instant) + sign * q * q * (line.depth(instant) - 1.0)
-        return line.displacement_rate(instant) - sign * line.depth_rate(instant), slope
+    def rate(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        one = line.take(active)
+        slope = -p * p * one.displacement(instant) + sign * q * q * (one.depth(instant) - 1.0)
+        u_rate, depth_rate = one.displacement_rate(instant), one.depth_rate(instant)
+        return u_rate - sign * depth_rate, slope, sign * q * q * depth_rate - p * p * u_rate
 
-    roots = np.mod(monotone_roots(rate_and_slope, low, high), 2.0 * np.pi)
+    roots = np.mod(monotone_roots(rate, low, high), 2.0 * np.pi)
     return filled_rows(row, roots, len(protocol), 2.0 * np.pi)
 
 

@@ -6,13 +6,14 @@ that make swt (the largest σ_n, the largest and the smallest ε_n), ever closer
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, pick, product
+from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, parabola, product
+from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
@@ -21,6 +22,10 @@ from swtstudy.mechanics.zoom import TimeBrackets
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
+#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
+HOT = 0.35
+#: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
+STARTS = np.array([0.0, -0.25, 0.25])
 
 
 @dataclass(frozen=True)
@@ -68,16 +73,63 @@ class Scene:
             self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
         )
 
+    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
+        """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
+        return replace(self.take(index), cycle=self.cycle.select(index, keep))
+
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
         return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
 
 
-def scan(
-    scene: Scene, position: FloatArray, resolution: Resolution, planes: int
-) -> tuple[FloatArray, FloatArray]:
-    """swt on both sides of the contact, to the accuracy of a first look.
+@dataclass(frozen=True)
+class FirstLook:
+    """swt at n × X positions on both sides of the contact, to the accuracy of a first look.
+
+    Attributes
+    ----------
+    swt, double_angle
+        Shape (n, 2, X): at x = +r and x = −r; 2θ in rad.
+    interval
+        Shape (n, X, T): interval of the cycle of each instant.
+    history
+        What was seen there.
+    """
+
+    swt: FloatArray
+    double_angle: FloatArray
+    interval: NDArray[np.intp]
+    history: History
+
+    def hot_intervals(
+        self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
+    ) -> NDArray[np.bool_]:
+        """Intervals of the cycle that can hold an extreme at single positions, shape (m, i).
+
+        Parameters
+        ----------
+        scene
+            The n points.
+        point, side, column
+            Shape (m,): index of the positions.
+        """
+        pieces = (v[point, column] for v in vars(self.history).values())
+        x_sign = np.where(side == 0, 1.0, -1.0)[:, None]
+        planes = scene.take(point).planes(History(*pieces), x_sign)
+        stress, strain = planes.on_plane(self.double_angle[point, side, column])
+        hot = np.zeros(stress.shape, dtype=bool)
+        for curve in (stress, strain, -strain):
+            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
+            hot |= curve >= high - HOT * (high - low)
+        kept = np.zeros((len(point), scene.cycle.begin.shape[1]), dtype=bool)
+        row, instant = np.nonzero(hot)
+        kept[row, self.interval[point, column][row, instant]] = True
+        return kept
+
+
+def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
+    """Look at swt on both sides of the contact.
 
     Parameters
     ----------
@@ -89,18 +141,16 @@ def scan(
         Its zooms are not used.
     planes
         Number of planes that are tried.
-
-    Returns
-    -------
-    swt, double_angle
-        Shape (n, 2, X): at x = +r and x = −r; 2θ in rad.
     """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
-    history = line.history(*cosine_nodes(ends, resolution.nodes))
+    nodes, _ = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    history = line.history(nodes)
     sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    return swt, angle
+    shape = nodes.index.shape
+    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(shape)
+    return FirstLook(swt, angle, interval, history)
 
 
 def refine(
@@ -129,23 +179,49 @@ def refine(
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
-    planes = scene.planes(line.history(*cosine_nodes(ends, resolution.nodes)), side)
-    angle = double_angle
-    for _ in range(ANGLE_ROUNDS):
-        at = _extremes([planes] * 3, angle)
-        angle = best_angle(*_active([planes] * 3, at), angle)
-    node = np.stack(_extremes([planes] * 3, angle), axis=-1)
+    nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    planes = scene.planes(line.history(nodes), side)
+    inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
+    angle, at = _best_plane(planes, inside, double_angle)
+    node = gather(number, np.stack(at, axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
-        near = _parts(scene.planes(line.history(*brackets.samples()), side))
+        near = _parts(scene.planes(line.history(brackets.samples()), side))
         angle = best_angle(*_active(near, _extremes(near, angle)), angle)
         best = _extremes(near, angle)
         if turn < resolution.zooms - 1:
             brackets = brackets.narrowed(np.stack(best, axis=-1))
-    tops = [
-        brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))
-    ]
+    tops = [brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))]
     return product(tops[0], tops[1], -tops[2]), angle
+
+
+def _best_plane(
+    planes: PlaneHistory, inside: NDArray[np.bool_], double_angle: FloatArray
+) -> tuple[FloatArray, list[NDArray[np.intp]]]:
+    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes.
+
+    ``inside``, shape (…, T), tells which instants are not at the end of their stretch.
+    """
+    parts = [planes] * 3
+    angle = double_angle + STARTS.reshape(-1, *(1,) * double_angle.ndim)
+    for _ in range(ANGLE_ROUNDS):
+        angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
+    stress, high, low = (_peak(curve, inside) for curve in _curves(parts, angle))
+    best = np.moveaxis(product(stress, high, -low), 0, -1).argmax(axis=-1)
+    angle = pick(np.moveaxis(angle, 0, -1), best)
+    return angle, _extremes(parts, angle)
+
+
+def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """Maximum over the instants, interpolated in the stretches that the largest value belongs to."""
+    best = curve.argmax(axis=-1)
+    top = pick(curve, best)
+    for step in (-1, 0, 1):
+        middle = np.clip(best + step, 1, curve.shape[-1] - 2)
+        left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
+        vertex = centre + parabola(left, centre, right)[1]
+        top = np.where(pick(inside, middle), np.maximum(top, vertex), top)
+    return top
 
 
 def _parts(planes: PlaneHistory) -> list[PlaneHistory]:
@@ -167,4 +243,8 @@ def _extremes(parts: list[PlaneHistory], angle: FloatArray) -> list[NDArray[np.i
 
 def _active(parts: list[PlaneHistory], at: list[NDArray[np.intp]]) -> tuple[FloatArray, FloatArray]:
     """Coefficients of σ_n at its maximum and of ε_n between its extremes, each (3, …)."""
-    return pick(parts[0].stress, at[0]), pick(parts[1].strain, at[1]) - pick(parts[2].strain, at[2])
+    peak, high, low = (
+        np.stack([pick(v, index) for v in values])
+        for values, index in zip((parts[0].stress, parts[1].strain, parts[2].strain), at, strict=True)
+    )
+    return peak, high - low

@@ -9,8 +9,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 import numpy as np
+from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 
 
 class Primitives(ABC):
@@ -49,18 +50,33 @@ class Profile(ABC):
         self.largest_depth = largest_depth
 
     @classmethod
+    def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
+        """How finely g′ must be resolved, in steps of 8 rad: points that differ are not batched together."""
+        return np.zeros(len(largest_depth), dtype=np.int64)
+
+    @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
         """Why the contact is not a full disc up to ``largest_depth``, or None."""
         return None
 
     @abstractmethod
-    def take(self, index: FloatArray) -> Profile:
+    def take(self, index: NDArray[np.intp]) -> Profile:
         """The profiles at ``index``."""
 
     @property
     def flat_radius(self) -> FloatArray:
         """Shape (n,): radius b inside of which g = 0."""
         return np.zeros(len(self.largest_depth))
+
+    @property
+    def extra_nodes(self) -> int:
+        """Nodes that running integrals of g′ need beyond those of a smooth profile."""
+        return 0
+
+    @property
+    def feature_length(self) -> FloatArray:
+        """Shape (n,): length in a_H on which the profile repeats itself, inf for none."""
+        return np.full(len(self.largest_depth), np.inf)
 
     @abstractmethod
     def depth(self, radius: FloatArray) -> FloatArray:
