@@ -176,6 +176,27 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
     assert 0 < counting.points < 400
 
 
+def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
+    path = tmp_path / "line.nc"
+    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
+        "run(Study.from_text(sys.argv[2]), sys.argv[3], solver=stand_in.slow)"
+    )
+    command = [sys.executable, "-c", code, os.path.dirname(__file__), LINE, str(path)]
+    saved = 0
+    for _ in range(3):
+        with subprocess.Popen(command) as process:
+            deadline = time.monotonic() + 60
+            while len(read_parts(parts_folder(path))) <= saved and time.monotonic() < deadline:
+                time.sleep(0.02)
+            process.kill()
+        assert len(read_parts(parts_folder(path))) > saved
+        saved = len(read_parts(parts_folder(path)))
+    assert not path.exists()
+    same(run(line, path, solver=stand_in.slow), undisturbed)
+
+
 def test_one_run_at_a_time(line, tmp_path):
     path = tmp_path / "line.nc"
     # The kernel's lock is per open file: another process, as a second run is, must be refused.
