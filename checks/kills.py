@@ -21,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from cheap import cheap, logged
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.runner.run import Stopped
 
 KILLS = 25
@@ -95,7 +95,7 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
         process.wait()
         time.sleep(0.5)  # workers end on their own
         assert not path.exists()
-        saved = len(read_parts(parts_folder(path)))
+        saved = points_saved(parts_folder(path))
         assert saved >= saved_before, "saved points were lost"
         total_lost = computed(log) - saved
         note = (

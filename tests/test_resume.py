@@ -13,7 +13,7 @@ import xarray as xr
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.lock import LockedError, locked
-from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.archive.parts import parts_folder, points_saved, read_parts
 from swtstudy.runner import records, work
 from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
@@ -188,11 +188,11 @@ def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
     for _ in range(3):
         with subprocess.Popen(command) as process:
             deadline = time.monotonic() + 60
-            while len(read_parts(parts_folder(path))) <= saved and time.monotonic() < deadline:
+            while points_saved(parts_folder(path)) <= saved and time.monotonic() < deadline:
                 time.sleep(0.02)
             process.kill()
-        assert len(read_parts(parts_folder(path))) > saved
-        saved = len(read_parts(parts_folder(path)))
+        assert points_saved(parts_folder(path)) > saved
+        saved = points_saved(parts_folder(path))
     assert not path.exists()
     same(run(line, path, solver=stand_in.slow), undisturbed)
 
@@ -269,3 +269,18 @@ def test_partial_results_of_an_extension(tmp_path, line):
     assert 200 < int((both.status == records.COMPUTED).sum()) < 400
     shutil.rmtree(parts_folder(path))
     same(open_results(path, partial=True), old)
+
+
+def test_a_kill_while_parts_are_gathered_counts_no_point_twice(line, tmp_path):
+    path = tmp_path / "line.nc"
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(192), workers=1)
+    folder = parts_folder(path)
+    saved = points_saved(folder)
+    for part in list(folder.glob("*.npz")):
+        shutil.copy(part, folder / f"{int(part.stem) + 500:06d}.npz")
+    assert len(read_parts(folder)) == 2 * saved
+    assert points_saved(folder) == saved
+    rest = stand_in.Counting()
+    run(line, path, solver=rest, workers=1)
+    assert rest.points == 400 - saved
