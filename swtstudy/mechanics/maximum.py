@@ -179,7 +179,7 @@ def _step(
     centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
     beyond = (np.abs(found) == 1.0) & (now.column + found.astype(np.intp) != positions.r.shape[1])
-    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != 0.0)
+    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != now.centre)
     climb.column[active] += np.where(beyond, found.astype(np.intp), 0)
     climb.centre[active] = np.where(beyond, 0.0, centre)
     climb.angle[active], climb.top[active] = pick(angles, best), top

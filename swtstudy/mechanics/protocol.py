@@ -161,6 +161,21 @@ def turning_instants(protocol: Protocol) -> FloatArray:
     return np.sort(np.concatenate(columns, axis=1), axis=1)
 
 
+def stick_depth(protocol: Protocol) -> FloatArray:
+    """Depth G_s = (min(u + δ) − max(u − δ))/2 up to which springs stick all through the stationary cycle.
+
+    A spring at G can keep one offset if that fits into all of its bounds [u − δ + G, u + δ − G]. Negative
+    if the whole contact slides, or is lost, once a cycle.
+
+    Returns
+    -------
+    Shape (n,), in δ0.
+    """
+    instants = turning_instants(protocol)
+    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+    return 0.5 * ((displacement + depth).min(axis=1) - (displacement - depth).max(axis=1))
+
+
 def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     """Zeros of d(u − sign·δ)/dφ in [0, 2π], shape (n, k), filled up with 2π."""
     order = max(protocol.p, protocol.q)

@@ -214,12 +214,15 @@ def _best_plane(
 
 
 def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Maximum over the instants, interpolated where it is inside of a stretch."""
+    """Maximum over the instants, interpolated in the stretches that the largest value belongs to."""
     best = curve.argmax(axis=-1)
-    middle = np.clip(best, 1, curve.shape[-1] - 2)
-    left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
-    rise = parabola(left, centre, right)[1]
-    return np.where(pick(inside, best) & (middle == best), centre + rise, pick(curve, best))
+    top = pick(curve, best)
+    for step in (-1, 0, 1):
+        middle = np.clip(best + step, 1, curve.shape[-1] - 2)
+        left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
+        vertex = centre + parabola(left, centre, right)[1]
+        top = np.where(pick(inside, middle), np.maximum(top, vertex), top)
+    return top
 
 
 def _parts(planes: PlaneHistory) -> list[PlaneHistory]:
