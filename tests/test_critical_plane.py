@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scenes import PROFILE_NAMES, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.contact import solve_cycle
@@ -13,7 +14,6 @@ from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
-from tests.scenes import PROFILE_NAMES, random_points, take
 
 Array = NDArray[np.float64]
 Stress = tuple[Array, Array, Array, Array]
