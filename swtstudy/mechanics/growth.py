@@ -134,4 +134,3 @@ def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:
     """Abscissa in [−1, 1] of the sin² map."""
     part = np.divide(value - low, span, out=np.zeros_like(value), where=span > 0.0)
     return np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) * (4.0 / np.pi) - 1.0
-
