@@ -178,7 +178,7 @@ def _step(
     centre, top = _vertex(c, values, best, brackets.is_corner)
     change = np.abs(top - now.top)
     # A maximum next to a corner shows only once the search is narrow.
-    flat = top - pick(values, best) <= accuracy.tolerance * top
+    flat = top - pick(values, best) <= CHANGE_SHARE * accuracy.tolerance * top
     stays = brackets.is_corner & (found == 0.0) & (flat | (now.rounds < LEAST_ROUND_COUNT))
     centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
@@ -193,7 +193,8 @@ def _step(
     climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
     climb.rounds[active] += ~outermost
     small = CHANGE_SHARE * change <= SETTLED * accuracy.tolerance * top
-    climb.settled[active] = ~outermost & small & (now.rounds + 1 >= LEAST_ROUND_COUNT)
+    enough = now.rounds + 1 >= LEAST_ROUND_COUNT
+    climb.settled[active] = ~outermost & small & enough & (flat | ~stays)
 
 
 def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
