@@ -27,7 +27,7 @@ LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
 #: Share of the last round's change that the next one would make at most.
 CHANGE_SHARE = 0.1
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
-SETTLED, LEAST_ERROR = 0.3, 0.05
+SETTLED, LEAST_ERROR = 0.3, 0.1
 #: Values closer than this are equal, relative.
 TIE = 1e-12
 
@@ -55,7 +55,7 @@ class Accuracy:
         """The least effort that keeps the error below ``rtol``."""
         digits = -np.log10(rtol)
         # A zoom gains a factor of 30.
-        zooms = max(int(np.ceil(0.5 * digits)), 1)
+        zooms = max(int(np.ceil(0.5 * digits)) + int(digits > 5.0), 1)
         growth = int(np.ceil(max(4.0 * digits - 2.0, 6.0 * digits - 10.0)))
         return cls(Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 8), rtol)
 
