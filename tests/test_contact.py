@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from memory import front_at, protocol, tangential_force
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
+from oracles.springs import bimodal, spring_forces
 
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.protocol import Protocol
-from tests.memory import front_at, protocol, tangential_force
-from tests.oracles.springs import bimodal, spring_forces
 
 Array = NDArray[np.float64]
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (5, 4)]

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 #: Exit code of a run in which points failed.
 POINTS_FAILED = 3
 
+#: How long to wait for a scheduler.
+CONNECT_SECONDS = 10.0
+
 #: Failed points that the summary names; the archive names them all.
 _NAMED = 5
 
@@ -85,7 +88,7 @@ def _connect(address: str) -> Client:
             '--scheduler needs the extra "distributed": pip install "swtstudy[distributed]"'
         ) from None
     try:
-        client = Client(address, timeout=10)
+        client = Client(address, timeout=CONNECT_SECONDS)
     except (OSError, ValueError) as error:
         raise OSError(f"no dask scheduler at {address} ({error})") from None
     click.echo(f"dashboard: {client.dashboard_link}", err=True)
