@@ -1,0 +1,97 @@
+"""The stress history at points of the body: punches of all radii, weighted with the spring slopes (15–18).
+
+Each spring sits at its depth G = g(ξ): a state of the contact says for each cell of radii whether it
+touches and with which slope dτ/dG its tangential displacement varies. The cells' fields do not depend on
+the state, so that they are computed once per point, and all instants follow by a matrix product.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.mechanics.field.primitives import primitives
+from swtstudy.mechanics.field.punch import (
+    FloatArray,
+    PunchFunctions,
+    normal_components,
+    tangential_components,
+)
+from swtstudy.mechanics.field.slope_cells import SlopeCells
+
+#: Points × radii evaluated at a time: the temporaries stay in the processor's cache.
+_BLOCK = 16384
+
+
+def cell_stress(
+    x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float
+) -> tuple[FloatArray, FloatArray]:
+    """Stress due to each cell of springs: compressed by their full slope, and dragged by it.
+
+    Parameters
+    ----------
+    x, y, z
+        Shape (n,): position in a_H, z ≥ 0 into the body.
+    cells
+        The spring slope g′ on m cells.
+    poisson_ratio
+        ν.
+
+    Returns
+    -------
+    normal, tangential
+        Shape (n, m, 6), components as `punch.COMPONENTS`, in E* √(δ0/R): under the pressure (1/π) ∫ g′
+        dξ/√(ξ² − r²) and under the same traction as a shear in +x, ξ over the cell.
+    """
+    x, y, z = (np.asarray(v, dtype=float)[:, None] for v in (x, y, z))
+    plain, weighted = primitives(np.hypot(x, y), z, cells.radius)
+    intercept, gradient = cells.intercept / np.pi, cells.gradient / np.pi
+    f = PunchFunctions(
+        *(intercept * np.diff(a) + gradient * np.diff(b) for a, b in zip(plain, weighted, strict=True))
+    )
+    return normal_components(f, x, y, z, poisson_ratio), tangential_components(f, x, y, z, poisson_ratio)
+
+
+def stress_history(
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
+    cells: SlopeCells,
+    touching: ArrayLike,
+    tangential_slope: ArrayLike,
+    friction: float,
+    poisson_ratio: float,
+) -> FloatArray:
+    """Stress at points of the body for a sequence of contact states.
+
+    Parameters
+    ----------
+    x, y, z
+        Position in a_H, z ≥ 0 into the body; broadcastable to one shape S.
+    cells
+        The spring slope g′ on m cells.
+    touching
+        Shape (..., m): 1 for a cell in contact, 0 for one out of contact (the contact radius is a cell's
+        end).
+    tangential_slope
+        Shape (..., m): dτ/dG in [−1, 1], with the spring displacement τ = G* u/(μ E* δ0); 0 out of contact.
+    friction, poisson_ratio
+        μ, ν.
+
+    Returns
+    -------
+    stress
+        Shape S + (..., 6), components as `punch.COMPONENTS`, in E* √(δ0/R). Tension is positive.
+    """
+    x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (x, y, z)))
+    touching, drag = np.asarray(touching, dtype=float), -friction * np.asarray(tangential_slope, dtype=float)
+    instants = touching.shape[:-1]
+    # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
+    states = np.concatenate([touching, drag], axis=-1).reshape(-1, 2 * touching.shape[-1])
+    stress = np.empty((x.size, len(states), 6))
+    rows = max(1, _BLOCK // len(cells.radius))
+    for first in range(0, x.size, rows):
+        part = slice(first, first + rows)
+        fields = cell_stress(x.flat[part], y.flat[part], z.flat[part], cells, poisson_ratio)
+        stress[part] = states @ np.concatenate(fields, axis=1)
+    return stress.reshape(*x.shape, *instants, 6)
