@@ -85,14 +85,18 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             100.0,
         ),
-        Parameter(
-            "phase", r"\psi", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
-        ),
+        Parameter("phase", r"\psi", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"),
         Parameter("profile", "f", "profile of the indenter", "paraboloid", kind="profile"),
         Parameter("flat_radius", r"b/a_H", "radius of the punch face", None, 0.0, 100.0),
         Parameter("waviness_amplitude", r"h/\delta_0", "amplitude of the waviness", None, 0.0, 10.0),
         Parameter(
-            "wavelength", r"\lambda/\sqrt{hR}", "wavelength of the waviness", None, 0.0, 1000.0, open_lower=True
+            "wavelength",
+            r"\lambda/\sqrt{hR}",
+            "wavelength of the waviness",
+            None,
+            0.0,
+            1000.0,
+            open_lower=True,
         ),
     )
 }

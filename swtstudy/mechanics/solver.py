@@ -40,7 +40,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     for index in _batches(points):
         protocol, load = _shared_protocols(points, index)
         cycle = solve_cycle(protocol).take(load)
-        profile = make_profile(points.profile, {name: v[index] for name, v in points.shape.items()}, len(index))
+        shape = {name: values[index] for name, values in points.shape.items()}
+        profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
         scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
         found = maximum(scene, accuracy)
         s[index], error[index] = found.swt, found.error

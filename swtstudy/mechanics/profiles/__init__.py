@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
+from swtstudy.mechanics.profiles.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.profiles.paraboloid import Paraboloid
+from swtstudy.mechanics.profiles.wavy_paraboloid import WavyParaboloid
 
-PROFILES: dict[str, type[Profile]] = {"paraboloid": Paraboloid}
+PROFILES: dict[str, type[Profile]] = {
+    "paraboloid": Paraboloid,
+    "rounded_punch": RoundedPunch,
+    "truncated_paraboloid": TruncatedParaboloid,
+    "wavy_paraboloid": WavyParaboloid,
+}
 
 
-def make_profile(name: str, shape: dict[str, FloatArray], count: int) -> Profile:
-    """The ``count`` profiles of family ``name`` with the given shape parameters, each of shape (count,)."""
-    return PROFILES[name](count, **shape)
+def make_profile(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> Profile:
+    """n profiles of family ``name`` with shape parameters of shape (n,), in contact up to a depth (n,)."""
+    return PROFILES[name](largest_depth, **shape)
 
 
 def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:

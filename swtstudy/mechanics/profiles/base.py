@@ -37,10 +37,16 @@ class Primitives(ABC):
 
 
 class Profile(ABC):
-    """n profiles of one family."""
+    """n profiles of one family, in contact up to a depth.
 
-    def __init__(self, count: int) -> None:
-        self.count = count
+    Parameters
+    ----------
+    largest_depth
+        Shape (n,): largest indentation depth in δ0, up to which tables are made.
+    """
+
+    def __init__(self, largest_depth: FloatArray) -> None:
+        self.largest_depth = largest_depth
 
     @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
@@ -54,7 +60,7 @@ class Profile(ABC):
     @property
     def flat_radius(self) -> FloatArray:
         """Shape (n,): radius b inside of which g = 0."""
-        return np.zeros(self.count)
+        return np.zeros(len(self.largest_depth))
 
     @abstractmethod
     def depth(self, radius: FloatArray) -> FloatArray:
@@ -75,3 +81,8 @@ class Profile(ABC):
     @abstractmethod
     def primitives(self, position: FloatArray) -> Primitives:
         """The full-slip integrals at r = ``position``, shape (n, X)."""
+
+
+def align(values: FloatArray, like: FloatArray) -> FloatArray:
+    """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
+    return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.profiles.base import Primitives, Profile
+from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 
 
 class ParaboloidPrimitives(Primitives):
@@ -15,7 +15,7 @@ class ParaboloidPrimitives(Primitives):
         self.position = position
 
     def inner(self, radius: FloatArray) -> FloatArray:
-        r = _align(self.position, radius)
+        r = align(self.position, radius)
         sine = np.minimum(radius / r, 1.0)
         cosine = np.sqrt(1.0 - sine * sine)
         product = sine * cosine
@@ -23,7 +23,7 @@ class ParaboloidPrimitives(Primitives):
         return np.stack([2.0 * lens, 1.5 * lens - r * sine * sine * product])
 
     def outer(self, radius: FloatArray) -> FloatArray:
-        r = _align(self.position, radius)
+        r = align(self.position, radius)
         v = np.sqrt(np.maximum(radius * radius - r * r, 0.0))
         return np.stack([2.0 * v, (2.0 / 3.0) * v**3])
 
@@ -32,7 +32,7 @@ class Paraboloid(Profile):
     """n paraboloids; they are all the same in a_H and δ0."""
 
     def take(self, index: FloatArray) -> Paraboloid:
-        return Paraboloid(len(index))
+        return Paraboloid(self.largest_depth[index])
 
     def depth(self, radius: FloatArray) -> FloatArray:
         return radius * radius
@@ -48,7 +48,3 @@ class Paraboloid(Profile):
 
     def primitives(self, position: FloatArray) -> Primitives:
         return ParaboloidPrimitives(position)
-
-
-def _align(position: FloatArray, like: FloatArray) -> FloatArray:
-    return position.reshape(position.shape + (1,) * (like.ndim - 2))

@@ -1,0 +1,5 @@
+"""``python -m swtstudy`` is the command ``swtstudy``."""
+
+from swtstudy.cli import main
+
+main(prog_name="swtstudy")

@@ -1,0 +1,17 @@
+"""The accuracy that may be asked of s."""
+
+from __future__ import annotations
+
+DEFAULT_RTOL = 1e-4
+SMALLEST_RTOL = 1e-8
+LARGEST_RTOL = 0.1
+
+#: The allowed range in words, for messages.
+ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
+
+
+def is_rtol(raw: object) -> bool:
+    """Whether a value can be asked for as relative accuracy."""
+    if isinstance(raw, bool) or not isinstance(raw, float | int):
+        return False
+    return SMALLEST_RTOL <= raw <= LARGEST_RTOL

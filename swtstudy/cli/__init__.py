@@ -1,0 +1,39 @@
+"""The command line. Each command imports what it needs when it runs, so that help is there at once."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import click
+
+import swtstudy
+from swtstudy.cli.plot import plot
+from swtstudy.cli.run import run
+from swtstudy.cli.solve import solve
+from swtstudy.cli.validate import validate
+
+#: Exit code for input that cannot be used, as click has it for wrong options.
+BAD_INPUT = 2
+
+
+class _Commands(click.Group):
+    """A group whose commands end bad input with one line a mistake, never with a traceback."""
+
+    def invoke(self, context: click.Context) -> Any:
+        try:
+            return super().invoke(context)
+        except (ValueError, OSError) as error:
+            for line in (str(error) or type(error).__name__).splitlines():
+                click.echo(f"Error: {line}", err=True)
+            sys.exit(BAD_INPUT)
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(swtstudy.__version__, prog_name="swtstudy")
+def main() -> None:
+    """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
+
+
+for _command in (run, validate, plot, solve):
+    main.add_command(_command)

@@ -1,0 +1,24 @@
+"""swtstudy plot"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("archive")
+@click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
+def plot(archive: str, output: str | None) -> None:
+    """Draw the figure of an ARCHIVE, from the archive alone."""
+    from swtstudy.archive.files import check_writable
+    from swtstudy.archive.read import open_results
+    from swtstudy.figures.draw import draw
+    from swtstudy.figures.save import save_figure
+
+    target = Path(output) if output else Path(archive).with_suffix(".png")
+    dataset = open_results(archive)
+    check_writable(target)
+    save_figure(draw(dataset), target)
+    click.echo(str(target))

@@ -1,0 +1,53 @@
+"""swtstudy solve"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any
+
+import click
+
+from swtstudy.accuracy import DEFAULT_RTOL
+from swtstudy.parameters import PARAMETERS
+
+
+def _short(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
+    """One option for each row of the table of parameters."""
+    for parameter in reversed(PARAMETERS.values()):
+        default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
+        words = f"{parameter.meaning}; {parameter.allowed}{default}"
+        command = click.option(f"--{parameter.name.replace('_', '-')}", metavar="VALUES", help=words)(command)
+    return command
+
+
+@click.command()
+@_with_parameters
+@click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
+def solve(rtol: float, **texts: str | None) -> None:
+    """Print s for single values or lists of parameters.
+
+    VALUES is one value, or several between commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    """
+    from swtstudy.mechanics.points import REGIMES
+    from swtstudy.solve import solve as solve_grid
+
+    parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
+    dataset = solve_grid(rtol=rtol, **parameters)
+    dims = list(map(str, dataset.s.dims))
+    click.echo("\t".join([*dims, "s", "s_error", "critical_x", "critical_angle", "regime"]))
+    places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
+    columns = ("s", "s_error", "critical_x", "critical_angle", "regime")
+    rows = zip(*(dataset[name].values.ravel() for name in columns), strict=True)
+    for place, (s, error, x, angle, regime) in zip(places, rows, strict=True):
+        numbers = (f"{s:.6f}", f"{error:.1e}", f"{x:.5f}", f"{angle:.2f}", REGIMES[int(regime)])
+        click.echo("\t".join([*map(_short, place), *numbers]))
+
+
+def _values(text: str) -> str | list[str]:
+    parts = [part.strip() for part in text.split(",")]
+    return parts if len(parts) > 1 else parts[0]

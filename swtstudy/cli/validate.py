@@ -1,0 +1,18 @@
+"""swtstudy validate"""
+
+from __future__ import annotations
+
+import click
+
+
+@click.command()
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+def validate(studies: tuple[str, ...]) -> None:
+    """Check each STUDY (a TOML file) without computing anything."""
+    from swtstudy.study.several import read_studies
+
+    for source, study in read_studies(studies).items():
+        sizes = " × ".join(
+            f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
+        )
+        click.echo(f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else ""))

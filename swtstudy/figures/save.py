@@ -1,0 +1,32 @@
+"""Figures as files."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swtstudy.archive.files import replacing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: What tells the time of making, left out so that the same results give the same file.
+_NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+
+FORMATS = (".png", ".pdf", ".svg")
+
+
+def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
+    """Write a figure as PNG, PDF or SVG, by the ending of its name.
+
+    Raises
+    ------
+    ValueError
+        For another ending.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise ValueError(f"{path}: a figure's name ends in one of {', '.join(FORMATS)}")
+    with replacing(path) as temporary:
+        figure.savefig(temporary, format=suffix[1:], dpi=200, metadata=_NO_DATE.get(suffix))

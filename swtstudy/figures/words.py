@@ -1,0 +1,73 @@
+"""Values and names as they stand in a figure."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from swtstudy.parameters import PARAMETERS
+
+#: A float this close, relatively, to a fraction or a root is taken for it.
+_TOLERANCE = 1e-9
+_LARGEST_DENOMINATOR = 20
+
+
+def parameter_words(name: str) -> str:
+    """Symbol of a parameter, ready for matplotlib.
+
+    Examples
+    --------
+    >>> parameter_words("friction")
+    '$\\\\mu$'
+    """
+    return f"${PARAMETERS[name].symbol}$"
+
+
+def value_words(name: str, value: float | str) -> str:
+    """A value as people write it: 0.25, 8/9, √20, π/2.
+
+    Examples
+    --------
+    >>> value_words("normal_amplitude", 8 / 9), value_words("phase", 3.141592653589793)
+    ('8/9', 'π')
+    >>> value_words("wavelength", 20**0.5), value_words("profile", "rounded_punch")
+    ('√20', 'rounded punch')
+    """
+    if isinstance(value, str):
+        return value.replace("_", " ")
+    if PARAMETERS[name].kind == "ratio":
+        return str(_fraction(value, 64) or f"{value:.4g}")
+    if PARAMETERS[name].units == "rad" and value:
+        multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
+        if multiple is not None:
+            return pi_words(multiple)
+    if float(f"{value:.4g}") == value:
+        return f"{value:.4g}"
+    fraction = _fraction(value, _LARGEST_DENOMINATOR)
+    if fraction is not None:
+        return str(fraction)
+    square = round(value**2)
+    if value > 0 and 0 < square < 1000 and math.isclose(value**2, square, rel_tol=_TOLERANCE):
+        return f"√{square}"
+    return f"{value:.4g}"
+
+
+def pi_words(multiple: Fraction) -> str:
+    """A rational multiple of π.
+
+    Examples
+    --------
+    >>> [pi_words(Fraction(n, 2)) for n in range(-1, 5)]
+    ['-π/2', '0', 'π/2', 'π', '3π/2', '2π']
+    """
+    if multiple == 0:
+        return "0"
+    sign = "-" if multiple < 0 else ""
+    numerator = "" if abs(multiple.numerator) == 1 else str(abs(multiple.numerator))
+    denominator = "" if multiple.denominator == 1 else f"/{multiple.denominator}"
+    return f"{sign}{numerator}π{denominator}"
+
+
+def _fraction(value: float, largest: int) -> Fraction | None:
+    fraction = Fraction(value).limit_denominator(largest)
+    return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None

@@ -1,0 +1,89 @@
+"""The grid of named dimensions that a study or a call of `solve` spans."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.canonical import COLUMNS, PROFILES, SHAPE_COLUMNS, canonical_number, canonical_points
+from swtstudy.grid.values import Value, read_value
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of parameter points.
+
+    Attributes
+    ----------
+    fixed
+        The single-valued parameters; those that no profile of the grid has may be absent.
+    axes
+        The values along each dimension, in the order of the dimensions.
+    """
+
+    fixed: dict[str, Value]
+    axes: dict[str, tuple[Value, ...]]
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions."""
+        return tuple(self.axes)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the dimensions."""
+        return tuple(map(len, self.axes.values()))
+
+    @property
+    def size(self) -> int:
+        """Number of grid points."""
+        return int(np.prod(self.shape, dtype=np.int64))
+
+    def values(self, name: str) -> tuple[Value, ...]:
+        """All values of a parameter on this grid; empty if it has none."""
+        if name in self.axes:
+            return self.axes[name]
+        return (self.fixed[name],) if name in self.fixed else ()
+
+    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
+        indices = np.arange(start, self.size if stop is None else stop)
+        position = (
+            dict(zip(self.axes, np.unravel_index(indices, self.shape), strict=True)) if self.axes else {}
+        )
+        columns: dict[str, NDArray] = {}
+        for name in COLUMNS:
+            source = "frequency_ratio" if name in ("p", "q") else name
+            codes = np.array([_code(name, value) for value in self.values(source)] or [0.0])
+            columns[name] = codes[position[source]] if source in position else codes
+        columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
+        return canonical_points(columns)
+
+
+def _code(name: str, value: Value) -> float:
+    """The number that stands for a value in a canonical row."""
+    if isinstance(value, str):
+        return float(PROFILES.index(value))
+    if isinstance(value, Fraction):
+        return float({"p": value.numerator, "q": value.denominator}.get(name, value))
+    # A phase is rounded in units of π once it is folded, not here.
+    return value if name == "phase" else canonical_number(value)
+
+
+def complete(fixed: dict[str, Value], axes: dict[str, tuple[Value, ...]]) -> Grid:
+    """A grid with the defaults of Table 1 for every parameter that is not given."""
+    filled = dict(fixed)
+    for name, parameter in PARAMETERS.items():
+        if name not in fixed and name not in axes and parameter.default is not None:
+            filled[name] = read_value(parameter, parameter.default)
+    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes))
+
+
+def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
+    """The shape parameters that at least one of the profiles has."""
+    return tuple(n for n in SHAPE_COLUMNS if any(n in PROFILE_SHAPES.get(p, ()) for p in profiles))

@@ -1,0 +1,190 @@
+"""A grid read from what a user wrote, with every mistake reported at once; shared by studies and `solve`."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from swtstudy.grid.canonical import canonical_number
+from swtstudy.grid.expression import evaluate
+from swtstudy.grid.grid import Grid, complete, shapes_needed
+from swtstudy.grid.values import Value, read_value
+from swtstudy.mistakes import Mistake, literal, nearest
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+
+#: Builds a mistake from key, found and allowed; knows where the input came from.
+Report = Callable[[str, str, str], None]
+
+#: More points than this along one axis are taken for a slip of the pen.
+LONGEST_AXIS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Range:
+    """Evenly spaced values: `num` of them from `start` to `stop`, both included."""
+
+    start: object
+    stop: object
+    num: int
+
+
+def read_grid(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str] = lambda name: name,
+    source: str = "",
+) -> tuple[Grid | None, list[Mistake]]:
+    """The grid spanned by fixed values and axes.
+
+    Parameters
+    ----------
+    fixed, axes
+        Raw values by name, as the user wrote them; None for an axis whose mistake is already reported.
+    keys
+        The key of a parameter in messages, from its name.
+    source
+        Where the input comes from, for messages.
+
+    Returns
+    -------
+    grid
+        None if there are mistakes.
+    mistakes
+        All that was found wrong.
+    """
+    mistakes: list[Mistake] = []
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed, source))
+
+    good_fixed: dict[str, Value] = {}
+    good_axes: dict[str, tuple[Value, ...]] = {}
+    for name in (*fixed, *axes):
+        if name not in PARAMETERS:
+            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, PARAMETERS))
+    for name in sorted(fixed.keys() & axes.keys()):
+        report(keys(name), "both a fixed value and an axis", "one of the two")
+    for name, single in fixed.items():
+        value = _read(name, single, keys(name), report) if name in PARAMETERS else None
+        if value is not None:
+            good_fixed[name] = value
+    for name, raw in axes.items():
+        if name in PARAMETERS and raw is not None:
+            good_axes[name] = _read_axis(name, raw, keys(name), report)
+    _check_shapes(fixed, axes, good_fixed, good_axes, keys, report)
+    if mistakes:
+        return None, mistakes
+    grid = complete(good_fixed, good_axes)
+    _check_profiles(grid, keys, report)
+    return (None if mistakes else grid), mistakes
+
+
+def _read(name: str, raw: object, key: str, report: Report) -> Value | None:
+    try:
+        return read_value(PARAMETERS[name], raw)
+    except ValueError as error:
+        report(key, f"{literal(raw)} ({error})", _allowed(name, raw))
+        return None
+
+
+def _allowed(name: str, raw: object) -> str:
+    if PARAMETERS[name].kind == "profile" and isinstance(raw, str):
+        return nearest(raw, PROFILE_SHAPES)
+    return PARAMETERS[name].allowed
+
+
+def _read_axis(name: str, raw: Sequence[object] | Range, key: str, report: Report) -> tuple[Value, ...]:
+    elements = _expand(raw, key, report) if isinstance(raw, Range) else list(raw)
+    if not elements and not isinstance(raw, Range):
+        report(key, "an empty axis", "at least one value")
+    if len(elements) > LONGEST_AXIS:
+        report(key, f"{len(elements)} values", f"at most {LONGEST_AXIS} values")
+        return ()
+    values: list[Value] = []
+    seen: dict[Value, int] = {}
+    for index, element in enumerate(elements):
+        value = _read(name, element, f"{key}[{index}]", report)
+        if value is None:
+            continue
+        values.append(value)
+        first = seen.setdefault(canonical_number(value) if isinstance(value, float) else value, index)
+        if first != index:
+            report(f"{key}[{index}]", f"{literal(element)}, the same as {key}[{first}]", "distinct values")
+    return tuple(values)
+
+
+def _expand(spacing: Range, key: str, report: Report) -> list[object]:
+    """The values of a range: exact where its ends are rational."""
+    ends: list[Fraction | float] = []
+    for part in ("start", "stop"):
+        raw = getattr(spacing, part)
+        try:
+            if isinstance(raw, bool) or not isinstance(raw, str | int | float | Fraction):
+                raise ValueError("not a number")
+            ends.append(evaluate(raw if isinstance(raw, str) else str(raw)))
+        except ValueError as error:
+            report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
+    if not 2 <= spacing.num <= LONGEST_AXIS:
+        report(f"{key}.num", literal(spacing.num), f"a whole number from 2 to {LONGEST_AXIS}")
+        return []
+    if len(ends) < 2:
+        return []
+    start, stop = ends
+    step = (stop - start) / (spacing.num - 1)
+    if step == 0:
+        report(key, f"start and stop are both {literal(spacing.start)}", "two different ends")
+        return []
+    return [start + index * step for index in range(spacing.num - 1)] + [stop]
+
+
+def _check_shapes(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, object],
+    good_fixed: Mapping[str, Value],
+    good_axes: Mapping[str, tuple[Value, ...]],
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Every profile needs its shape parameters; an axis that no profile has would change nothing."""
+    if "profile" in good_fixed:
+        profiles = [str(good_fixed["profile"])]
+    elif "profile" in fixed or "profile" in axes:
+        profiles = [str(profile) for profile in good_axes.get("profile", ())]
+    else:
+        profiles = [str(PARAMETERS["profile"].default)]
+    needed = shapes_needed(profiles)
+    for name in needed:
+        if name not in fixed and name not in axes:
+            owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
+            report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
+    shapes = {name for shape in PROFILE_SHAPES.values() for name in shape}
+    for name in good_axes:
+        if name in shapes and name not in needed and profiles:
+            report(
+                keys(name), f"an axis that no profile here has ({', '.join(profiles)})", "axes that matter"
+            )
+
+
+def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
+    # The largest contact of the study is the hardest to keep compact.
+    normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
+    for profile in map(str, grid.values("profile")):
+        names = PROFILE_SHAPES[profile]
+        if not names:
+            continue
+        from swtstudy.mechanics.profiles import check_shape
+
+        messages = []
+        for values in itertools.product(*(grid.values(name) for name in names)):
+            shape = {name: float(value) for name, value in zip(names, values, strict=True)}
+            message = check_shape(profile, shape, normal_amplitude)
+            if message is not None:
+                messages.append((shape, message))
+        if messages:
+            shape, message = messages[0]
+            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
+            more = f"; {len(messages) - 1} more like it" if len(messages) > 1 else ""
+            report(", ".join(map(keys, names)), f"{found}{more}", message)

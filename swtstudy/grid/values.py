@@ -1,0 +1,86 @@
+"""One value of one parameter: read from what a user wrote, checked against the table of parameters."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from numbers import Rational, Real
+
+from swtstudy.grid.expression import evaluate
+from swtstudy.parameters import PROFILE_SHAPES, Parameter
+
+#: A checked value: a float, an exact frequency ratio, or the name of a profile.
+Value = float | Fraction | str
+
+#: How far, relatively, a float may be from the small fraction that it stands for.
+_FRACTION_TOLERANCE = 1e-9
+
+
+def read_value(parameter: Parameter, raw: object) -> Value:
+    """The value of a parameter, from a number, a string such as "pi/2" or "3/2", or a profile's name.
+
+    Parameters
+    ----------
+    parameter
+        Row of the table of parameters.
+    raw
+        What the user wrote.
+
+    Returns
+    -------
+    float, Fraction or str
+        A Fraction for a frequency ratio, the name for a profile, a float otherwise.
+
+    Raises
+    ------
+    ValueError
+        With the reason only, if the value is not allowed; `Parameter.allowed` says what is.
+    """
+    if parameter.kind == "profile":
+        return _read_profile(raw)
+    exact = _read_exact(raw)
+    if parameter.kind == "ratio":
+        return _read_ratio(exact, int(parameter.upper))
+    number = float(exact)
+    below = number <= parameter.lower if parameter.open_lower else number < parameter.lower
+    if below or number > parameter.upper:
+        raise ValueError("out of range")
+    return number + 0.0  # -0.0 and 0.0 are one value
+
+
+def _read_profile(raw: object) -> str:
+    if isinstance(raw, str) and raw in PROFILE_SHAPES:
+        return str(raw)
+    raise ValueError("no such profile" if isinstance(raw, str) else "not a name")
+
+
+def _read_exact(raw: object) -> Fraction | float:
+    if isinstance(raw, str):
+        return evaluate(raw)
+    # NumPy's bool is no Real, Python's is.
+    if isinstance(raw, bool) or not isinstance(raw, Real):
+        raise ValueError("not a number")
+    if isinstance(raw, Rational):
+        value: Fraction | float = Fraction(int(raw.numerator), int(raw.denominator))
+    else:
+        value = float(raw)
+    try:
+        finite = math.isfinite(value)
+    except OverflowError:
+        finite = False
+    if not finite:
+        raise ValueError("not a finite number")
+    return value
+
+
+def _read_ratio(exact: Fraction | float, largest: int) -> Fraction:
+    if exact <= 0:
+        raise ValueError("not positive")
+    # limit_denominator bounds the denominator alone: a large numerator is refused below.
+    ratio = Fraction(exact).limit_denominator(largest)
+    if abs(ratio - Fraction(exact)) > _FRACTION_TOLERANCE * exact:
+        kind = "no small fraction" if isinstance(exact, Fraction) else "irrational, or no small fraction"
+        raise ValueError(f"{kind}: the common period of the two oscillations would be too long")
+    if max(ratio.numerator, ratio.denominator) > largest:
+        raise ValueError("numerator or denominator too large: the common period would be too long")
+    return ratio

@@ -1,0 +1,96 @@
+"""Plain arrays with the names, units and meanings of the study: the Dataset that users see."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.values import Value
+from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.parameters import PARAMETERS
+
+#: Attributes of the data variables, after the CF conventions.
+ATTRIBUTES: dict[str, dict[str, Any]] = {
+    "s": {
+        "long_name": "normalized maximum Smith-Watson-Topper parameter SWT/SWT0",
+        "units": "1",
+        "symbol": r"s",
+        "ancillary_variables": "s_error regime",
+        "comment": "SWT0 = E* delta0 / R; one elastic half-space with E*, G* against a rigid indenter",
+    },
+    "s_error": {"long_name": "estimated absolute error of s", "units": "1", "symbol": r"\Delta s"},
+    "critical_x": {
+        "long_name": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
+        "units": "1",
+        "symbol": r"x/a_H",
+    },
+    "critical_angle": {
+        "long_name": "angle of the normal of the critical plane against the x axis",
+        "units": "degree",
+        "symbol": r"\varphi",
+    },
+    "regime": {
+        "long_name": "regime of the contact over the stationary cycle",
+        "flag_values": np.arange(len(REGIMES), dtype=np.int8),
+        "flag_meanings": " ".join(REGIMES),
+    },
+}
+
+
+def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
+    """The Dataset of a grid.
+
+    Parameters
+    ----------
+    grid
+        Names and values of the dimensions.
+    arrays
+        Data variables by name, each of shape (grid.size,) in C order.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions in the order of the grid's axes; single-valued parameters are scalar coordinates.
+    """
+    coordinates: dict[str, Any] = {
+        name: (name, _values(values), _attributes(name, values)) for name, values in grid.axes.items()
+    }
+    for name, value in grid.fixed.items():
+        coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
+    variables = {
+        name: (grid.dims, array.reshape(grid.shape), ATTRIBUTES[name]) for name, array in arrays.items()
+    }
+    return xr.Dataset(variables, coordinates)
+
+
+def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDArray]:
+    """Data variables of points from the solutions of their canonical points, mirrored back where needed."""
+    angle = np.where(mirrored, -solution.critical_angle, solution.critical_angle)
+    return {
+        "s": solution.s,
+        "s_error": solution.s_error,
+        "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x),
+        "critical_angle": np.where(angle <= -90, angle + 180, angle),
+        "regime": solution.regime,
+    }
+
+
+def _values(values: tuple[Value, ...]) -> NDArray:
+    if isinstance(values[0], str):
+        return np.array(values, dtype=object)
+    return np.array([float(value) for value in values])
+
+
+def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
+    parameter = PARAMETERS[name]
+    attributes = {"long_name": parameter.meaning, "symbol": parameter.symbol}
+    if parameter.kind != "profile":
+        attributes["units"] = parameter.units
+    if isinstance(values[0], Fraction):
+        attributes["fractions"] = " ".join(map(str, values))
+    return attributes

@@ -1,0 +1,125 @@
+"""The paraboloid with superimposed waviness (eq. 6): g = ξ² + (π/2) h z H₀(z), z = kξ, k = 2π/λ."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.profiles.base import Primitives, Profile, align
+from swtstudy.mechanics.profiles.struve import struve_functions
+from swtstudy.mechanics.profiles.tables import TablePrimitives
+
+#: Chebyshev nodes of the tables: so many, and so many more per rad of kξ.
+TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
+#: Positions of the first guess of the contact radius: so many, and so many more per rad of kξ.
+GUESS_NODES, GUESSES_PER_RADIAN = 64, 8
+
+
+class WavyParaboloid(Profile):
+    """n paraboloids with waviness.
+
+    Parameters
+    ----------
+    largest_depth
+        Shape (n,), δ0.
+    waviness_amplitude
+        Shape (n,): h/δ0.
+    wavelength
+        Shape (n,): λ/√(hR).
+    """
+
+    def __init__(
+        self, largest_depth: FloatArray, waviness_amplitude: FloatArray, wavelength: FloatArray
+    ) -> None:
+        super().__init__(largest_depth)
+        self.waviness_amplitude, self.wavelength = waviness_amplitude, wavelength
+        length = wavelength * np.sqrt(waviness_amplitude)
+        self.wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        self.reach = _upper_radius(largest_depth, waviness_amplitude, self.wave_number)
+        phase = float((self.wave_number * self.reach).max(initial=0.0))
+        self.table_nodes = TABLE_NODES + int(NODES_PER_RADIAN * phase)
+        guesses = GUESS_NODES + int(GUESSES_PER_RADIAN * phase)
+        self._guess_radius = self.reach[:, None] * np.linspace(0.0, 1.0, guesses)
+        # Both ends of √g(ξ) are straight.
+        self._guess_root = np.sqrt(np.maximum(self.depth(self._guess_radius), 0.0))
+
+    @classmethod
+    def check(cls, largest_depth: float, **shape: float) -> str | None:
+        h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
+        if h == 0.0:
+            return None
+        k = 2.0 * np.pi / (wavelength * np.sqrt(h))
+        reach = float(np.sqrt(largest_depth)) + np.pi / k
+        limit = smallest_compact_wavelength(k * reach)
+        if wavelength >= limit:
+            return None
+        return (
+            f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays compact "
+            f"at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
+        )
+
+    def take(self, index: FloatArray) -> WavyParaboloid:
+        return WavyParaboloid(
+            self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
+        )
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        z = k * radius
+        return radius * radius + 0.5 * np.pi * h * z * struve_functions(z)[0]
+
+    def _slope(self, radius: FloatArray) -> FloatArray:
+        """g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        z = k * radius
+        zeroth, first = struve_functions(z)
+        return 2.0 * radius + 0.5 * np.pi * h * k * (zeroth + z * (2.0 / np.pi - first))
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        depth = np.maximum(depth, 0.0)
+        guess, root = np.empty_like(depth), np.sqrt(depth)
+        for row, (known, radius) in enumerate(zip(self._guess_root, self._guess_radius, strict=True)):
+            guess[row] = np.interp(root[row], known, radius)
+        for _ in range(2):
+            slope = self._slope(guess)
+            error = self.depth(guess) - depth
+            step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
+            guess = np.maximum(guess - step, 0.0)
+        return guess
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        return radius * self._slope(radius)
+
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        z = k * radius
+        zeroth, first = struve_functions(z)
+        wave = z * z * zeroth - z * first
+        scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
+        return (2.0 / 3.0) * radius**3 + scale * wave
+
+    def primitives(self, position: FloatArray) -> Primitives:
+        largest = self.radius(self.largest_depth)
+        return TablePrimitives(self, position, self.table_nodes, self.table_nodes, largest)
+
+
+def smallest_compact_wavelength(phase: float) -> float:
+    """Smallest λ/√(hR) for which g′ ≥ 0 up to kξ = ``phase``.
+
+    g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with A = H₀ + z (2/π − H₁).
+    """
+    # The first minimum of A/z, near 4.7, is the deepest.
+    z = np.linspace(1e-3, min(phase, 8.0), 2001)
+    zeroth, first = struve_functions(z)
+    steepest = float((-(zeroth / z + 2.0 / np.pi - first)).max())
+    return float(np.sqrt(np.pi**3 * max(steepest, 0.0)))
+
+
+def _upper_radius(depth: FloatArray, amplitude: FloatArray, wave_number: FloatArray) -> FloatArray:
+    """A radius at which g surely exceeds ``depth``."""
+    radius = np.sqrt(depth)
+    for _ in range(3):
+        # |H₀| < 0.8, and its part of g cannot make up for a wavelength.
+        radius = np.sqrt(depth + 0.5 * np.pi * amplitude * np.minimum(0.8 * wave_number * radius, 1e6))
+    return radius

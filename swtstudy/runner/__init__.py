@@ -1,0 +1,1 @@
+"""Running a study: what has to be computed is planned apart from computing it."""

@@ -1,0 +1,87 @@
+"""s for named parameters: the shortest way from Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.grid.canonical import points_from
+from swtstudy.grid.reading import read_grid
+from swtstudy.mistakes import Mistake, StudyError, literal
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
+    """Normalised SWT parameter s on the grid spanned by named parameters.
+
+    Computes in this process; for a large grid write a study and `run` it.
+
+    Parameters
+    ----------
+    rtol
+        Relative accuracy asked of s.
+    **parameters
+        Names of `swtstudy.parameters.PARAMETERS`, each a single value or a one-dimensional sequence of
+        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        s, s_error, critical_x (in a_H), critical_angle (degrees) and regime, with the sequences as
+        dimensions in the order given and the single values as scalar coordinates.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> dataset = swtstudy.solve(phase=[0, 1.5, 3.0], normal_amplitude=[0.25, 0.75])
+    >>> dataset.s.dims
+    ('phase', 'normal_amplitude')
+    """
+    from swtstudy.labelled import arrays_of, label
+    from swtstudy.mechanics import solve_points
+    from swtstudy.runner.plan import take, unique_points
+    from swtstudy.runner.values import Values
+
+    fixed: dict[str, object] = {}
+    axes: dict[str, Sequence[object] | None] = {}
+    mistakes: list[Mistake] = []
+    for name, raw in parameters.items():
+        try:
+            dimensions = np.ndim(raw)  # type: ignore[arg-type]
+        except ValueError:
+            dimensions = 2  # ragged
+        if isinstance(raw, str) or dimensions == 0:
+            fixed[name] = raw[()] if isinstance(raw, np.ndarray) else _scalar(raw)
+        elif dimensions == 1:
+            axes[name] = [_scalar(element) for element in raw]  # type: ignore[attr-defined]
+        else:
+            axes[name] = None
+            mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
+    if not is_rtol(rtol):
+        mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
+    grid, found = read_grid(fixed, axes)
+    if grid is None or mistakes:
+        raise StudyError([*found, *mistakes])
+    unique = unique_points(grid)
+    values = Values.empty(len(unique.table))
+    start = 0
+    while start < len(unique.table):
+        stop = take(unique.table, start, len(unique.table))
+        values.put(np.arange(start, stop), solve_points(points_from(unique.table[start:stop]), float(rtol)))
+        start = stop
+    return label(grid, arrays_of(values.at(unique.index), unique.mirrored))
+
+
+def _scalar(raw: object) -> object:
+    """A zero-dimensional array or NumPy scalar as the plain value that it holds."""
+    return raw.item() if isinstance(raw, np.generic | np.ndarray) or hasattr(raw, "item") else raw

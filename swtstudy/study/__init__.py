@@ -1,0 +1,1 @@
+"""The definition of a study: a TOML file, validated as a whole before anything is computed."""

@@ -1,0 +1,130 @@
+"""A validated study."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.reading import Range, read_grid
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.study.figure import FigureLayout, check_figure
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: what is computed, how accurately, and what is drawn.
+
+    Attributes
+    ----------
+    title
+        One line.
+    grid
+        The points.
+    rtol
+        Relative accuracy asked of s.
+    figure
+        Layout of the figure, or None.
+    text
+        The study file as it was read; goes into the archive.
+    """
+
+    title: str
+    grid: Grid
+    rtol: float
+    figure: FigureLayout | None
+    text: str
+
+    @classmethod
+    def from_toml(cls, path: str | PathLike[str]) -> Study:
+        """Read and validate a study file.
+
+        Raises
+        ------
+        StudyError
+            With every mistake in the file, or the one that keeps it from being read.
+        """
+        source = str(path)
+        try:
+            text = Path(path).read_text(encoding="utf-8")
+        except FileNotFoundError:
+            raise StudyError([Mistake("", "no such file", "a study file (TOML)", source)]) from None
+        except UnicodeDecodeError:
+            raise StudyError(
+                [Mistake("", "bytes that are no UTF-8", "a study file (TOML)", source)]
+            ) from None
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise StudyError([Mistake("", reason, "a readable study file (TOML)", source)]) from None
+        return cls.from_text(text, source)
+
+    @classmethod
+    def from_text(cls, text: str, source: str = "study") -> Study:
+        """Validate the text of a study file; `source` names it in messages.
+
+        Raises
+        ------
+        StudyError
+            With every mistake in the text.
+        """
+        try:
+            raw = tomllib.loads(text)
+        except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+            message = f"a syntax error: {error or 'nested too deeply'}"
+            raise StudyError([Mistake("", message, "TOML", source)]) from None
+        return _study_from(raw, text, source)
+
+
+def _study_from(raw: Mapping[str, Any], text: str, source: str) -> Study:
+    from swtstudy.study.structure import read_structure
+
+    table, mistakes = read_structure(raw, source)
+    fixed, axes = _parts(raw)
+    places = {name: "fixed" for name in fixed} | {name: "axes" for name in axes}
+    grid, found = read_grid(fixed, axes, lambda name: f"{places.get(name, 'fixed')}.{name}", source)
+    mistakes += found
+    figure = _figure_from(raw)
+    if figure is not None:
+        names = list(raw["axes"]) if isinstance(raw.get("axes"), dict) else []
+
+        def report(key: str, found: str, allowed: str) -> None:
+            mistakes.append(Mistake(key, found, allowed, source))
+
+        check_figure(figure, names, grid, report)
+    if mistakes or table is None or grid is None:
+        raise StudyError(mistakes)
+    return Study(table.title, grid, table.rtol, figure, text)
+
+
+def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Fixed values and axes as far as their structure is sound, so that all mistakes come at once."""
+    fixed, axes = (raw.get(key, {}) for key in ("fixed", "axes"))
+    good: dict[str, Any] = {}
+    for name, axis in axes.items() if isinstance(axes, dict) else ():
+        complete = isinstance(axis, dict) and axis.keys() == {"start", "stop", "num"}
+        if isinstance(axis, list):
+            good[name] = axis
+        elif complete and isinstance(axis["num"], int) and not isinstance(axis["num"], bool):
+            good[name] = Range(**axis)
+        else:
+            good[name] = None
+    return (fixed if isinstance(fixed, dict) else {}), good
+
+
+def _figure_from(raw: Mapping[str, Any]) -> FigureLayout | None:
+    from pydantic import ValidationError
+
+    from swtstudy.study.tables import FigureTable
+
+    if "figure" not in raw:
+        return None
+    try:
+        table = FigureTable.model_validate(raw["figure"])
+    except ValidationError:
+        return None  # reported with the structure
+    y = (table.y,) if isinstance(table.y, str) else tuple(table.y)
+    return FigureLayout(table.x, table.hue, table.panels, y, table.title)

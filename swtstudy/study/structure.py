@@ -1,0 +1,58 @@
+"""Pydantic's errors about the structure of a study file, in the words of the other mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from swtstudy.accuracy import ALLOWED_RTOL
+from swtstudy.mistakes import Mistake, literal, nearest
+from swtstudy.study.tables import FigureTable, RangeTable, StudyTable
+
+#: What is allowed at a key, where pydantic's own words would not say it.
+_ALLOWED = {
+    "title": "a text that is not empty",
+    "rtol": ALLOWED_RTOL,
+    "fixed": "a table of single values",
+    "axes": "a table of axes",
+    "figure": "a table with x and, if wanted, hue, panels, y and title",
+    "figure.x": "the name of an axis",
+    "figure.hue": "the name of an axis",
+    "figure.panels": "the name of an axis",
+    "figure.y": 'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
+    "figure.title": "a text",
+}
+
+
+def read_structure(raw: Mapping[str, Any], source: str) -> tuple[StudyTable | None, list[Mistake]]:
+    """The tables of a study file, or all that is wrong with their structure."""
+    try:
+        return StudyTable.model_validate(raw), []
+    except ValidationError as error:
+        found = {_mistake(detail, source) for detail in error.errors(include_url=False)}
+        return None, sorted(found, key=lambda mistake: mistake.key)
+
+
+def _mistake(detail: Any, source: str) -> Mistake:
+    path = [part for part in detail["loc"] if part not in ("list", "range", "list[str]", "str")]
+    if path[:2] == ["figure", "y"]:
+        path = path[:2]  # both arms of the union complain: one mistake is enough
+    key = ".".join(map(str, path))
+    if detail["type"] == "extra_forbidden":
+        return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)
+    if path[0] == "axes" and len(path) == 2:
+        allowed = "a list of values or {start, stop, num}"
+    elif path[0] == "axes" and path[-1] == "num":
+        allowed = "a whole number"
+    else:
+        allowed = _ALLOWED.get(key, detail["msg"])
+    found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
+    return Mistake(key, found, allowed, source)
+
+
+def _known(path: list[Any]) -> list[str]:
+    inner: dict[str, type[BaseModel]] = {"axes": RangeTable, "figure": FigureTable}
+    model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable
+    return list(model.model_fields)

@@ -1,0 +1,50 @@
+"""The structure of a study file; what its parameters may be is left to the table of parameters."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+from swtstudy.accuracy import DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class RangeTable(_Table):
+    """Evenly spaced values of an axis, both ends included."""
+
+    start: Any
+    stop: Any
+    num: int
+
+
+def _axis_kind(raw: object) -> str:
+    return "range" if isinstance(raw, dict) else "list"
+
+
+Axis = Annotated[
+    Annotated[list[Any], Tag("list")] | Annotated[RangeTable, Tag("range")], Discriminator(_axis_kind)
+]
+
+
+class FigureTable(_Table):
+    """What the figure puts where: each of x, hue and panels is a dimension of the study."""
+
+    x: str
+    hue: str | None = None
+    panels: str | None = None
+    y: str | list[str] = "s"
+    title: str | None = None
+
+
+class StudyTable(_Table):
+    """A study file."""
+
+    title: str = Field(min_length=1)
+    rtol: float = Field(default=DEFAULT_RTOL, ge=SMALLEST_RTOL, le=LARGEST_RTOL)
+    fixed: dict[str, Any] = {}
+    axes: dict[str, Axis] = {}
+    figure: FigureTable | None = None
