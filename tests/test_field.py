@@ -34,8 +34,8 @@ ROUNDED = slope_cells(rounded, graded_radii(0.5, 1.2, 200), start=0.5)
 
 def field(x, y, z, cells=HERTZ, poisson_ratio=POISSON):
     """Normal load and full sliding in +x with μ = 1, as (…, 2, 6)."""
-    one = np.ones(len(cells.gradient))
-    return stress_history(x, y, z, cells, [one, 0 * one], [0 * one, -one], 1.0, poisson_ratio)
+    one = np.ones(cells.gradient.shape)
+    return stress_history(x, y, z, cells, [one[0], 0 * one[0]], [0 * one, -one], 1.0, poisson_ratio)
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_cattaneo_mindlin_is_two_hamilton_fields(points):
     c, friction = 0.6, 0.4
     cells = slope_cells(paraboloid, [0.0, c, 1.0])
     # In the stick zone the springs share one displacement: dτ/dG = 0.
-    stress = stress_history(*points, cells, [1, 1], [0, -1], friction, POISSON) / P0
+    stress = stress_history(*points, cells, [1, 1], [[0, -1]], friction, POISSON) / P0
     sliding = np.array(Hertz.stress_for_tangential_loading(*points, POISSON))
     stick = c * np.array(Hertz.stress_for_tangential_loading(*(v / c for v in points), POISSON))
     expected = np.array(Hertz.stress_Cartesian(*points, POISSON)) + friction * (sliding - stick)
@@ -213,9 +213,9 @@ def test_cells_keep_mass_and_first_moment():
     ends = graded_radii(0.5, 1.2, 20)
     cells = slope_cells(truncated, ends, start=0.5)
     g = ends * np.sqrt(ends**2 - 0.25)
-    mass = cells.intercept * np.diff(ends) + cells.gradient * np.diff(ends**2) / 2
+    mass = cells.intercept[0] * np.diff(ends) + cells.gradient[0] * np.diff(ends**2) / 2
     np.testing.assert_allclose(mass, np.diff(g), atol=1e-12)
-    moment = cells.intercept * np.diff(ends**2) / 2 + cells.gradient * np.diff(ends**3) / 3
+    moment = cells.intercept[0] * np.diff(ends**2) / 2 + cells.gradient[0] * np.diff(ends**3) / 3
     np.testing.assert_allclose(moment, np.diff(ends * g - (ends**2 - 0.25) ** 1.5 / 3), atol=1e-12)
 
 
@@ -236,7 +236,7 @@ def test_interior_accuracy_of_the_singular_profiles(slope):
 
 
 def test_instants_and_points_keep_their_shapes():
-    cells = SlopeCells(np.array([0.0, 0.5, 1.0]), np.zeros(2), np.full(2, 2.0))
+    cells = SlopeCells(np.array([0.0, 0.5, 1.0]), np.zeros((1, 2)), np.full((1, 2), 2.0))
     stress = stress_history(
         np.zeros((4, 1)), np.zeros(3), 0.1, cells, np.ones((7, 2)), np.zeros((7, 2)), 0.3, 0.3
     )

@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.hemisphere import FloatArray, hemisphere
+from swtstudy.mechanics.hemisphere import hemisphere
 from swtstudy.mechanics.plane_ascent import climb, normal_weights, swap_instants, symmetric_tensor
+from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 10° apart.
 _COARSE_PLANES = 256

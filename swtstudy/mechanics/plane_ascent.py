@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.hemisphere import FloatArray
+from swtstudy.mechanics.points import FloatArray
 
 _LARGEST_STEP = 0.2  # rad
 _SMALLEST_STEP = 1e-9  # rad: the height's relative error is the square of the angle's

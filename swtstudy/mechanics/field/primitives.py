@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.field.punch import FloatArray, PunchFunctions, complex_distance
+from swtstudy.mechanics.field.punch import PunchFunctions, complex_distance
+from swtstudy.mechanics.points import FloatArray
 
 #: Below this |U| (the origin, seen from the punch of radius 0) the primitives are cut off; a slope that
 #: starts with g′(0) = 0 gives that end of its cell no weight.

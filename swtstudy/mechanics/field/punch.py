@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
+from swtstudy.mechanics.points import FloatArray
+
 ComplexArray = NDArray[np.complex128]
 
 #: Order of the stress components along the last axis (Voigt).

@@ -1,9 +1,9 @@
-"""The spring slope g′(ξ) as straight pieces on cells, so that the field integrals are closed form.
+"""Slopes of the springs as straight pieces on cells of ξ, so that the field integrals are closed form.
 
 Each piece keeps its cell's integrals ∫ g′ dξ and ∫ ξ g′ dξ (it is the L² projection of g′ on straight
-lines). Beneath the surface, where the punch's field is smooth across a cell, the error of the stress is
-then O(h⁴), in the surface O(h^5/2); a paraboloid's slope is exact. The integrable singularity of the
-truncated paraboloid needs no care beyond cells that shrink towards it.
+lines). Beneath the surface, where the punch's field is smooth across a cell, the error of the stress is then
+O(h⁴), in the surface O(h^5/2); a paraboloid's slope is exact. The integrable singularity of the truncated
+paraboloid needs no care beyond cells that shrink towards it.
 """
 
 from __future__ import annotations
@@ -14,22 +14,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.field.punch import FloatArray
+from swtstudy.mechanics.points import FloatArray
 
-#: Gauss points per cell for the integrals of g′.
+#: Gauss points per cell for the integrals of the slopes.
 _GAUSS_POINTS = 8
+#: Narrower cells keep the mean slope only: the digits of a gradient would be lost.
+_NARROW = 1e-6
 
 
 @dataclass(frozen=True)
 class SlopeCells:
-    """A slope g′(ξ) ≈ intercept + gradient · ξ on each of n cells.
+    """k slope functions, each intercept + gradient · ξ on each of m cells.
 
     Attributes
     ----------
     radius
-        Shape (n + 1,), increasing: the ends of the cells, in a_H.
+        Shape (m + 1,), increasing: the ends of the cells, in a_H.
     intercept, gradient
-        Shape (n,), in δ0/a_H and δ0/a_H².
+        Shape (k, m), in δ0/a_H and δ0/a_H². The first function is the profile's g′, the others are g′ times
+        dτ/dG of springs that share a history.
     """
 
     radius: FloatArray
@@ -47,8 +50,8 @@ def graded_radii(start: float, end: float, cells: int, power: float = 2.0) -> Fl
     cells
         Number of cells n.
     power
-        1 for equal cells; 2 resolves √(ξ − b) and 1/√(ξ − b) (a stronger grading costs digits: rounding
-        grows like the gradient in the smallest cell).
+        1 for equal cells; 2 resolves √(ξ − b) and 1/√(ξ − b). A stronger grading costs digits: rounding
+        grows like the gradient in the smallest cell.
 
     Returns
     -------
@@ -61,14 +64,15 @@ def graded_radii(start: float, end: float, cells: int, power: float = 2.0) -> Fl
 def slope_cells(
     slope: Callable[[FloatArray], FloatArray], radius: ArrayLike, start: float = 0.0
 ) -> SlopeCells:
-    """Project a slope function on straight pieces.
+    """Project slope functions on straight pieces.
 
     Parameters
     ----------
     slope
-        g′(ξ) in δ0/a_H for an array of ξ > start in a_H.
+        From an array of ξ > start in a_H to slopes in δ0/a_H: of the same shape for one function, or with a
+        leading axis k for several.
     radius
-        Shape (n + 1,), increasing, the first not below start: ends of the cells.
+        Shape (m + 1,), increasing, the first not below start: ends of the cells.
     start
         Radius at which the slope starts, possibly as (ξ − start)^(±1/2): the radius b of a punch's face.
     """
@@ -78,10 +82,11 @@ def slope_cells(
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     t = 0.5 * (root[1:, None] + root[:-1, None] + nodes * np.diff(root)[:, None])
     width = np.diff(ends)
-    mass = slope(start + t**2) * weights * t * np.diff(root)[:, None]
+    values = np.asarray(slope(start + t**2))
+    mass = values.reshape(-1, *t.shape) * (weights * t * np.diff(root)[:, None])
     # Offset from the cell's middle in half widths; written in t to keep its digits in small cells.
     middle = 0.5 * (root[1:, None] ** 2 + root[:-1, None] ** 2)
     offset = (t**2 - middle) * (2.0 / width[:, None])
-    mean = mass.sum(axis=1) / width
-    gradient = 6.0 * (mass * offset).sum(axis=1) / width**2
+    mean = mass.sum(axis=-1) / width
+    gradient = np.where(width > _NARROW * ends[-1], 6.0 * (mass * offset).sum(axis=-1) / width**2, 0.0)
     return SlopeCells(ends, mean - gradient * 0.5 * (ends[1:] + ends[:-1]), gradient)

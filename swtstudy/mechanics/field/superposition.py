@@ -1,8 +1,8 @@
 """The stress history at points of the body: punches of all radii, weighted with the spring slopes (15–18).
 
-Each spring sits at its depth G = g(ξ): a state of the contact says for each cell of radii whether it
-touches and with which slope dτ/dG its tangential displacement varies. The cells' fields do not depend on
-the state, so that they are computed once per point, and all instants follow by a matrix product.
+Each spring sits at its depth G = g(ξ): a state of the contact says for each cell of radii whether it touches
+and with which slope dτ/dG its tangential displacement varies. The cells' fields do not depend on the state,
+so that they are computed once per point, and all instants follow by a matrix product.
 """
 
 from __future__ import annotations
@@ -11,13 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.field.primitives import primitives
-from swtstudy.mechanics.field.punch import (
-    FloatArray,
-    PunchFunctions,
-    normal_components,
-    tangential_components,
-)
+from swtstudy.mechanics.field.punch import PunchFunctions, normal_components, tangential_components
 from swtstudy.mechanics.field.slope_cells import SlopeCells
+from swtstudy.mechanics.points import FloatArray
 
 #: Points × radii evaluated at a time: the temporaries stay in the processor's cache.
 _BLOCK = 16384
@@ -26,30 +22,35 @@ _BLOCK = 16384
 def cell_stress(
     x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Stress due to each cell of springs: compressed by their full slope, and dragged by it.
+    """Stress due to each cell of springs: compressed by their full slope, and dragged by each slope function.
 
     Parameters
     ----------
     x, y, z
         Shape (n,): position in a_H, z ≥ 0 into the body.
     cells
-        The spring slope g′ on m cells.
+        k slope functions on m cells.
     poisson_ratio
         ν.
 
     Returns
     -------
     normal, tangential
-        Shape (n, m, 6), components as `punch.COMPONENTS`, in E* √(δ0/R): under the pressure (1/π) ∫ g′
-        dξ/√(ξ² − r²) and under the same traction as a shear in +x, ξ over the cell.
+        Shapes (n, m, 6) and (n, k · m, 6), components as `punch.COMPONENTS`, in E* √(δ0/R): under the
+        pressure (1/π) ∫ g′ dξ/√(ξ² − r²), ξ over the cell, and under the shear (1/π) ∫ s dξ/√(ξ² − r²) in +x
+        for each slope function s.
     """
     x, y, z = (np.asarray(v, dtype=float)[:, None] for v in (x, y, z))
-    plain, weighted = primitives(np.hypot(x, y), z, cells.radius)
-    intercept, gradient = cells.intercept / np.pi, cells.gradient / np.pi
-    f = PunchFunctions(
-        *(intercept * np.diff(a) + gradient * np.diff(b) for a, b in zip(plain, weighted, strict=True))
+    plain, weighted = (
+        [np.diff(f) for f in functions] for functions in primitives(np.hypot(x, y), z, cells.radius)
     )
-    return normal_components(f, x, y, z, poisson_ratio), tangential_components(f, x, y, z, poisson_ratio)
+    tangential = []
+    for intercept, gradient in zip(cells.intercept / np.pi, cells.gradient / np.pi, strict=True):
+        f = PunchFunctions(*(intercept * a + gradient * b for a, b in zip(plain, weighted, strict=True)))
+        if not tangential:
+            normal = normal_components(f, x, y, z, poisson_ratio)
+        tangential.append(tangential_components(f, x, y, z, poisson_ratio))
+    return normal, np.concatenate(tangential, axis=1)
 
 
 def stress_history(
@@ -69,12 +70,13 @@ def stress_history(
     x, y, z
         Position in a_H, z ≥ 0 into the body; broadcastable to one shape S.
     cells
-        The spring slope g′ on m cells.
+        k slope functions on m cells.
     touching
         Shape (..., m): 1 for a cell in contact, 0 for one out of contact (the contact radius is a cell's
         end).
     tangential_slope
-        Shape (..., m): dτ/dG in [−1, 1], with the spring displacement τ = G* u/(μ E* δ0); 0 out of contact.
+        Shape (..., k, m): share of each slope function in dτ/dξ, with the spring displacement
+        τ = G* u/(μ E* δ0); for the first function that is dτ/dG in [−1, 1].
     friction, poisson_ratio
         μ, ν.
 
@@ -84,10 +86,11 @@ def stress_history(
         Shape S + (..., 6), components as `punch.COMPONENTS`, in E* √(δ0/R). Tension is positive.
     """
     x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (x, y, z)))
-    touching, drag = np.asarray(touching, dtype=float), -friction * np.asarray(tangential_slope, dtype=float)
-    instants = touching.shape[:-1]
+    touching, shares = np.asarray(touching, dtype=float), np.asarray(tangential_slope, dtype=float)
+    instants, cell_count = touching.shape[:-1], touching.shape[-1]
     # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
-    states = np.concatenate([touching, drag], axis=-1).reshape(-1, 2 * touching.shape[-1])
+    drag = -friction * shares.reshape(-1, shares.shape[-2] * cell_count)
+    states = np.concatenate([touching.reshape(-1, cell_count), drag], axis=-1)
     stress = np.empty((x.size, len(states), 6))
     rows = max(1, _BLOCK // len(cells.radius))
     for first in range(0, x.size, rows):
