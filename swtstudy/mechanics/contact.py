@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import Protocol, turning_instants
-from swtstudy.mechanics.roots import monotone_roots
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
@@ -90,6 +89,12 @@ class Cycle:
         """The cycles at ``index``, repetitions allowed."""
         rest = (getattr(self, field.name)[index] for field in fields(self)[3:])
         return Cycle(self.protocol.take(index), self.edges[index], self.memory.take((index,)), *rest)
+
+    def with_edges(self, edges: FloatArray, parent: NDArray[np.intp]) -> Cycle:
+        """The same cycle in finer intervals, each within the interval ``parent``, shape (n, i)."""
+        at = np.arange(len(edges))[:, None], parent
+        state = (v[at] for v in (self.forward, self.backward, self.growth, self.branch))
+        return Cycle(self.protocol, edges, self.memory.take(at), *state, self.gross_slip, self.lift_off)
 
 
 def solve_cycle(protocol: Protocol) -> Cycle:
@@ -223,10 +228,5 @@ def _front_in_piece(
         goal, branch = target[where], of_piece(memory.branch)[where]
         low = one.touch_down(start[where], branch)
         high = one.touch_down(of_piece(memory.stop)[where], branch)
-
-        def height(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-            value = sense * one.displacement(instant) - one.depth(instant) - goal
-            return value, sense * one.displacement_rate(instant) - one.depth_rate(instant)
-
-        front[where] = one.depth(monotone_roots(height, low, high))
+        front[where] = one.depth(one.slip_line_instant(sense, goal, low, high))
     return np.where(piece < 0, -np.inf, front)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import GROWTH, Cycle
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.roots import monotone_roots
+from swtstudy.mechanics.protocol import filled_rows
 
 
 def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
@@ -96,20 +96,41 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     in_contact = at < np.maximum(protocol.depth(cycle.edges), 0.0)[:, None, :-1]
 
     first = np.broadcast_to(high, held.shape).copy()
-    limit = protocol.displacement(cycle.edges), protocol.depth(cycle.edges)
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
         goal = sense * held - at
-        line = sense * limit[0] - limit[1]
-        passes = active[:, None] & in_contact & (line[:, None, :-1] < goal) & (goal < line[:, None, 1:])
-        hit = np.nonzero(passes)
-        if not hit[0].size:
-            continue
-        one, target = protocol.take(hit[0]), goal[hit]
-
-        def slip_line(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-            value = sense * one.displacement(instant) - one.depth(instant) - target  # noqa: B023
-            return value, sense * one.displacement_rate(instant) - one.depth_rate(instant)  # noqa: B023
-
-        ends = (np.broadcast_to(side, passes.shape)[hit] for side in (low, high))
-        first[hit] = np.minimum(first[hit], monotone_roots(slip_line, *ends))
+        hit, instant = _slip_line_passes(cycle, sense, goal, active[:, None] & in_contact)
+        first[hit] = np.minimum(first[hit], instant)
     return first
+
+
+def split_at_breakpoints(cycle: Cycle) -> Cycle:
+    """The same cycle with its intervals cut where a slip front passes a breakpoint of the memory.
+
+    The front changes its speed there, and with it the stress at every x outside of it.
+    """
+    memory = cycle.memory
+    n, _, depth = memory.start.shape
+    rows, instants = [], []
+    for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
+        goal = np.moveaxis(sense * memory.offset - memory.start, -1, 1)
+        hit, instant = _slip_line_passes(cycle, sense, goal, np.broadcast_to(active[:, None], goal.shape))
+        rows.append(hit[0])
+        instants.append(instant)
+    row, instant = np.concatenate(rows), np.concatenate(instants)
+    columns = filled_rows(row, instant, n, 2.0 * np.pi)
+    edges = np.sort(np.concatenate([cycle.edges, columns], axis=1), axis=1)
+    middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
+    parent = np.minimum((middle[:, :, None] >= cycle.edges[:, None, 1:]).sum(axis=-1), memory.start.shape[1] - 1)
+    return cycle.with_edges(edges, parent)
+
+
+def _slip_line_passes(
+    cycle: Cycle, sense: float, goal: FloatArray, allowed: NDArray[np.bool_]
+) -> tuple[tuple[NDArray[np.intp], ...], FloatArray]:
+    """Where in (n, X, i), and when, the slip line sense·u − δ rises through ``goal``."""
+    protocol = cycle.protocol
+    line = sense * protocol.displacement(cycle.edges) - protocol.depth(cycle.edges)
+    hit = np.nonzero(allowed & (line[:, None, :-1] < goal) & (goal < line[:, None, 1:]))
+    row, _, interval = hit
+    low, high = cycle.edges[row, interval], cycle.edges[row, interval + 1]
+    return hit, protocol.take(row).slip_line_instant(sense, goal[hit], low, high)

@@ -7,11 +7,12 @@ is either at such a place or smooth.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Resolution, Scene, refine, scan
 
@@ -99,6 +100,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     position = scan_positions(scene)
     swt, angle = scan(scene, position, SCAN_RESOLUTION, SCAN_PLANES)
     brackets = find_brackets(position, swt, angle)
+    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     for turn in range(accuracy.rounds):
         brackets = _narrow(scene, brackets, accuracy.search, first=turn == 0)
         brackets = _still_open(brackets, len(scene), CANDIDATE_SHARE if turn == 0 else 1 - 0.03**turn)

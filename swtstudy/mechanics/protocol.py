@@ -73,6 +73,36 @@ class Protocol:
         sine = np.divide(depth - 1.0, d, out=np.zeros_like(depth), where=d > 0.0)
         return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
 
+    def slip_line_instant(
+        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+    ) -> FloatArray:
+        """Instant in [low, high] at which the slip line sense·u − δ, monotone there, has the value goal.
+
+        All arrays of shape (n,). Where the goal is not reached, the nearer end.
+        """
+        if self.p == self.q:
+            return self._harmonic_instant(sense, goal, low, high)
+
+        def line(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
+            value = sense * self.displacement(instant) - self.depth(instant) - goal
+            return value, sense * self.displacement_rate(instant) - self.depth_rate(instant)
+
+        return monotone_roots(line, low, high)
+
+    def _harmonic_instant(
+        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+    ) -> FloatArray:
+        """`slip_line_instant` for p = q = 1, where the slip line is C sin(φ − β) − 1."""
+        a = sense * self.tangential_amplitude - self.normal_amplitude * np.cos(self.phase)
+        b = self.normal_amplitude * np.sin(self.phase)
+        size, shift = np.hypot(a, b), np.arctan2(b, a)
+        sine = np.divide(goal + 1.0, size, out=np.zeros_like(goal), where=size > 0.0)
+        angle = np.arcsin(np.clip(sine, -1.0, 1.0))
+        middle = 0.5 * (low + high) - shift
+        angle = np.where(np.cos(middle) >= 0.0, angle, np.pi - angle)
+        angle = angle + 2.0 * np.pi * np.round((middle - angle) / (2.0 * np.pi))
+        return np.clip(angle + shift, low, high)
+
 
 def _expand(values: FloatArray, like: FloatArray) -> FloatArray:
     """Append axes to ``values`` of shape (n,) so that it broadcasts against ``like`` of shape (n, …)."""
@@ -159,9 +189,14 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
         return line.displacement_rate(instant) - sign * line.depth_rate(instant), slope
 
     roots = np.mod(monotone_roots(rate_and_slope, low, high), 2.0 * np.pi)
-    count = np.bincount(row, minlength=len(protocol))
-    filled = np.full((len(protocol), max(count.max(initial=0), 1)), 2.0 * np.pi)
-    order_by_row = np.argsort(row, kind="stable")
-    column = np.arange(row.size) - np.repeat(np.cumsum(count) - count, count)
-    filled[row[order_by_row], column] = roots[order_by_row]
+    return filled_rows(row, roots, len(protocol), 2.0 * np.pi)
+
+
+def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
+    """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
+    sizes = np.bincount(row, minlength=count)
+    filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
+    order = np.argsort(row, kind="stable")
+    column = np.arange(row.size) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    filled[row[order], column] = values[order]
     return filled

@@ -9,16 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, parabola, pick, product
+from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, pick, product
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
+from swtstudy.mechanics.zoom import TimeBrackets
 
-#: Half the number of steps into which a zoom divides the two steps around an extreme.
-ZOOM_STEPS = 3
+#: How often the plane is improved and the extremes over the cycle are looked up anew.
+ANGLE_ROUNDS = 2
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Resolution:
     nodes
         Steps of the cosine-spaced instants of each stretch.
     zooms
-        How often the extremes are looked at more closely.
+        How often the extremes are looked at more closely, at least once to refine.
     growth_nodes
         Chebyshev nodes for the springs that stuck at touch-down.
     """
@@ -60,7 +62,7 @@ class Scene:
     def __len__(self) -> int:
         return len(self.friction)
 
-    def take(self, index: np.ndarray) -> Scene:
+    def take(self, index: NDArray[np.intp]) -> Scene:
         """The points at ``index``, repetitions allowed."""
         return Scene(
             self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
@@ -127,70 +129,42 @@ def refine(
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
-    interval, instant = cosine_nodes(ends, resolution.nodes)
-    planes = scene.planes(line.history(interval, instant), side)
+    planes = scene.planes(line.history(*cosine_nodes(ends, resolution.nodes)), side)
     angle = double_angle
-    for _ in range(2):
-        at = _extremes(planes, angle)
-        angle = best_angle(*_active(planes, at), angle)
-    at = _extremes(planes, angle)
-
-    # Each extreme lies between the neighbours of its node, in the angle of the cosine-spaced nodes.
-    steps = resolution.nodes
-    stretch, node = at // (steps + 1), at % (steps + 1)
-    n, columns = position.shape
-    low, high = (ends[..., k : k + 3].reshape(n, columns, -1) for k in (0, 1))
-    low, high = (np.take_along_axis(v, np.moveaxis(stretch, 0, -1), axis=-1) for v in (ends[..., :-1].reshape(n, columns, -1), ends[..., 1:].reshape(n, columns, -1)))
-    which = np.moveaxis(stretch // 3, 0, -1)
-    centre = np.moveaxis(node, 0, -1) * (np.pi / steps)
-    width = np.pi / steps
-    swt = np.zeros(position.shape)
-    offsets = np.arange(-ZOOM_STEPS, ZOOM_STEPS + 1) / ZOOM_STEPS
-    for _ in range(resolution.zooms):
-        centre = np.clip(centre, width, np.pi - width)
-        alpha = centre[..., None] + width * offsets
-        instant = low[..., None] + (high - low)[..., None] * (0.5 - 0.5 * np.cos(alpha))
-        interval = np.repeat(which, offsets.size, axis=-1)
-        planes = scene.planes(line.history(interval, instant.reshape(n, columns, -1)), side)
-        parts = [
-            PlaneHistory(*(c[..., k * offsets.size : (k + 1) * offsets.size] for c in (planes.stress, planes.strain)))
-            for k in range(3)
-        ]
-        swt, angle, shift = _from_parts(parts, angle)
-        width /= ZOOM_STEPS
-        centre = centre + width * shift
-    return swt, angle
+    for _ in range(ANGLE_ROUNDS):
+        at = _extremes([planes] * 3, angle)
+        angle = best_angle(*_active([planes] * 3, at), angle)
+    node = np.stack(_extremes([planes] * 3, angle), axis=-1)
+    brackets = TimeBrackets.around(ends, resolution.nodes, node)
+    for turn in range(resolution.zooms):
+        near = _parts(scene.planes(line.history(*brackets.samples()), side))
+        angle = best_angle(*_active(near, _extremes(near, angle)), angle)
+        best = _extremes(near, angle)
+        if turn < resolution.zooms - 1:
+            brackets = brackets.narrowed(np.stack(best, axis=-1))
+    tops = [
+        brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))
+    ]
+    return product(tops[0], tops[1], -tops[2]), angle
 
 
-def _extremes(planes: PlaneHistory, angle: FloatArray) -> np.ndarray:
-    """Indices of the instants of largest σ_n, largest ε_n, smallest ε_n, shape (3, …)."""
-    stress, strain = planes.on_plane(angle)
-    return np.stack([stress.argmax(axis=-1), strain.argmax(axis=-1), strain.argmin(axis=-1)])
+def _parts(planes: PlaneHistory) -> list[PlaneHistory]:
+    """The samples around each of the three extremes."""
+    pieces = (np.split(values, 3, axis=-1) for values in (planes.stress, planes.strain))
+    return [PlaneHistory(*both) for both in zip(*pieces, strict=True)]
 
 
-def _active(planes: PlaneHistory, at: np.ndarray) -> tuple[FloatArray, FloatArray]:
+def _curves(parts: list[PlaneHistory], angle: FloatArray) -> list[FloatArray]:
+    """σ_n, ε_n and −ε_n, whose maxima make swt, each from its own samples."""
+    stress, high, low = (part.on_plane(angle) for part in parts)
+    return [stress[0], high[1], -low[1]]
+
+
+def _extremes(parts: list[PlaneHistory], angle: FloatArray) -> list[NDArray[np.intp]]:
+    """Samples of largest σ_n, largest ε_n, smallest ε_n."""
+    return [curve.argmax(axis=-1) for curve in _curves(parts, angle)]
+
+
+def _active(parts: list[PlaneHistory], at: list[NDArray[np.intp]]) -> tuple[FloatArray, FloatArray]:
     """Coefficients of σ_n at its maximum and of ε_n between its extremes, each (3, …)."""
-    return pick(planes.stress, at[0]), pick(planes.strain, at[1]) - pick(planes.strain, at[2])
-
-
-def _from_parts(
-    parts: list[PlaneHistory], angle: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """swt from the three neighbourhoods; the angle, improved; the vertices in steps from their centres."""
-    def curves(angle):
-        return parts[0].on_plane(angle)[0], parts[1].on_plane(angle)[1], -parts[2].on_plane(angle)[1]
-    at = [c.argmax(axis=-1) for c in curves(angle)]
-    peak = pick(parts[0].stress, at[0])
-    swing = pick(parts[1].strain, at[1]) - pick(parts[2].strain, at[2])
-    angle = best_angle(peak, swing, angle)
-    tops, shifts = [], []
-    for curve in curves(angle):
-        index = curve.argmax(axis=-1)
-        middle = np.clip(index, 1, curve.shape[-1] - 2)
-        values = [pick(curve, middle + k) for k in (-1, 0, 1)]
-        shift, rise = parabola(*values)
-        top = pick(curve, index)
-        vertex = values[1] + rise
-        shifts.append(np.where(vertex >= top, middle + shift, index) - ZOOM_STEPS)
-        tops.append(np.maximum(vertex, top))
-    return product(tops[0], tops[1], -tops[2]), angle, np.stack(shifts, axis=-1)
+    return pick(parts[0].stress, at[0]), pick(parts[1].strain, at[1]) - pick(parts[2].strain, at[2])

@@ -1,0 +1,122 @@
+"""Closer looks at the extremes over the cycle.
+
+The extreme found at a node lies between the node's neighbours. Around a node inside of a stretch these are in
+the same stretch; around the end of a stretch, where the stress may have a cusp, they are in two. Both sides
+are walked in the angle α of their cosine-spaced nodes, in which the stress is smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.critical_plane import parabola, pick
+from swtstudy.mechanics.points import FloatArray
+
+#: Steps into which each side of a bracket is divided.
+STEPS = 3
+OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
+#: Stretches shorter than this, in rad of the cycle, count as none.
+NO_STRETCH = 1e-12
+
+
+@dataclass(frozen=True)
+class TimeBrackets:
+    """Brackets of e extremes at n × X positions, walked by c from −1 (left neighbour) to 1 (right one).
+
+    Attributes
+    ----------
+    low, high, interval, start
+        Shape (n, X, e, 2), for the left and the right side: the ends of the stretch, its interval of the
+        cycle, and the angle α at c = 0.
+    step
+        Change of α between c = 0 and 1.
+    centre
+        Shape (n, X, e): c of the best instant so far.
+    width
+        Half the width of the bracket in c.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    interval: NDArray[np.intp]
+    start: FloatArray
+    step: float
+    centre: FloatArray
+    width: float
+
+    @classmethod
+    def around(cls, ends: FloatArray, count: int, node: NDArray[np.intp]) -> TimeBrackets:
+        """Brackets around nodes of `swtstudy.mechanics.instants.cosine_nodes`.
+
+        Parameters
+        ----------
+        ends
+            Shape (n, X, i, 4), see `swtstudy.mechanics.instants.stretches`.
+        count
+            Number of steps of each stretch.
+        node
+            Shape (n, X, e).
+        """
+        shape = ends.shape[:2]
+        low, high = ends[..., :-1].reshape(*shape, -1), ends[..., 1:].reshape(*shape, -1)
+        total = low.shape[-1]
+        real = high - low > NO_STRETCH
+        number = np.arange(total)
+        last = np.maximum.accumulate(np.where(real, number, -1), axis=-1)
+        # The cycle is periodic: before its first stretch comes its last one.
+        last = np.where(last < 0, last[..., -1:], last)
+        following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
+        following = np.where(following == total, following[..., :1], following)
+
+        stretch, place = node // (count + 1), node % (count + 1)
+        before = np.where(place > 0, stretch, (stretch - 1) % total)
+        after = np.where(place < count, stretch, (stretch + 1) % total)
+        before = np.take_along_axis(last, before, axis=-1) % total
+        after = np.take_along_axis(following, after, axis=-1) % total
+        alpha = place * (np.pi / count)
+        left = np.where((before == stretch) & (place > 0), alpha, np.pi)
+        right = np.where((after == stretch) & (place < count), alpha, 0.0)
+        sides = np.stack([before, after], axis=-1)
+        flat = sides.reshape(*shape, -1)
+        low, high = (np.take_along_axis(v, flat, axis=-1).reshape(sides.shape) for v in (low, high))
+        start = np.stack([left, right], axis=-1)
+        return cls(low, high, sides // 3, start, np.pi / count, np.zeros(node.shape), 1.0)
+
+    def samples(self) -> tuple[NDArray[np.intp], FloatArray]:
+        """Intervals and instants of the samples, each of shape (n, X, e · k)."""
+        c = np.clip(self.centre[..., None] + self.width * OFFSETS, -1.0, 1.0)
+        right = c > 0.0
+
+        def side(values: NDArray) -> NDArray:  # type: ignore[type-arg]
+            return np.where(right, values[..., 1:], values[..., :1])
+
+        alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
+        low = side(self.low)
+        instant = low + (side(self.high) - low) * (0.5 - 0.5 * np.cos(alpha))
+        shape = (*c.shape[:2], -1)
+        return side(self.interval).reshape(shape), instant.reshape(shape)
+
+    def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
+        """The brackets around the best samples, shape (n, X, e)."""
+        centre = np.clip(self.centre + self.width * OFFSETS[best], -1.0, 1.0)
+        return replace(self, centre=centre, width=self.width / STEPS)
+
+    def vertex(self, curve: FloatArray, extreme: int, best: NDArray[np.intp]) -> FloatArray:
+        """Maximum of a curve over the samples of one extreme, from the parabola through the best of them.
+
+        Where two stretches meet at the best sample, each side has its own parabola.
+        """
+        corner = np.ptp(self.start[:, :, extreme], axis=-1) > 0.0
+        corner &= (best == STEPS) & (self.centre[:, :, extreme] == 0.0)
+        last = curve.shape[-1] - 1
+        top = pick(curve, best)
+        for lowest, highest in ((1, STEPS - 1), (STEPS + 1, last - 1)):
+            # Away from a corner both are the parabola around the best sample.
+            middle = np.where(corner, np.clip(best, lowest, highest), np.clip(best, 1, last - 1))
+            left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
+            _, rise = parabola(left, centre, right)
+            top = np.maximum(top, centre + rise)
+        return top
