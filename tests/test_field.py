@@ -238,6 +238,6 @@ def test_interior_accuracy_of_the_singular_profiles(slope):
 def test_instants_and_points_keep_their_shapes():
     cells = SlopeCells(np.array([0.0, 0.5, 1.0]), np.zeros((1, 2)), np.full((1, 2), 2.0))
     stress = stress_history(
-        np.zeros((4, 1)), np.zeros(3), 0.1, cells, np.ones((7, 2)), np.zeros((7, 2)), 0.3, 0.3
+        np.zeros((4, 1)), np.zeros(3), 0.1, cells, np.ones((7, 2)), np.zeros((7, 1, 2)), 0.3, 0.3
     )
     assert stress.shape == (4, 3, 7, 6)

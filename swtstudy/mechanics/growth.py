@@ -34,14 +34,14 @@ class GrowthIntegrals:
         self.count = int(grows.sum(axis=1).max(initial=0))
         order = np.argsort(~grows, axis=1, kind="stable")[:, : self.count]
         depth = np.maximum(cycle.protocol.depth(cycle.edges), 0.0)
-        #: Shape (n, k): depth at which each growth begins; its identity.
+        #: Shape (n, k): depths at which each growth begins and ends, and its branch: its identity.
         self.begin = np.take_along_axis(depth[:, :-1], order, axis=1)
-        end = np.where(
+        self.end = end = np.where(
             np.take_along_axis(grows, order, axis=1),
             np.take_along_axis(depth[:, 1:], order, axis=1),
             self.begin,
         )
-        branch = np.take_along_axis(cycle.branch, order, axis=1)
+        self.branch = branch = np.take_along_axis(cycle.branch, order, axis=1)
         # Axes from here on: profile n, position X, growth k, node.
         self.position = position[:, :, None]
         self.flat = profile.flat_radius[:, None, None]
@@ -61,7 +61,9 @@ class GrowthIntegrals:
         self.inner_span = inner_high - self.inner_low
         angle = self.inner_low[..., None] + self.inner_span[..., None] * share
         radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
-        density = profile.weighted_slope(radius) * slope(radius) * rate * self.inner_span[..., None]
+        # Under a flat face there are no springs inside r.
+        rate_inside = np.where(r > b, rate, 0.0) * self.inner_span[..., None]
+        density = profile.weighted_slope(radius) * slope(radius) * rate_inside
         first = density * 2.0 / r
         inner = np.stack([first, first * (radius / r) ** 2])
 
@@ -85,7 +87,11 @@ class GrowthIntegrals:
 
     def index(self, cycle: Cycle) -> NDArray[np.intp]:
         """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
-        same = cycle.memory.start[..., None] == self.begin[:, None, None, :]
+        memory = cycle.memory
+        # Growths may begin at one depth on several branches of δ, and while lifted off δ rises in vain.
+        same = memory.start[..., None] == self.begin[:, None, None, :]
+        same &= memory.stop[..., None] == self.end[:, None, None, :]
+        same &= memory.branch[..., None] == self.branch[:, None, None, :]
         return np.asarray(same.argmax(axis=-1))
 
     def up_to(
@@ -118,4 +124,3 @@ def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:
     """Abscissa in [−1, 1] of the sin² map."""
     part = np.divide(value - low, span, out=np.zeros_like(value), where=span > 0.0)
     return np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) * (4.0 / np.pi) - 1.0
-

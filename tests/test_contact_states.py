@@ -1,0 +1,56 @@
+"""The field on the surface line against the surface formulas: two ways from one memory diagram to the stress."""
+
+import numpy as np
+import pytest
+
+from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.field import contact_states
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+
+PROFILES = {
+    "paraboloid": {},
+    "rounded_punch": {"flat_radius": [0.5]},
+    "truncated_paraboloid": {"flat_radius": [0.5]},
+    "wavy_paraboloid": {"waviness_amplitude": [0.05], "wavelength": [20**0.5]},
+}
+# δA/δ0, p, q, uA, ψ: without growth in stick, with one growth, with several that begin at one depth, with
+# lift-off.
+LOADS = {
+    "slip": (0.75, 1, 1, 5 / 6, 0.0),
+    "growth": (0.75, 1, 1, 5 / 6, 1.0),
+    "growths": (0.75, 1, 4, 0.3, 0.5),
+    "lift-off": (1.5, 1, 2, 0.9, 2.0),
+    "constant": (0.0, 1, 1, 0.5, 0.0),
+}
+
+
+def contact(load, name):
+    amplitude, p, q, displacement, phase = LOADS[load]
+    one = (np.array([v]) for v in (amplitude, displacement, phase))
+    shape = {key: np.array(value) for key, value in PROFILES[name].items()}
+    return solve_cycle(Protocol(*one, p, q)), make_profile(name, shape, np.array([1.0 + amplitude]))
+
+
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("load", LOADS)
+def test_surface_line(load, name):
+    cycle, profile = contact(load, name)
+    rng = np.random.default_rng(1)
+    interval = rng.integers(0, cycle.growth.shape[1], 30)
+    low, high = cycle.edges[0, interval], cycle.edges[0, interval + 1]
+    instant = low + (high - low) * rng.uniform(size=30)
+    # Inside of a flat face, between, and out of contact; not at the ring where the pressure is infinite.
+    r = np.array([0.2, 0.45, 0.6, 0.85, 1.1, 1.4, 1.9])
+    friction, poisson_ratio = 0.4, 0.3
+    states = contact_states(cycle, profile, interval, instant, cells=100)
+    stress = states.stress(np.concatenate([r, -r]), 0.0, 0.0, friction, poisson_ratio)
+
+    line = SurfaceLine(cycle, profile, r[None], 40)
+    shape = (1, r.size, instant.size)
+    history = line.history(np.broadcast_to(interval, shape), np.broadcast_to(instant, shape))
+    ν, μ = np.array([poisson_ratio]), np.array([friction])
+    expected = [np.stack(stresses(history, ν, μ, side), axis=-1)[0] for side in (1.0, -1.0)]
+    np.testing.assert_allclose(stress[..., [0, 1, 2, 4]], np.concatenate(expected), rtol=0, atol=1e-5)
+    assert np.abs(stress[..., [3, 5]]).max() == 0.0
