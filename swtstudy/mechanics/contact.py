@@ -60,41 +60,44 @@ class Cycle:
     ----------
     protocol
         The n protocols.
-    edges
-        Shape (n, i + 1): first and last instants of the intervals, φ in [0, 2π].
+    begin, end
+        Shape (n, i): first and last instants of the intervals, φ in [0, 2π], ascending.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
     forward, backward
         Shape (n, i): whether u − δ rises, so that springs slip at τ = +w, and whether u + δ falls, so
-        that they slip at τ = −w.
-    growth
-        Shape (n, i): whether neither happens while δ rises: new ground sticks.
-    branch
-        Shape (n, i): 2πk of the branch of δ, see `Protocol.touch_down`.
+        that they slip at τ = −w. With neither of them the contact sticks.
     gross_slip, lift_off
         Shape (n,): whether the whole contact slides, or is lost, somewhere in the cycle.
     """
 
     protocol: Protocol
-    edges: FloatArray
+    begin: FloatArray
+    end: FloatArray
     memory: Memory
     forward: NDArray[np.bool_]
     backward: NDArray[np.bool_]
-    growth: NDArray[np.bool_]
-    branch: FloatArray
     gross_slip: NDArray[np.bool_]
     lift_off: NDArray[np.bool_]
 
     def take(self, index: NDArray[np.intp]) -> Cycle:
         """The cycles at ``index``, repetitions allowed."""
-        rest = (getattr(self, field.name)[index] for field in fields(self)[3:])
-        return Cycle(self.protocol.take(index), self.edges[index], self.memory.take((index,)), *rest)
+        every = np.arange(self.begin.shape[1])
+        return self.take_intervals(index, np.broadcast_to(every, (len(index), every.size)))
 
-    def with_edges(self, edges: FloatArray, parent: NDArray[np.intp]) -> Cycle:
-        """The same cycle in finer intervals, each within the interval ``parent``, shape (n, i)."""
-        at = np.arange(len(edges))[:, None], parent
-        state = (v[at] for v in (self.forward, self.backward, self.growth, self.branch))
-        return Cycle(self.protocol, edges, self.memory.take(at), *state, self.gross_slip, self.lift_off)
+    def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
+        """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""
+        at = index[:, None], interval
+        return Cycle(
+            self.protocol.take(index),
+            self.begin[at],
+            self.end[at],
+            self.memory.take(at),
+            self.forward[at],
+            self.backward[at],
+            self.gross_slip[index],
+            self.lift_off[index],
+        )
 
 
 def solve_cycle(protocol: Protocol) -> Cycle:
@@ -117,10 +120,11 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     depth, displacement = np.maximum(protocol.depth(edges), 0.0), protocol.displacement(edges)
 
     intervals = middle.shape[1]
-    shape = (n, 2 * intervals + 3)
+    shape = (n, 1, 2 * intervals + 3)
     stack = Memory(np.full(shape, np.inf), *(np.zeros(shape) for _ in range(4)))
-    stack.start[depth[:, 0] > 0.0, 0] = 0.0
-    record = Memory(*(np.empty((n, intervals, shape[1])) for _ in range(5)))
+    stack.start[depth[:, 0] > 0.0, 0, 0] = 0.0
+    record = Memory(*(np.empty((n, intervals, shape[2])) for _ in range(5)))
+    only = np.zeros((n, 1), dtype=np.intp)
     gross_slip = np.zeros(n, dtype=bool)
     flat = np.zeros(n)
     for period in range(2):
@@ -131,27 +135,31 @@ def solve_cycle(protocol: Protocol) -> Cycle:
             _push(stack, sticks, Memory(before, displacement[:, i], grown, branch[:, i], now))
             if period == 1:
                 for name in record.__dataclass_fields__:
-                    getattr(record, name)[:, i] = getattr(stack, name)
-            stack.start[stack.start >= now[:, None]] = np.inf
-            front, sign, _ = slip_front(protocol, stack, forward[:, i], backward[:, i], now, u)
+                    getattr(record, name)[:, i] = getattr(stack, name)[:, 0]
+            stack.start[stack.start >= now[:, None, None]] = np.inf
+            senses = forward[:, i : i + 1], backward[:, i : i + 1]
+            front, sign, _ = (
+                values[:, 0]
+                for values in slip_front(protocol, stack, *senses, only, now[:, None], u[:, None])
+            )
             slips = front < now
             _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
             if period == 1:
                 gross_slip |= slips & (front <= 0.0)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
-    lift_off = protocol.normal_amplitude >= 1.0
-    return Cycle(protocol, edges, memory, forward, backward, growth, branch, gross_slip, lift_off)
+    lift_off = protocol.normal_amplitude > 1.0
+    return Cycle(protocol, edges[:, :-1], edges[:, 1:], memory, forward, backward, gross_slip, lift_off)
 
 
 def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
     """Pop what begins at or outside of the piece's start, then push the piece, in the rows ``where``."""
     row = np.flatnonzero(where)
-    keep = stack.start[row] < piece.start[row, None]
-    stack.start[row] = np.where(keep, stack.start[row], np.inf)
+    keep = stack.start[row, 0] < piece.start[row, None]
+    stack.start[row, 0] = np.where(keep, stack.start[row, 0], np.inf)
     place = keep.sum(axis=1)
     for name in stack.__dataclass_fields__:
-        getattr(stack, name)[row, place] = getattr(piece, name)[row]
+        getattr(stack, name)[row, 0, place] = getattr(piece, name)[row]
 
 
 def slip_front(
@@ -159,6 +167,7 @@ def slip_front(
     memory: Memory,
     forward: NDArray[np.bool_],
     backward: NDArray[np.bool_],
+    interval: NDArray[np.intp],
     depth: FloatArray,
     displacement: FloatArray,
 ) -> tuple[FloatArray, FloatArray, NDArray[np.intp]]:
@@ -172,9 +181,11 @@ def slip_front(
     protocol
         n protocols.
     memory
-        Pieces inside of the front, shape (n, …, d).
+        Pieces inside of the front, shape (n, i, d).
     forward, backward
-        Shape (n, …): the senses in which springs may slip.
+        Shape (n, i): the senses in which springs may slip.
+    interval
+        Shape (n, …) or broadcast to it: the interval of each instant.
     depth, displacement
         Shape (n, …): δ ≥ 0 and u at the instants.
 
@@ -184,15 +195,19 @@ def slip_front(
         Shape (n, …): the depth of the front, 0 ≤ front ≤ δ; do/dG outside of it, +1 for forward slip,
         −1 for backward slip; the number of the piece in which the front lies.
     """
+    n, intervals, pieces = memory.start.shape
+    place = np.arange(n).reshape((n,) + (1,) * (depth.ndim - 1)) * intervals + interval
+    last = np.maximum(np.isfinite(memory.start).sum(axis=-1) - 1, 0)
     front, sign = depth, np.ones_like(depth)
-    piece = (memory.start < depth[..., None]).sum(axis=-1) - 1
-    for sense, active in ((1.0, forward), (-1.0, backward)):
-        if not np.any(active):
+    piece = np.broadcast_to(last.take(place), depth.shape)
+    for sense, senses in ((1.0, forward), (-1.0, backward)):
+        if not np.any(senses):
             continue
+        active = np.broadcast_to(senses.take(place), depth.shape)
         target = sense * displacement - depth
-        height = sense * memory.offset - memory.start
+        height = (sense * memory.offset - memory.start).reshape(-1, pieces).take(place, axis=0)
         inside = (height > target[..., None]).sum(axis=-1) - 1
-        found = _front_in_piece(protocol, memory, sense, target, inside, active)
+        found = _front_in_piece(protocol, memory, sense, target, place, inside, active)
         nearer = active & (found < front)
         front, sign = np.where(nearer, np.maximum(found, 0.0), front), np.where(nearer, sense, sign)
         piece = np.where(nearer, inside, piece)
@@ -204,29 +219,25 @@ def _front_in_piece(
     memory: Memory,
     sense: float,
     target: FloatArray,
+    place: NDArray[np.intp],
     piece: NDArray[np.intp],
     active: NDArray[np.bool_],
 ) -> FloatArray:
     """Solve sense·o(G) − G = target in the given piece; −inf where piece < 0."""
-    column = np.maximum(piece, 0)[..., None]
-
-    def of_piece(values: FloatArray) -> FloatArray:
-        return np.asarray(np.take_along_axis(values, column, axis=-1)[..., 0])
-
-    start, offset, slope = (of_piece(values) for values in (memory.start, memory.offset, memory.slope))
+    last = memory.start.shape[-1] - 1
+    at = place * (last + 1) + np.maximum(piece, 0)
+    start, offset, slope = (values.take(at) for values in (memory.start, memory.offset, memory.slope))
     steep = 1.0 - sense * np.where(slope == GROWTH, 0.0, slope)
     fall = np.where(piece < 0, 0.0, sense * offset - start - target)
     # On a line of the same sense h is constant: the front is at its end, in a tie that recurs every cycle.
-    last = memory.start.shape[-1] - 1
-    end = np.take_along_axis(memory.start, np.minimum(column + 1, last), axis=-1)[..., 0]
-    end = np.where(column[..., 0] == last, np.inf, end)
+    end = np.where(piece == last, np.inf, memory.start.take(at + (piece < last)))
     front = np.where(steep > 0.0, start + fall / np.where(steep > 0.0, steep, 1.0), end)
     grown = active & (slope == GROWTH) & (piece >= 0)
     if np.any(grown):
         where = np.nonzero(grown)
-        one = protocol.take(where[0])
-        goal, branch = target[where], of_piece(memory.branch)[where]
+        one, of_piece = protocol.take(where[0]), at[where]
+        branch = memory.branch.take(of_piece)
         low = one.touch_down(start[where], branch)
-        high = one.touch_down(of_piece(memory.stop)[where], branch)
-        front[where] = one.depth(one.slip_line_instant(sense, goal, low, high))
+        high = one.touch_down(memory.stop.take(of_piece), branch)
+        front[where] = one.depth(one.slip_line_instant(sense, target[where], low, high))
     return np.where(piece < 0, -np.inf, front)

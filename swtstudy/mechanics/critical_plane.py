@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
@@ -71,7 +70,8 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
         values.append(product(largest, strain.max(axis=-1), strain.min(axis=-1)))
     table = np.stack(values)
     best = table.argmax(axis=0)
-    left, middle, right = (np.take_along_axis(table, (best + k)[None] % count, axis=0)[0] for k in (-1, 0, 1))
+    cell = np.arange(best.size).reshape(best.shape)
+    left, middle, right = (table.take((best + k) % count * best.size + cell) for k in (-1, 0, 1))
     shift, rise = parabola(left, middle, right)
     return middle + rise, angles[best] + shift * angles[1]
 
@@ -102,12 +102,6 @@ def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) ->
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
         angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
     return angle
-
-
-def pick(values: FloatArray, index: NDArray[np.intp]) -> FloatArray:
-    """Values of shape (…, T) at the index of shape (…)."""
-    index = np.broadcast_to(index, values.shape[:-1])
-    return np.asarray(np.take_along_axis(values, index[..., None], axis=-1)[..., 0])
 
 
 def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:

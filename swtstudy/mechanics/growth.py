@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics import cumulative
-from swtstudy.mechanics.contact import Cycle
+from swtstudy.mechanics.contact import GROWTH, Cycle, Memory
+from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
@@ -30,22 +31,29 @@ class GrowthIntegrals:
     """
 
     def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
-        grows = cycle.growth
-        self.count = int(grows.sum(axis=1).max(initial=0))
-        order = np.argsort(~grows, axis=1, kind="stable")[:, : self.count]
-        depth = np.maximum(cycle.protocol.depth(cycle.edges), 0.0)
-        #: Shape (n, k): depths at which each growth begins and ends, and its branch: its identity.
-        self.begin = np.take_along_axis(depth[:, :-1], order, axis=1)
-        self.end = end = np.where(
-            np.take_along_axis(grows, order, axis=1),
-            np.take_along_axis(depth[:, 1:], order, axis=1),
-            self.begin,
+        memory = cycle.memory
+        n = len(memory.start)
+        grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+        key = np.where(grown, _identity(memory), np.inf).reshape(n, -1)
+        order = np.argsort(key, axis=1, kind="stable")
+        key, start, stop, branch = (
+            gather(v.reshape(n, -1), order) for v in (key, memory.start, memory.stop, memory.branch)
         )
-        self.branch = branch = np.take_along_axis(cycle.branch, order, axis=1)
+        first = np.isfinite(key)
+        first[:, 1:] &= key[:, 1:] != key[:, :-1]
+        self.count = int(first.sum(axis=1).max(initial=0))
+        if not self.count:
+            return
+        # Rows with fewer growths repeat one; nothing refers to it.
+        first[:, 0] = True
+        begin = np.where(np.isfinite(key), start, 0.0)
+        begin, end, branch, key = packed(first, begin, stop, branch, key)
+        #: Shape (n, k): tells the growths apart.
+        self.key = key
         # Axes from here on: profile n, position X, growth k, node.
         self.position = position[:, :, None]
         self.flat = profile.flat_radius[:, None, None]
-        low, high = (profile.radius(g)[:, None, :] for g in (self.begin, end))
+        low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
         y = np.sin(0.25 * np.pi * (1.0 + cumulative.nodes(count)))
         share, rate = y * y, 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
 
@@ -61,9 +69,7 @@ class GrowthIntegrals:
         self.inner_span = inner_high - self.inner_low
         angle = self.inner_low[..., None] + self.inner_span[..., None] * share
         radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
-        # Under a flat face there are no springs inside r.
-        rate_inside = np.where(r > b, rate, 0.0) * self.inner_span[..., None]
-        density = profile.weighted_slope(radius) * slope(radius) * rate_inside
+        density = profile.weighted_slope(radius) * slope(radius) * rate * self.inner_span[..., None]
         first = density * 2.0 / r
         inner = np.stack([first, first * (radius / r) ** 2])
 
@@ -87,11 +93,7 @@ class GrowthIntegrals:
 
     def index(self, cycle: Cycle) -> NDArray[np.intp]:
         """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
-        memory = cycle.memory
-        # Growths may begin at one depth on several branches of δ, and while lifted off δ rises in vain.
-        same = memory.start[..., None] == self.begin[:, None, None, :]
-        same &= memory.stop[..., None] == self.end[:, None, None, :]
-        same &= memory.branch[..., None] == self.branch[:, None, None, :]
+        same = _identity(cycle.memory)[..., None] == self.key[:, None, None, :]
         return np.asarray(same.argmax(axis=-1))
 
     def up_to(
@@ -108,19 +110,27 @@ class GrowthIntegrals:
         row, column, index, radius
             Shape (m,): point, position, number of the growth (see `index`), upper limit ξ.
         """
-        at = row, column, index
-        r2, b2 = self.position[row, column, 0] ** 2, self.flat[row, 0, 0] ** 2
+        columns, count = self.position.shape[1], self.count
+        at = (row * columns + column) * count + index
+        r2 = self.position.take(row * columns + column) ** 2
+        b2 = self.flat.take(row) ** 2
         sine = np.maximum(radius**2 - b2, 0.0) / np.maximum(r2 - b2, 1e-300)
         angle = np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0)))
         root = np.sqrt(np.maximum(radius**2 - r2, 0.0))
-        inner = _share(angle, self.inner_low[at], self.inner_span[at])
-        outer = _share(root, self.outer_low[at], self.outer_span[at])
-        series = self.series[:, row, column, index]
+        inner = _share(angle, self.inner_low.take(at), self.inner_span.take(at))
+        outer = _share(root, self.outer_low.take(at), self.outer_span.take(at))
+        series = self.series.reshape(3, -1, self.series.shape[-1]).take(at, axis=1)
         both = cumulative.evaluate(series[:2], inner)
         return np.concatenate([both, cumulative.evaluate(series[2:], outer)])
+
+
+def _identity(memory: Memory) -> FloatArray:
+    """A number of its own for every growth: depths are below 4π."""
+    return memory.start + 2.0 * memory.branch
 
 
 def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:
     """Abscissa in [−1, 1] of the sin² map."""
     part = np.divide(value - low, span, out=np.zeros_like(value), where=span > 0.0)
     return np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) * (4.0 / np.pi) - 1.0
+

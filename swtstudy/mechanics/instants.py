@@ -7,12 +7,18 @@ stretches in which the stress is smooth but for square roots at the ends; cosine
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import GROWTH, Cycle
+from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import filled_rows
+
+#: Stretches shorter than this, in rad of the cycle, count as none.
+NO_STRETCH = 1e-12
 
 
 def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
@@ -30,7 +36,7 @@ def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
     Shape (n, X, i, 4), ascending: begin of the interval, passage of the slip front and of the contact edge,
     end. What does not happen in an interval coincides with its begin or end.
     """
-    begin, end = cycle.edges[:, None, :-1], cycle.edges[:, None, 1:]
+    begin, end = cycle.begin[:, None], cycle.end[:, None]
     edge = _edge_passes(cycle, depth)
     front = _front_passes(cycle, depth)
     first, second = np.minimum(front, edge), np.maximum(front, edge)
@@ -38,11 +44,32 @@ def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
     return np.stack([np.broadcast_to(begin, shape), first, second, np.broadcast_to(end, shape)], axis=-1)
 
 
-def cosine_nodes(ends: FloatArray, count: int) -> tuple[NDArray[np.intp], FloatArray]:
-    """Cosine-spaced nodes on each stretch.
+@dataclass(frozen=True)
+class Nodes:
+    """Instants at n × X positions, T each.
+
+    Where no event cuts an interval, all positions have the same instants: they are listed once.
+
+    Attributes
+    ----------
+    interval, instant
+        Shape (n, k): the distinct instants φ, and their intervals of the cycle.
+    index
+        Shape (n, X, T): which of the k.
+    """
+
+    interval: NDArray[np.intp]
+    instant: FloatArray
+    index: NDArray[np.intp]
+
+
+def cosine_nodes(cycle: Cycle, ends: FloatArray, count: int) -> tuple[Nodes, NDArray[np.intp]]:
+    """Cosine-spaced nodes on each stretch that is one, without repetitions where stretches meet.
 
     Parameters
     ----------
+    cycle
+        n cycles.
     ends
         Shape (n, X, i, 4), see `stretches`.
     count
@@ -50,21 +77,52 @@ def cosine_nodes(ends: FloatArray, count: int) -> tuple[NDArray[np.intp], FloatA
 
     Returns
     -------
-    interval, instant
-        Shape (1, 1, T) and (n, X, T), T = 3 i (count + 1).
+    nodes, number
+        The nodes; stretch · (count + 1) + place in the stretch, shape (n, X, T).
     """
+    n, columns, intervals, _ = ends.shape
+    low, high = (ends[..., side].reshape(n, columns, -1) for side in (slice(3), slice(1, 4)))
+    real = high - low > NO_STRETCH
+    keep = np.repeat(real[..., None], count + 1, axis=-1)
+    keep[..., -1] &= ~_meets_next(low, high, real)
+    keep = keep.reshape(n, columns, -1)
+    (number,) = packed(keep, np.broadcast_to(np.arange(keep.shape[-1]), keep.shape))
+    stretch, place = number // (count + 1), number % (count + 1)
     share = 0.5 - 0.5 * np.cos(np.pi * np.arange(count + 1) / count)
-    low, high = ends[..., :-1, None], ends[..., 1:, None]
-    instant = low + (high - low) * share
-    intervals = ends.shape[2]
-    interval = np.repeat(np.arange(intervals), 3 * (count + 1))
-    return interval[None, None], instant.reshape(*ends.shape[:2], -1)
+
+    interval = np.repeat(np.arange(intervals), count + 1)
+    begin, end = np.repeat(cycle.begin, count + 1, axis=1), np.repeat(cycle.end, count + 1, axis=1)
+    common = begin + (end - begin) * np.tile(share, intervals)
+
+    low, high = gather(low, stretch).reshape(n, -1), gather(high, stretch).reshape(n, -1)
+    place, of_interval = place.reshape(n, -1), stretch.reshape(n, -1) // 3
+    index = of_interval * (count + 1) + place
+    own = (low != gather(cycle.begin, of_interval)) | (high != gather(cycle.end, of_interval))
+    index = np.where(own, common.shape[1] + np.cumsum(own, axis=1) - 1, index)
+    # A row without instants of its own keeps one for the others' sake.
+    own[:, 0] |= ~own.any(axis=1)
+    own_interval, own_instant = packed(own, of_interval), packed(own, low + (high - low) * share[place])
+    nodes = Nodes(
+        np.concatenate([np.broadcast_to(interval, common.shape), *own_interval], axis=1),
+        np.concatenate([common, *own_instant], axis=1),
+        index.reshape(number.shape),
+    )
+    return nodes, number
+
+
+def _meets_next(low: FloatArray, high: FloatArray, real: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Whether the end of each stretch is the begin of the next one that has a length."""
+    total = low.shape[-1]
+    number = np.arange(total)
+    following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
+    after = np.append(following[..., 1:], np.full((*low.shape[:-1], 1), total), axis=-1)
+    return (after < total) & (gather(low, np.minimum(after, total - 1)) == high)
 
 
 def _edge_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     """Instant with δ = G in each interval, or its nearer end, shape (n, X, i)."""
     protocol = cycle.protocol
-    low, high = cycle.edges[:, None, :-1], cycle.edges[:, None, 1:]
+    low, high = cycle.begin[:, None], cycle.end[:, None]
     middle = 0.5 * (low + high)
     rising = protocol.depth_rate(middle) > 0.0
     instant = protocol.touch_down(np.broadcast_to(depth[:, :, None], (*depth.shape, 1)), np.zeros(1))
@@ -82,7 +140,7 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     """Instant at which the spring at G starts to slip in each interval, else the end, shape (n, X, i)."""
     protocol, memory = cycle.protocol, cycle.memory
     n, columns = depth.shape
-    low, high = cycle.edges[:, None, :-1], cycle.edges[:, None, 1:]
+    low, high = cycle.begin[:, None], cycle.end[:, None]
     at = depth[:, :, None]
     piece = np.maximum((memory.start[:, None] < at[..., None]).sum(axis=-1) - 1, 0)
     row = np.arange(n)[:, None, None]
@@ -93,7 +151,7 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     if np.any(grown):
         deep = np.broadcast_to(at, grown.shape)
         held = np.where(grown, protocol.displacement(protocol.touch_down(deep, memory.branch[where])), held)
-    in_contact = at < np.maximum(protocol.depth(cycle.edges), 0.0)[:, None, :-1]
+    in_contact = at < np.maximum(protocol.depth(cycle.begin), 0.0)[:, None]
 
     first = np.broadcast_to(high, held.shape).copy()
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
@@ -109,7 +167,7 @@ def split_at_breakpoints(cycle: Cycle) -> Cycle:
     The front changes its speed there, and with it the stress at every x outside of it.
     """
     memory = cycle.memory
-    n, _, depth = memory.start.shape
+    n = len(memory.start)
     rows, instants = [], []
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
         goal = np.moveaxis(sense * memory.offset - memory.start, -1, 1)
@@ -117,11 +175,13 @@ def split_at_breakpoints(cycle: Cycle) -> Cycle:
         rows.append(hit[0])
         instants.append(instant)
     row, instant = np.concatenate(rows), np.concatenate(instants)
-    columns = filled_rows(row, instant, n, 2.0 * np.pi)
-    edges = np.sort(np.concatenate([cycle.edges, columns], axis=1), axis=1)
+    cuts = filled_rows(row, instant, n, 2.0 * np.pi)
+    edges = np.sort(np.concatenate([np.zeros((n, 1)), cycle.end, cuts], axis=1), axis=1)
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
-    parent = np.minimum((middle[:, :, None] >= cycle.edges[:, None, 1:]).sum(axis=-1), memory.start.shape[1] - 1)
-    return cycle.with_edges(edges, parent)
+    parent = (middle[:, :, None] >= cycle.end[:, None]).sum(axis=-1)
+    parent = np.minimum(parent, cycle.end.shape[1] - 1)
+    finer = cycle.take_intervals(np.arange(n), parent)
+    return replace(finer, begin=edges[:, :-1], end=edges[:, 1:])
 
 
 def _slip_line_passes(
@@ -129,8 +189,10 @@ def _slip_line_passes(
 ) -> tuple[tuple[NDArray[np.intp], ...], FloatArray]:
     """Where in (n, X, i), and when, the slip line sense·u − δ rises through ``goal``."""
     protocol = cycle.protocol
-    line = sense * protocol.displacement(cycle.edges) - protocol.depth(cycle.edges)
-    hit = np.nonzero(allowed & (line[:, None, :-1] < goal) & (goal < line[:, None, 1:]))
+    first, last = (
+        sense * protocol.displacement(instant) - protocol.depth(instant) for instant in (cycle.begin, cycle.end)
+    )
+    hit = np.nonzero(allowed & (first[:, None] < goal) & (goal < last[:, None]))
     row, _, interval = hit
-    low, high = cycle.edges[row, interval], cycle.edges[row, interval + 1]
+    low, high = cycle.begin[row, interval], cycle.end[row, interval]
     return hit, protocol.take(row).slip_line_instant(sense, goal[hit], low, high)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.gather import packed
 from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Resolution, Scene, refine, scan
@@ -23,7 +24,7 @@ SCAN_PLANES = 8
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
 #: Local maxima below this share of the largest are not followed.
 CANDIDATE_SHARE = 0.9
-#: Positions nearer than this are one, in the largest contact radius.
+#: Cusps nearer than this in depth are one.
 SAME_POSITION = 1e-9
 
 
@@ -97,10 +98,11 @@ class Brackets:
 
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt on the surface line of each of the n points of the scene."""
-    position = scan_positions(scene)
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    position = scan_positions(split)
     swt, angle = scan(scene, position, SCAN_RESOLUTION, SCAN_PLANES)
     brackets = find_brackets(position, swt, angle)
-    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    scene = split
     for turn in range(accuracy.rounds):
         brackets = _narrow(scene, brackets, accuracy.search, first=turn == 0)
         brackets = _still_open(brackets, len(scene), CANDIDATE_SHARE if turn == 0 else 1 - 0.03**turn)
@@ -108,22 +110,31 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 
 def scan_positions(scene: Scene) -> FloatArray:
-    """Positions of the first look, ascending, shape (n, X); rows with fewer repeat the last."""
+    """Positions of the first look, ascending, shape (n, X); rows with fewer repeat the last.
+
+    Cusps of swt(x) are where the contact edge or a slip front is when something else changes; in between,
+    positions are spread evenly.
+    """
     cycle, profile = scene.cycle, scene.profile
     n = len(scene)
-    d = cycle.protocol.normal_amplitude[:, None]
     starts = cycle.memory.start.reshape(n, -1)
-    depth = np.concatenate([1.0 + d, np.maximum(1.0 - d, 0.0), np.where(np.isfinite(starts), starts, 0.0)], axis=1)
-    cusps = profile.radius(depth)
-    largest = cusps[:, :1]
-    share = np.sin(0.5 * np.pi * (np.arange(SCAN_POSITIONS) + 0.5) / SCAN_POSITIONS)
-    flat = profile.flat_radius[:, None]
+    edges = np.maximum(cycle.protocol.depth(cycle.begin), 0.0)
+    largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
+    cusps = np.sort(
+        np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1), axis=1
+    )
+    new = np.diff(cusps, axis=1, prepend=0.0) > SAME_POSITION
+    new[:, -1] = True
+    cusps = profile.radius(packed(new, cusps)[0])
+    largest, flat = cusps.max(axis=1, keepdims=True), profile.flat_radius[:, None]
+    share = (np.arange(SCAN_POSITIONS) + 0.5) / SCAN_POSITIONS
     spread = flat + (largest - flat) * share
+    distance = np.abs(spread[:, :, None] - cusps[:, None, :]).min(axis=2)
+    lone = distance > 0.4 * (largest - flat) / SCAN_POSITIONS
+    spread = np.where(lone, spread, largest)
     position = np.sort(np.concatenate([cusps, spread], axis=1), axis=1)
-    new = np.diff(position, axis=1, prepend=0.0) > SAME_POSITION * largest
-    position = np.where(new, position, np.inf)
-    position = np.sort(position, axis=1)[:, : int(new.sum(axis=1).max())]
-    return np.minimum(position, largest)
+    new = np.diff(position, axis=1, prepend=0.0) > 0.0
+    return np.minimum(packed(new, position)[0], largest)
 
 
 def find_brackets(position: FloatArray, swt: FloatArray, angle: FloatArray) -> Brackets:

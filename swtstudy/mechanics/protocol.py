@@ -74,7 +74,7 @@ class Protocol:
         return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
 
     def slip_line_instant(
-        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+        self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
     ) -> FloatArray:
         """Instant in [low, high] at which the slip line sense·u − δ, monotone there, has the value goal.
 
@@ -83,14 +83,15 @@ class Protocol:
         if self.p == self.q:
             return self._harmonic_instant(sense, goal, low, high)
 
-        def line(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-            value = sense * self.displacement(instant) - self.depth(instant) - goal
-            return value, sense * self.displacement_rate(instant) - self.depth_rate(instant)
+        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+            one = self.take(active)
+            value = sense * one.displacement(instant) - one.depth(instant) - goal[active]
+            return value, sense * one.displacement_rate(instant) - one.depth_rate(instant)
 
         return monotone_roots(line, low, high)
 
     def _harmonic_instant(
-        self, sense: FloatArray | float, goal: FloatArray, low: FloatArray, high: FloatArray
+        self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
     ) -> FloatArray:
         """`slip_line_instant` for p = q = 1, where the slip line is C sin(φ − β) − 1."""
         a = sense * self.tangential_amplitude - self.normal_amplitude * np.cos(self.phase)
@@ -184,9 +185,10 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     line = protocol.take(row)
     p, q = protocol.p, protocol.q
 
-    def rate_and_slope(instant: FloatArray) -> tuple[FloatArray, FloatArray]:
-        slope = -p * p * line.displacement(instant) + sign * q * q * (line.depth(instant) - 1.0)
-        return line.displacement_rate(instant) - sign * line.depth_rate(instant), slope
+    def rate_and_slope(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+        one = line.take(active)
+        slope = -p * p * one.displacement(instant) + sign * q * q * (one.depth(instant) - 1.0)
+        return one.displacement_rate(instant) - sign * one.depth_rate(instant), slope
 
     roots = np.mod(monotone_roots(rate_and_slope, low, high), 2.0 * np.pi)
     return filled_rows(row, roots, len(protocol), 2.0 * np.pi)

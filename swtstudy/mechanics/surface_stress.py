@@ -8,14 +8,19 @@ The stress at x is a short sum over the memory diagram: with the full-slip primi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.growth import GrowthIntegrals
+from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
+
+T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
@@ -58,94 +63,102 @@ class SurfaceLine:
         self.cycle, self.profile, self.position = cycle, profile, position
         self.primitives = profile.primitives(position)
         memory = cycle.memory
-        n, intervals, depth = memory.start.shape
+        n, intervals, pieces = memory.start.shape
         finite = np.isfinite(memory.start)
-        radius = profile.radius(np.where(finite, memory.start, 0.0).reshape(n, -1))
-        at_start = self._full_slip(radius[:, None, :]).reshape(3, n, -1, intervals, depth)
+        breakpoints, number = _distinct(np.where(finite, memory.start, 0.0).reshape(n, -1))
+        radius = profile.radius(breakpoints)[:, None, :]
+        columns = position.shape[1]
+        at_start = np.empty((3, n, columns, intervals, pieces))
+        number = number[:, None]
+        for component, values in zip(at_start, self._full_slip(radius), strict=True):
+            component[...] = gather(values, number).reshape(component.shape)
 
         slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
         # Integral over each complete piece, up to the start of the next one.
         piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
         self.growth = GrowthIntegrals(cycle, profile, position, growth_nodes)
-        self.grown = finite & (memory.slope == GROWTH)
         if self.growth.count:
             self.growth_index = self.growth.index(cycle)
-            row, i, d = np.nonzero(self.grown[..., :-1] & finite[..., 1:])
-            up_to = radius.reshape(n, intervals, depth)[row, i, d + 1]
+            grown = finite & (memory.slope == GROWTH)
+            row, i, d = np.nonzero(grown[..., :-1] & finite[..., 1:])
+            up_to = gather(radius[:, 0], number[:, 0]).reshape(finite.shape)[row, i, d + 1]
             index = self.growth_index[row, i, d]
-            columns = np.arange(position.shape[1])
-            many = (a.ravel() for a in np.broadcast_arrays(
-                row[:, None], columns, index[:, None], up_to[:, None]))
-            grown = self.growth.up_to(*many).reshape(3, row.size, columns.size)
-            piece[:, row, :, i, d] = np.moveaxis(grown, 0, 1)
+            many = np.broadcast_arrays(row[:, None], np.arange(columns), index[:, None], up_to[:, None])
+            part = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
+            piece[:, row, :, i, d] = np.moveaxis(part, 0, 1)
         inside = np.zeros_like(at_start)
         np.cumsum(piece, axis=-1, out=inside[..., 1:])
         #: Shape (3, n, X, i·d): integral up to the front = base − slope · A(front), for lines.
-        self.base = (inside + slope * at_start).reshape(3, n, -1, intervals * depth)
+        self.base = (inside + slope * at_start).reshape(3, n, columns, -1)
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
         inner, outer = self.primitives.inner(radius), self.primitives.outer(radius)
         return np.concatenate([inner, outer[:1]])
 
-    def history(self, interval: NDArray[np.intp], instant: FloatArray) -> History:
-        """Stress building blocks at the given instants.
-
-        Parameters
-        ----------
-        interval, instant
-            Shape (n, X, T) or (n, 1, T): intervals of the cycle and instants φ within them.
-        """
+    def history(self, nodes: Nodes) -> History:
+        """Stress building blocks at the given instants, index of shape (n, X, T)."""
         cycle, profile = self.cycle, self.profile
-        n = len(instant)
-        depth = np.maximum(cycle.protocol.depth(instant), 0.0)
-        row = np.arange(n)[:, None, None]
+        n, intervals, pieces = cycle.memory.start.shape
+        depth = np.maximum(cycle.protocol.depth(nodes.instant), 0.0)
+        displacement = cycle.protocol.displacement(nodes.instant)
+        senses = cycle.forward, cycle.backward
         front, sign, piece = slip_front(
-            cycle.protocol,
-            cycle.memory.take((row, interval)),
-            cycle.forward[row, interval],
-            cycle.backward[row, interval],
-            depth,
-            cycle.protocol.displacement(instant),
+            cycle.protocol, cycle.memory, *senses, nodes.interval, depth, displacement
         )
-        edge_radius = profile.radius(depth.reshape(n, -1)).reshape(depth.shape)
-        front_radius = profile.radius(front.reshape(n, -1)).reshape(depth.shape)
-
-        at_front = self._full_slip(front_radius)
-        inner, outer = self.primitives.inner(edge_radius), self.primitives.outer(edge_radius)
-        at_edge = np.concatenate([inner, outer[:1]])
-        shape = at_front.shape[1:]
-        slope = self.cycle.memory.slope[row, interval, piece]
+        place = nodes.interval * pieces + piece
+        slope = gather(cycle.memory.slope.reshape(n, -1), place)
         grown = slope == GROWTH
         slope = np.where(grown, 0.0, slope)
-        place = interval * self.cycle.memory.start.shape[2] + piece
-        base = np.take_along_axis(self.base, np.broadcast_to(place, shape)[None], axis=-1)
-        total = base - slope * at_front - sign * (at_edge - at_front)
+        front_radius, edge_radius = profile.radius(front), profile.radius(depth)
+        half_load = profile.half_load(edge_radius)
+
+        shape = nodes.index.shape
+        flat = nodes.index.reshape(n, -1)
+
+        def at_positions(values: NDArray[T]) -> NDArray[T]:
+            return gather(values, flat).reshape(shape)
+
+        place, sign, slope = at_positions(place), at_positions(sign), at_positions(slope)
+        edge = at_positions(edge_radius)
+        at_front = self._full_slip(at_positions(front_radius))
+        inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
+        total = np.empty(at_front.shape)
+        for result, base, front_part, edge_part in zip(
+            total, self.base, at_front, (*inner, outer[0]), strict=True
+        ):
+            np.subtract(gather(base, place), sign * edge_part, out=result)
+            result += (sign - slope) * front_part
         if np.any(grown):
-            self._add_growth(total, grown, interval, piece, front_radius)
+            self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
         total /= np.pi
         r = self.position[:, :, None]
-        half_load = profile.half_load(edge_radius.reshape(n, -1)).reshape(depth.shape)
-        load = 2.0 * (half_load - outer[1])
-        return History(at_edge[2] / np.pi, load / (np.pi * r * r), *total)
+        load = 2.0 * (at_positions(half_load) - outer[1])
+        return History(outer[0] / np.pi, load / (np.pi * r * r), *total)
 
     def _add_growth(
         self,
         total: FloatArray,
         grown: NDArray[np.bool_],
-        interval: NDArray[np.intp],
-        piece: NDArray[np.intp],
+        place: NDArray[np.intp],
         front_radius: FloatArray,
     ) -> None:
         """Add the part of a growth inside of the front, where the front cuts it."""
-        shape = total.shape[1:]
-        where = np.nonzero(np.broadcast_to(grown, shape))
+        where = np.nonzero(grown)
         row, column, _ = where
-        interval, piece, radius = (
-            np.broadcast_to(a, shape)[where] for a in (interval, piece, front_radius)
-        )
-        index = self.growth_index[row, interval, piece]
-        total[:, *where] += self.growth.up_to(row, column, index, radius)
+        index = self.growth_index.reshape(len(total[0]), -1)[row, place[where]]
+        total[:, *where] += self.growth.up_to(row, column, index, front_radius[where])
+
+
+def _distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """The distinct values of each row, shape (n, k), and the number of each value, shape of ``values``."""
+    order = np.argsort(values, axis=1, kind="stable")
+    ascending = gather(values, order)
+    new = np.ones(values.shape, dtype=bool)
+    new[:, 1:] = ascending[:, 1:] != ascending[:, :-1]
+    number = np.empty(values.shape, dtype=np.intp)
+    np.put_along_axis(number, order, np.cumsum(new, axis=1) - 1, axis=1)
+    return packed(new, ascending)[0], number
 
 
 def stresses(

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, pick, product
+from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, product
+from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
@@ -21,6 +22,8 @@ from swtstudy.mechanics.zoom import TimeBrackets
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
+#: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
+STARTS = (0.0, -0.25, 0.25)
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,8 @@ def scan(
     """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
-    history = line.history(*cosine_nodes(ends, resolution.nodes))
+    nodes, _ = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    history = line.history(nodes)
     sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
     return swt, angle
@@ -129,15 +133,13 @@ def refine(
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
-    planes = scene.planes(line.history(*cosine_nodes(ends, resolution.nodes)), side)
-    angle = double_angle
-    for _ in range(ANGLE_ROUNDS):
-        at = _extremes([planes] * 3, angle)
-        angle = best_angle(*_active([planes] * 3, at), angle)
-    node = np.stack(_extremes([planes] * 3, angle), axis=-1)
+    nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    planes = scene.planes(line.history(nodes), side)
+    angle, at = _best_plane(planes, double_angle)
+    node = gather(number, np.stack(at, axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
-        near = _parts(scene.planes(line.history(*brackets.samples()), side))
+        near = _parts(scene.planes(line.history(brackets.samples()), side))
         angle = best_angle(*_active(near, _extremes(near, angle)), angle)
         best = _extremes(near, angle)
         if turn < resolution.zooms - 1:
@@ -146,6 +148,22 @@ def refine(
         brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))
     ]
     return product(tops[0], tops[1], -tops[2]), angle
+
+
+def _best_plane(
+    planes: PlaneHistory, double_angle: FloatArray
+) -> tuple[FloatArray, list[NDArray[np.intp]]]:
+    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes."""
+    parts = [planes] * 3
+    best, best_start = np.full(double_angle.shape, -1.0), double_angle
+    for start in STARTS:
+        angle = double_angle + start
+        for _ in range(ANGLE_ROUNDS):
+            angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
+        stress, high, low = (curve.max(axis=-1) for curve in _curves(parts, angle))
+        swt = product(stress, high, -low)
+        best, best_start = np.where(swt > best, swt, best), np.where(swt > best, angle, best_start)
+    return best_start, _extremes(parts, best_start)
 
 
 def _parts(planes: PlaneHistory) -> list[PlaneHistory]:

@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.critical_plane import parabola, pick
+from swtstudy.mechanics.critical_plane import parabola
+from swtstudy.mechanics.gather import gather, pick
+from swtstudy.mechanics.instants import NO_STRETCH, Nodes
 from swtstudy.mechanics.points import FloatArray
 
 #: Steps into which each side of a bracket is divided.
 STEPS = 3
 OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
-#: Stretches shorter than this, in rad of the cycle, count as none.
-NO_STRETCH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -74,19 +74,19 @@ class TimeBrackets:
         stretch, place = node // (count + 1), node % (count + 1)
         before = np.where(place > 0, stretch, (stretch - 1) % total)
         after = np.where(place < count, stretch, (stretch + 1) % total)
-        before = np.take_along_axis(last, before, axis=-1) % total
-        after = np.take_along_axis(following, after, axis=-1) % total
+        before = gather(last, before) % total
+        after = gather(following, after) % total
         alpha = place * (np.pi / count)
         left = np.where((before == stretch) & (place > 0), alpha, np.pi)
         right = np.where((after == stretch) & (place < count), alpha, 0.0)
         sides = np.stack([before, after], axis=-1)
         flat = sides.reshape(*shape, -1)
-        low, high = (np.take_along_axis(v, flat, axis=-1).reshape(sides.shape) for v in (low, high))
+        low, high = (gather(v, flat).reshape(sides.shape) for v in (low, high))
         start = np.stack([left, right], axis=-1)
         return cls(low, high, sides // 3, start, np.pi / count, np.zeros(node.shape), 1.0)
 
-    def samples(self) -> tuple[NDArray[np.intp], FloatArray]:
-        """Intervals and instants of the samples, each of shape (n, X, e · k)."""
+    def samples(self) -> Nodes:
+        """The samples of the extremes, index of shape (n, X, e · k)."""
         c = np.clip(self.centre[..., None] + self.width * OFFSETS, -1.0, 1.0)
         right = c > 0.0
 
@@ -96,8 +96,10 @@ class TimeBrackets:
         alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
         low = side(self.low)
         instant = low + (side(self.high) - low) * (0.5 - 0.5 * np.cos(alpha))
-        shape = (*c.shape[:2], -1)
-        return side(self.interval).reshape(shape), instant.reshape(shape)
+        n, columns = c.shape[:2]
+        instant = instant.reshape(n, -1)
+        index = np.broadcast_to(np.arange(instant.shape[1]), instant.shape).reshape(n, columns, -1)
+        return Nodes(side(self.interval).reshape(n, -1), instant, index)
 
     def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
         """The brackets around the best samples, shape (n, X, e)."""

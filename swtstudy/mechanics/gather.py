@@ -1,0 +1,57 @@
+"""Look-ups along the last axis, much faster than `numpy.take_along_axis` on many short rows."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+T = TypeVar("T", bound=np.generic)
+
+
+def gather(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
+    """``np.take_along_axis(values, index, axis=-1)`` for leading axes of equal length or 1.
+
+    Parameters
+    ----------
+    values
+        Shape (…, k).
+    index
+        Shape (…, m), 0 ≤ index < k.
+    """
+    lead = values.shape[:-1]
+    rows = np.arange(int(np.prod(lead)), dtype=np.intp).reshape(*lead, 1)
+    return np.ascontiguousarray(values).reshape(-1).take(rows * values.shape[-1] + index)
+
+
+def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
+    """One value of each row: values of shape (…, k) at the index of shape (…)."""
+    return gather(values, index[..., None])[..., 0]
+
+
+def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
+    """The kept entries of each row, moved to its front; shorter rows repeat their first kept entry.
+
+    Parameters
+    ----------
+    keep
+        Shape (…, k), at least one kept entry in each row.
+    arrays
+        Shape (…, k).
+
+    Returns
+    -------
+    Arrays of shape (…, m), where m is the largest number of kept entries.
+    """
+    place = np.cumsum(keep, axis=-1)
+    width = int(place[..., -1].max(initial=1))
+    where = np.nonzero(keep)
+    target = (*where[:-1], place[where] - 1)
+    first = keep.argmax(axis=-1)
+    result = []
+    for values in arrays:
+        out = np.repeat(pick(values, first)[..., None], width, axis=-1)
+        out[target] = values[where]
+        result.append(out)
+    return tuple(result)
