@@ -5,6 +5,7 @@ import pytest
 
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.field import contact_states
+from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
@@ -38,8 +39,8 @@ def contact(load, name):
 def test_surface_line(load, name):
     cycle, profile = contact(load, name)
     rng = np.random.default_rng(1)
-    interval = rng.integers(0, cycle.growth.shape[1], 30)
-    low, high = cycle.edges[0, interval], cycle.edges[0, interval + 1]
+    interval = rng.integers(0, cycle.begin.shape[1], 30)
+    low, high = cycle.begin[0, interval], cycle.end[0, interval]
     instant = low + (high - low) * rng.uniform(size=30)
     # Inside of a flat face, between, and out of contact; not at the ring where the pressure is infinite.
     r = np.array([0.2, 0.45, 0.6, 0.85, 1.1, 1.4, 1.9])
@@ -48,8 +49,8 @@ def test_surface_line(load, name):
     stress = states.stress(np.concatenate([r, -r]), 0.0, 0.0, friction, poisson_ratio)
 
     line = SurfaceLine(cycle, profile, r[None], 40)
-    shape = (1, r.size, instant.size)
-    history = line.history(np.broadcast_to(interval, shape), np.broadcast_to(instant, shape))
+    every = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
+    history = line.history(Nodes(interval[None], instant[None], every))
     ν, μ = np.array([poisson_ratio]), np.array([friction])
     expected = [np.stack(stresses(history, ν, μ, side), axis=-1)[0] for side in (1.0, -1.0)]
     np.testing.assert_allclose(stress[..., [0, 1, 2, 4]], np.concatenate(expected), rtol=0, atol=1e-5)

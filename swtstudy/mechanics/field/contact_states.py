@@ -64,18 +64,19 @@ def contact_states(
     memory = cycle.memory.take((0, interval))
     front, sign, _ = slip_front(
         protocol,
-        cycle.memory.take((np.zeros((1, 1), dtype=np.intp), interval[None])),
-        cycle.forward[:, interval],
-        cycle.backward[:, interval],
+        cycle.memory,
+        cycle.forward,
+        cycle.backward,
+        interval[None],
         depth,
         protocol.displacement(instant[None]),
     )
-    grown = memory.slope == GROWTH
-    branches = np.unique(memory.branch[grown & np.isfinite(memory.start)])
+    grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+    branches = np.unique(memory.branch[grown])
     starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
     breaks = np.concatenate([depth.ravel(), front.ravel(), np.unique(starts)])
     if len(branches):
-        between = _grown_ranges(cycle, cells)
+        between = _between(np.stack([memory.start[grown], memory.stop[grown]]), cells)
         breaks = np.concatenate([breaks, between[between < breaks.max()]])
     radius = _cell_ends(profile, breaks, cells)
 
@@ -98,12 +99,10 @@ def contact_states(
     return ContactStates(slope_cells(slopes, radius, start=b), touching.astype(float), tangential_slope)
 
 
-def _grown_ranges(cycle: Cycle, cells: int) -> FloatArray:
-    """Depths that resolve each growth of the cycle, finer towards its ends."""
+def _between(ranges: FloatArray, cells: int) -> FloatArray:
+    """Depths that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
+    begin, end = np.unique(ranges, axis=1)
     share = 0.5 - 0.5 * np.cos(np.pi * np.arange(cells + 1) / cells)
-    depth = np.maximum(cycle.protocol.depth(cycle.edges), 0.0)[0]
-    grows = cycle.growth[0]
-    begin, end = depth[:-1][grows], depth[1:][grows]
     return (begin[:, None] + (end - begin)[:, None] * share).ravel()
 
 
