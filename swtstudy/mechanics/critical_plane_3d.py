@@ -134,6 +134,28 @@ def swt_on_planes(
     return tension * range_ * (0.5 * (1.0 + poisson_ratio) / youngs_modulus)
 
 
+def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> FloatArray:
+    """Largest parameter over the coarse planes only: a few per cent low, several times as fast.
+
+    Parameters
+    ----------
+    stress, poisson_ratio, youngs_modulus
+        As for `swt_of_history`.
+
+    Returns
+    -------
+    swt
+        Shape (...).
+    """
+    history = np.asarray(stress, dtype=np.float32)
+    batch = history.shape[:-2]
+    history = history.reshape(-1, *history.shape[-2:])
+    normals = hemisphere(_COARSE_PLANES).astype(np.float32)
+    blocks = (history[first : first + _BLOCK] for first in range(0, len(history), _BLOCK))
+    swt = [swt_on_planes(block, normals, poisson_ratio, youngs_modulus).max(axis=1) for block in blocks]
+    return np.concatenate([np.zeros(0), *swt]).reshape(batch)
+
+
 def _starts(stress: FloatArray, poisson_ratio: float) -> FloatArray:
     """Normals from which to climb, shape (candidates, n, 3)."""
     normals = hemisphere(_COARSE_PLANES)
