@@ -10,11 +10,12 @@ pops. The solution does not depend on the profile.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.gather import packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import Protocol, turning_instants
 
@@ -62,6 +63,8 @@ class Cycle:
         The n protocols.
     begin, end
         Shape (n, i): first and last instants of the intervals, φ in [0, 2π], ascending.
+    number
+        Shape (n, i): number of the interval in `solve_cycle`'s division.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
     forward, backward
@@ -74,6 +77,7 @@ class Cycle:
     protocol: Protocol
     begin: FloatArray
     end: FloatArray
+    number: NDArray[np.intp]
     memory: Memory
     forward: NDArray[np.bool_]
     backward: NDArray[np.bool_]
@@ -85,6 +89,13 @@ class Cycle:
         every = np.arange(self.begin.shape[1])
         return self.take_intervals(index, np.broadcast_to(every, (len(index), every.size)))
 
+    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Cycle:
+        """The cycles at ``index`` with the intervals to keep, shape (len(index), i), and empty ones."""
+        (interval,) = packed(keep, np.broadcast_to(np.arange(keep.shape[1]), keep.shape))
+        chosen = self.take_intervals(index, interval)
+        empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
+        return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
+
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
         """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""
         at = index[:, None], interval
@@ -92,6 +103,7 @@ class Cycle:
             self.protocol.take(index),
             self.begin[at],
             self.end[at],
+            self.number[at],
             self.memory.take(at),
             self.forward[at],
             self.backward[at],
@@ -149,7 +161,10 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
     lift_off = protocol.normal_amplitude > 1.0
-    return Cycle(protocol, edges[:, :-1], edges[:, 1:], memory, forward, backward, gross_slip, lift_off)
+    number = np.broadcast_to(np.arange(intervals), (n, intervals))
+    return Cycle(
+        protocol, edges[:, :-1], edges[:, 1:], number, memory, forward, backward, gross_slip, lift_off
+    )
 
 
 def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:

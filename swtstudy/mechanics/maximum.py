@@ -1,9 +1,4 @@
-"""The maximum of swt over the surface line (eq. 10): global first, then local.
-
-swt(x) has cusps at known places: where the contact edge turns, a(δ0 ± δA), and where slip fronts end, the
-breakpoints of the memory diagram. In between it is smooth but for convex kinks, so that every local maximum
-is either at such a place or smooth.
-"""
+"""The maximum of swt over the surface line (eq. 10): global first, then local."""
 
 from __future__ import annotations
 
@@ -12,20 +7,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.gather import packed
+from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.swt_line import Resolution, Scene, refine, scan
+from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_of_first_look
+from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
-#: Positions of the first look besides the cusps, from near the centre to the largest contact radius.
-SCAN_POSITIONS = 24
 #: Planes that the first look tries.
 SCAN_PLANES = 8
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
-#: Local maxima below this share of the largest are not followed.
-CANDIDATE_SHARE = 0.9
-#: Cusps nearer than this in depth are one.
-SAME_POSITION = 1e-9
+#: Local maxima below these shares of the largest are not followed, after the first look and each round.
+CANDIDATE_SHARES = np.array([0.9, 0.97, 0.995, 0.999])
+#: Distances at which each round of the local search looks, in widths, and how the width shrinks.
+OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
+FIRST_WIDTH, SHRINKING = 0.25, 0.2
+#: How the width shrinks while the best position is the outermost one.
+WALKING = 2.0 / 3.0
+LARGEST_ROUND_COUNT = 12
+#: Values closer than this are equal, relative.
+TIE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -78,160 +78,160 @@ class Maximum:
 
 
 @dataclass
-class Brackets:
-    """Local maxima of swt(r): each between its two neighbours.
+class _Climb:
+    """The local search of m local maxima; arrays of shape (m,).
 
-    Arrays of shape (m,), but ``r`` and ``swt`` of shape (m, 3).
+    Attributes
+    ----------
+    point, side, column
+        Number of the point, sign of x, and column of the position around which is searched.
+    hot
+        Shape (m, i): intervals of the cycle that are looked at.
+    angle
+        2θ of the best plane so far, rad.
+    centre, width
+        Where the next round looks, in the c of `PositionBrackets`.
+    top
+        Estimated maximum of swt.
+    rounds
+        Rounds that narrowed the search.
     """
 
     point: NDArray[np.intp]
     side: FloatArray
-    r: FloatArray
-    swt: FloatArray
-    double_angle: FloatArray
+    column: NDArray[np.intp]
+    hot: NDArray[np.bool_]
+    angle: FloatArray
+    centre: FloatArray
+    width: FloatArray
+    top: FloatArray
+    rounds: NDArray[np.intp]
 
-    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Brackets:
-        return Brackets(
-            self.point[index], self.side[index], self.r[index], self.swt[index], self.double_angle[index]
-        )
+    @classmethod
+    def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
+        """From the first look at the scene, for its finer division."""
+        peak = local_maxima(look.swt)
+        point, side, column = peak
+        hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
+        zero = np.zeros(len(point))
+        width, rounds = zero + FIRST_WIDTH, zero.astype(np.intp)
+        return cls(point, 1.0 - 2.0 * side, column, hot, look.double_angle[peak], zero, width, zero.copy(), rounds)
+
+    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
+        return _Climb(*(values[index] for values in vars(self).values()))
+
+    def brackets(self, positions: Positions) -> PositionBrackets:
+        return PositionBrackets.around(positions, self.point, self.column)
 
 
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt on the surface line of each of the n points of the scene."""
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
-    position = scan_positions(split)
-    swt, angle = scan(scene, position, SCAN_RESOLUTION, SCAN_PLANES)
-    brackets = find_brackets(position, swt, angle)
-    scene = split
-    for turn in range(accuracy.rounds):
-        brackets = _narrow(scene, brackets, accuracy.search, first=turn == 0)
-        brackets = _still_open(brackets, len(scene), CANDIDATE_SHARE if turn == 0 else 1 - 0.03**turn)
-    return _best(scene, brackets, accuracy.check)
+    positions = positions_of_first_look(split.cycle, scene.profile)
+    climb = _Climb.start(split, first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES), scene)
+    for _ in range(LARGEST_ROUND_COUNT):
+        active = np.flatnonzero(climb.rounds < accuracy.rounds)
+        if not active.size:
+            break
+        _step(split, positions, climb, active, accuracy)
+        largest = np.zeros(len(scene))
+        np.maximum.at(largest, climb.point, climb.top)
+        share = CANDIDATE_SHARES[climb.rounds.clip(0, len(CANDIDATE_SHARES) - 1)]
+        climb = climb.take(climb.top >= share * largest[climb.point])
+    order = np.lexsort((-climb.top, climb.point))
+    best = climb.take(order[np.unique(climb.point[order], return_index=True)[1]])
+    r = best.brackets(positions).radius(best.centre[:, None])
+    value, angle = refine(split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check)
+    error = np.abs(value[:, 0] - best.top)
+    return Maximum(value[:, 0], error, best.side * r[:, 0], angle[:, 0])
 
 
-def scan_positions(scene: Scene) -> FloatArray:
-    """Positions of the first look, ascending, shape (n, X); rows with fewer repeat the last.
-
-    Cusps of swt(x) are where the contact edge or a slip front is when something else changes; in between,
-    positions are spread evenly.
-    """
-    cycle, profile = scene.cycle, scene.profile
-    n = len(scene)
-    starts = cycle.memory.start.reshape(n, -1)
-    edges = np.maximum(cycle.protocol.depth(cycle.begin), 0.0)
-    largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
-    cusps = np.sort(
-        np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1), axis=1
+def _step(
+    scene: Scene, positions: Positions, climb: _Climb, active: NDArray[np.intp], accuracy: Accuracy
+) -> None:
+    """Look around the centres of the active local maxima, move there and narrow the search."""
+    now = climb.take(active)
+    brackets = now.brackets(positions)
+    c = _look(now.centre, now.width)
+    start = np.repeat(now.angle[:, None], c.shape[1], axis=1)
+    values, angles = refine(
+        scene.select(now.point, now.hot), brackets.radius(c), now.side, start, accuracy.search
     )
-    new = np.diff(cusps, axis=1, prepend=0.0) > SAME_POSITION
-    new[:, -1] = True
-    cusps = profile.radius(packed(new, cusps)[0])
-    largest, flat = cusps.max(axis=1, keepdims=True), profile.flat_radius[:, None]
-    share = (np.arange(SCAN_POSITIONS) + 0.5) / SCAN_POSITIONS
-    spread = flat + (largest - flat) * share
-    distance = np.abs(spread[:, :, None] - cusps[:, None, :]).min(axis=2)
-    lone = distance > 0.4 * (largest - flat) / SCAN_POSITIONS
-    spread = np.where(lone, spread, largest)
-    position = np.sort(np.concatenate([cusps, spread], axis=1), axis=1)
-    new = np.diff(position, axis=1, prepend=0.0) > 0.0
-    return np.minimum(packed(new, position)[0], largest)
+    # Equal values, as beyond the last position, count for the centre.
+    best = (values * (1.0 - TIE * np.abs(c - now.centre[:, None]))).argmax(axis=1)
+    found = pick(c, best)
+    centre, top = _vertex(c, values, best, brackets.is_corner)
+    # A maximum next to a corner shows only once the search is narrow.
+    last = now.rounds + 1 == accuracy.rounds
+    centre = np.where(brackets.is_corner & (found == 0.0) & ~last, 0.0, centre)
+    # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
+    beyond = (np.abs(found) == 1.0) & (now.column + found.astype(np.intp) != positions.r.shape[1])
+    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != 0.0)
+    climb.column[active] += np.where(beyond, found.astype(np.intp), 0)
+    climb.centre[active] = np.where(beyond, 0.0, centre)
+    climb.angle[active], climb.top[active] = pick(angles, best), top
+    narrower = now.width * np.where(outermost, WALKING, SHRINKING)
+    climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
+    climb.rounds[active] += ~outermost
 
 
-def find_brackets(position: FloatArray, swt: FloatArray, angle: FloatArray) -> Brackets:
-    """Local maxima that may hold the largest swt.
+def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Point, side and column of the local maxima that may hold the largest swt.
 
     Parameters
     ----------
-    position
-        Shape (n, X), ascending.
-    swt, angle
-        Shape (n, 2, X), at +r and −r.
+    swt
+        Shape (n, 2, X), at ascending positions on both sides.
     """
     padded = np.pad(swt, ((0, 0), (0, 0), (1, 1)), constant_values=-1.0)
-    middle, left, right = padded[..., 1:-1], padded[..., :-2], padded[..., 2:]
     largest = swt.max(axis=(1, 2), keepdims=True)
-    peak = (middle >= right) & (middle > left) & (middle >= CANDIDATE_SHARE * largest)
+    peak = (swt >= padded[..., 2:]) & (swt > padded[..., :-2]) & (swt >= CANDIDATE_SHARES[0] * largest)
     # A point without tension anywhere keeps one bracket all the same.
-    peak[:, 0, -1] |= largest[:, 0, 0] <= 0.0
-    point, side, column = np.nonzero(peak)
-    last = position.shape[1] - 1
-    r = np.stack(
-        [position[point, np.clip(column + k, 0, last)] for k in (-1, 0, 1)], axis=1
+    peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
+    return np.nonzero(peak)
+
+
+def _look(centre: FloatArray, width: FloatArray) -> FloatArray:
+    """Values of c around the centres, ascending, shape (m, k), on the centre's side of a corner."""
+    c = np.clip(centre[:, None] + width[:, None] * OFFSETS, -1.0, 1.0)
+    c = np.where(centre[:, None] > 0.0, np.maximum(c, 0.0), c)
+    return np.where(centre[:, None] < 0.0, np.minimum(c, 0.0), c)
+
+
+def _vertex(
+    c: FloatArray, values: FloatArray, best: NDArray[np.intp], is_corner: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray]:
+    """Abscissa and value of the maximum of a parabola through the ``best`` value and its neighbours.
+
+    At a corner each side has its own parabola, through the corner and the next two values.
+    """
+    last = c.shape[1] - 1
+    corner = is_corner & (pick(c, best) == 0.0)
+    position, top = pick(c, best), pick(values, best)
+    for toward in (-1, 1):
+        middle = np.where(corner, best + toward, best)
+        middle = np.clip(middle, 1, last - 1)
+        index = middle[:, None] + np.array([-1, 0, 1])
+        x, y = gather(c, index), gather(values, index)
+        vertex, height = _parabola_maximum(x, y)
+        higher = height > top
+        position, top = np.where(higher, vertex, position), np.where(higher, height, top)
+    return position, top
+
+
+def _parabola_maximum(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Maximum of the parabolas through three points within their range, shapes (m, 3); else the largest y."""
+    left, right = x[:, 1] - x[:, 0], x[:, 2] - x[:, 1]
+    proper = (left > 0.0) & (right > 0.0)
+    left, right = np.where(proper, left, 1.0), np.where(proper, right, 1.0)
+    rise, fall = (y[:, 1] - y[:, 0]) / left, (y[:, 2] - y[:, 1]) / right
+    bend = (fall - rise) / (left + right)
+    proper &= bend < 0.0
+    slope = (rise * right + fall * left) / (left + right)
+    shift = np.where(proper, -0.5 * slope / np.where(proper, bend, 1.0), 0.0)
+    proper &= (shift >= -left) & (shift <= right)
+    best = y.argmax(axis=1)
+    return (
+        np.where(proper, x[:, 1] + shift, pick(x, best)),
+        np.where(proper, y[:, 1] + 0.5 * slope * shift, pick(y, best)),
     )
-    at = point, side, column
-    values = np.stack([left[at], middle[at], right[at]], axis=1)
-    return Brackets(point, 1.0 - 2.0 * side, r, values, angle[at])
-
-
-def _narrow(scene: Scene, brackets: Brackets, resolution: Resolution, first: bool) -> Brackets:
-    """Look at positions within each bracket and keep the best of them with its neighbours."""
-    left, middle, right = brackets.r.T
-    if first:
-        # Near a cusp the fall on either side is seen at once.
-        shares = np.array([0.0, 0.5, 0.9, 1.0, 1.1, 1.5, 2.0])
-        trial = np.where(
-            shares < 1.0,
-            left[:, None] + (middle - left)[:, None] * shares,
-            middle[:, None] + (right - middle)[:, None] * (shares - 1.0),
-        )
-        known = np.full(trial.shape, np.nan)
-    else:
-        guess = _vertex(brackets)
-        gap = 0.15 * np.minimum(middle - left, right - middle)
-        trial = np.stack([guess - gap, guess, guess + gap], axis=1)
-        trial = np.clip(trial, left[:, None], right[:, None])
-        trial = np.concatenate([trial, brackets.r], axis=1)
-        known = np.concatenate([np.full((len(guess), 3), np.nan), brackets.swt], axis=1)
-    order = np.argsort(trial, axis=1, kind="stable")
-    trial, known = np.take_along_axis(trial, order, axis=1), np.take_along_axis(known, order, axis=1)
-    rows = scene.take(brackets.point)
-    start = np.broadcast_to(brackets.double_angle[:, None], trial.shape)
-    new = np.isnan(known)
-    count = int(new[0].sum())
-    where = np.nonzero(new)
-    asked = trial[where].reshape(-1, count)
-    swt, angle = refine(rows, asked, brackets.side, start[:, :count], resolution)
-    values = known.copy()
-    values[where] = swt.ravel()
-    angles = start.copy()
-    angles[where] = angle.ravel()
-    best = values.argmax(axis=1)
-    row = np.arange(len(best))
-    last = trial.shape[1] - 1
-    index = np.clip(best[:, None] + np.array([-1, 0, 1]), 0, last)
-    return Brackets(
-        brackets.point,
-        brackets.side,
-        np.take_along_axis(trial, index, axis=1),
-        np.take_along_axis(values, index, axis=1),
-        angles[row, best],
-    )
-
-
-def _vertex(brackets: Brackets) -> FloatArray:
-    """Abscissa of the parabola through the three values, clipped into the bracket; the middle at a cusp."""
-    (x0, x1, x2), (f0, f1, f2) = brackets.r.T, brackets.swt.T
-    h0, h2 = x1 - x0, x2 - x1
-    with np.errstate(divide="ignore", invalid="ignore"):
-        s0, s2 = (f1 - f0) / h0, (f2 - f1) / h2
-        shift = x1 - 0.5 * (h2 * s0 + h0 * s2) / (s2 - s0) * 1.0
-    good = np.isfinite(shift) & (shift > x0) & (shift < x2)
-    return np.where(good, shift, x1)
-
-
-def _still_open(brackets: Brackets, count: int, share: float) -> Brackets:
-    """Drop brackets that can no longer hold the largest swt of their point."""
-    largest = np.zeros(count)
-    np.maximum.at(largest, brackets.point, brackets.swt[:, 1])
-    return brackets.take(brackets.swt[:, 1] >= share * largest[brackets.point])
-
-
-def _best(scene: Scene, brackets: Brackets, check: Resolution) -> Maximum:
-    """The largest value of each point, computed once more at a finer resolution."""
-    order = np.lexsort((-brackets.swt[:, 1], brackets.point))
-    first = np.unique(brackets.point[order], return_index=True)[1]
-    best = brackets.take(order[first])
-    swt, angle = refine(scene, best.r[:, 1:2], best.side, best.double_angle[:, None], check)
-    error = np.abs(swt[:, 0] - best.swt[:, 1])
-    return Maximum(swt[:, 0], error, best.side * best.r[:, 1], angle[:, 0])
-

@@ -6,7 +6,7 @@ that make swt (the largest σ_n, the largest and the smallest ε_n), ever closer
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,8 @@ from swtstudy.mechanics.zoom import TimeBrackets
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
+#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
+HOT = 0.35
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
 STARTS = (0.0, -0.25, 0.25)
 
@@ -71,16 +73,62 @@ class Scene:
             self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
         )
 
+    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
+        """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
+        return replace(self.take(index), cycle=self.cycle.select(index, keep))
+
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
         return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
 
 
-def scan(
-    scene: Scene, position: FloatArray, resolution: Resolution, planes: int
-) -> tuple[FloatArray, FloatArray]:
-    """swt on both sides of the contact, to the accuracy of a first look.
+@dataclass(frozen=True)
+class FirstLook:
+    """swt at n × X positions on both sides of the contact, to the accuracy of a first look.
+
+    Attributes
+    ----------
+    swt, double_angle
+        Shape (n, 2, X): at x = +r and x = −r; 2θ in rad.
+    interval
+        Shape (n, X, T): interval of the cycle of each instant.
+    history
+        What was seen there.
+    """
+
+    swt: FloatArray
+    double_angle: FloatArray
+    interval: NDArray[np.intp]
+    history: History
+
+    def hot_intervals(
+        self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
+    ) -> NDArray[np.bool_]:
+        """Intervals of the cycle that can hold an extreme at single positions, shape (m, i).
+
+        Parameters
+        ----------
+        scene
+            The n points.
+        point, side, column
+            Shape (m,): index of the positions.
+        """
+        pieces = (v[point, column] for v in vars(self.history).values())
+        planes = scene.take(point).planes(History(*pieces), 1.0 - 2.0 * side[:, None])
+        stress, strain = planes.on_plane(self.double_angle[point, side, column])
+        hot = np.zeros(stress.shape, dtype=bool)
+        for curve in (stress, strain, -strain):
+            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
+            hot |= curve >= high - HOT * (high - low)
+        kept = np.zeros((len(point), scene.cycle.begin.shape[1]), dtype=bool)
+        row, instant = np.nonzero(hot)
+        kept[row, self.interval[point, column][row, instant]] = True
+        return kept
+
+
+def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
+    """Look at swt on both sides of the contact.
 
     Parameters
     ----------
@@ -92,11 +140,6 @@ def scan(
         Its zooms are not used.
     planes
         Number of planes that are tried.
-
-    Returns
-    -------
-    swt, double_angle
-        Shape (n, 2, X): at x = +r and x = −r; 2θ in rad.
     """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
@@ -104,7 +147,9 @@ def scan(
     history = line.history(nodes)
     sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    return swt, angle
+    shape = nodes.index.shape
+    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(shape)
+    return FirstLook(swt, angle, interval, history)
 
 
 def refine(

@@ -33,6 +33,8 @@ class TimeBrackets:
         cycle, and the angle α at c = 0.
     step
         Change of α between c = 0 and 1.
+    corner
+        Shape (n, X, e): whether stretches meet at c = 0.
     centre
         Shape (n, X, e): c of the best instant so far.
     width
@@ -44,6 +46,7 @@ class TimeBrackets:
     interval: NDArray[np.intp]
     start: FloatArray
     step: float
+    corner: NDArray[np.bool_]
     centre: FloatArray
     width: float
 
@@ -65,25 +68,28 @@ class TimeBrackets:
         total = low.shape[-1]
         real = high - low > NO_STRETCH
         number = np.arange(total)
-        last = np.maximum.accumulate(np.where(real, number, -1), axis=-1)
         # The cycle is periodic: before its first stretch comes its last one.
+        last = np.maximum.accumulate(np.where(real, number, -1), axis=-1)
         last = np.where(last < 0, last[..., -1:], last)
         following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
         following = np.where(following == total, following[..., :1], following)
 
         stretch, place = node // (count + 1), node % (count + 1)
-        before = np.where(place > 0, stretch, (stretch - 1) % total)
-        after = np.where(place < count, stretch, (stretch + 1) % total)
-        before = gather(last, before) % total
-        after = gather(following, after) % total
+        at_begin, at_end = place == 0, place == count
+        before = gather(last, np.where(at_begin, (stretch - 1) % total, stretch))
+        after = gather(following, np.where(at_end, (stretch + 1) % total, stretch))
+        # A side that does not border on the node stays at the node.
+        before = np.where(at_begin & ~_meet(gather(high, before), gather(low, stretch)), stretch, before)
+        after = np.where(at_end & ~_meet(gather(high, stretch), gather(low, after)), stretch, after)
         alpha = place * (np.pi / count)
-        left = np.where((before == stretch) & (place > 0), alpha, np.pi)
-        right = np.where((after == stretch) & (place < count), alpha, 0.0)
+        left = np.where(at_begin & (before != stretch), np.pi, alpha)
+        right = np.where(at_end & (after != stretch), 0.0, alpha)
         sides = np.stack([before, after], axis=-1)
         flat = sides.reshape(*shape, -1)
         low, high = (gather(v, flat).reshape(sides.shape) for v in (low, high))
         start = np.stack([left, right], axis=-1)
-        return cls(low, high, sides // 3, start, np.pi / count, np.zeros(node.shape), 1.0)
+        corner = at_begin | at_end
+        return cls(low, high, sides // 3, start, np.pi / count, corner, np.zeros(node.shape), 1.0)
 
     def samples(self) -> Nodes:
         """The samples of the extremes, index of shape (n, X, e · k)."""
@@ -111,8 +117,7 @@ class TimeBrackets:
 
         Where two stretches meet at the best sample, each side has its own parabola.
         """
-        corner = np.ptp(self.start[:, :, extreme], axis=-1) > 0.0
-        corner &= (best == STEPS) & (self.centre[:, :, extreme] == 0.0)
+        corner = self.corner[:, :, extreme] & (best == STEPS) & (self.centre[:, :, extreme] == 0.0)
         last = curve.shape[-1] - 1
         top = pick(curve, best)
         for lowest, highest in ((1, STEPS - 1), (STEPS + 1, last - 1)):
@@ -122,3 +127,8 @@ class TimeBrackets:
             _, rise = parabola(left, centre, right)
             top = np.maximum(top, centre + rise)
         return top
+
+
+def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
+    """Whether one stretch ends where the other begins, in the periodic cycle."""
+    return np.asarray((end == begin) | ((begin == 0.0) & (end == 2.0 * np.pi)))

@@ -62,6 +62,11 @@ class Profile(ABC):
         """Shape (n,): radius b inside of which g = 0."""
         return np.zeros(len(self.largest_depth))
 
+    @property
+    def feature_length(self) -> FloatArray:
+        """Shape (n,): length in a_H on which the profile repeats itself, inf for none."""
+        return np.full(len(self.largest_depth), np.inf)
+
     @abstractmethod
     def depth(self, radius: FloatArray) -> FloatArray:
         """MDR profile g(ξ)/δ0 (eq. 11)."""

@@ -63,6 +63,11 @@ class WavyParaboloid(Profile):
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
 
+    @property
+    def feature_length(self) -> FloatArray:
+        with np.errstate(divide="ignore"):
+            return 2.0 * np.pi / self.wave_number
+
     def depth(self, radius: FloatArray) -> FloatArray:
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
