@@ -7,11 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.critical_plane_3d import CriticalPlane, highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.critical_plane_3d import (
+    CriticalPlane,
+    highest_coarse_swt,
+    strain_history,
+    swt_of_history,
+)
 from swtstudy.mechanics.field import ContactStates, contact_states
 from swtstudy.mechanics.instants import cosine_nodes, stretches
+from swtstudy.mechanics.plane_ascent import normal_weights
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
+
+#: Parts into which a gap between instants is divided beside an extreme over the cycle.
+_SUBDIVISIONS = 6
 
 
 @dataclass(frozen=True)
@@ -80,7 +89,48 @@ def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
     # A spring that never touches sees neither edge nor front.
     depth = scene.profile.depth(r) if r.size else 2.0 + scene.cycle.protocol.normal_amplitude[:, None]
     nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, depth), count)
-    interval, instant = nodes.interval[0], nodes.instant[0]
-    real = (scene.cycle.end - scene.cycle.begin)[0, interval] > 0.0
-    instant, first = np.unique(instant[real], return_index=True)
-    return TimeNodes(interval[real][first], instant)
+    return _at(scene, nodes.instant[0])
+
+
+def closer_nodes(
+    scene: Scene, nodes: TimeNodes, point: tuple[float, float, float], cells: int, looks: int = 3
+) -> TimeNodes:
+    """The same instants and others around those that make swt at one point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    nodes
+        Instants from which to start.
+    point
+        x, y, z in a_H.
+    cells
+        As for `contact_states`.
+    looks
+        How often the gaps beside the extremes over the cycle are divided.
+    """
+    share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
+    for _ in range(looks):
+        body = Body.of(scene, nodes, cells)
+        stress, normal = body.stress(*point), body.swt(*point).normal
+        strain = strain_history(stress, float(scene.poisson_ratio[0]))
+        on_plane = stress @ normal_weights(normal), strain @ normal_weights(normal)
+        extremes = np.array([on_plane[0].argmax(), on_plane[1].argmax(), on_plane[1].argmin()])
+        left = np.concatenate([extremes - 1, extremes])
+        left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
+        low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
+        nodes = _at(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
+    return nodes
+
+
+def together(scene: Scene, *several: TimeNodes) -> TimeNodes:
+    """All instants of several sets."""
+    return _at(scene, np.concatenate([nodes.instant for nodes in several]))
+
+
+def _at(scene: Scene, instant: FloatArray) -> TimeNodes:
+    """Distinct instants with their intervals; at the end of one the memory of the next is the same."""
+    distinct = np.unique(instant)
+    interval = (distinct[:, None] > scene.cycle.end[0]).sum(axis=1)
+    return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), distinct)

@@ -10,24 +10,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.body import Body, time_nodes
+from swtstudy.mechanics.body import Body, TimeNodes, closer_nodes, time_nodes, together
 from swtstudy.mechanics.critical_plane_3d import CriticalPlane
-from swtstudy.mechanics.maximum import scan_positions
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
 
 #: Steps of the time nodes on a stretch: first look, climb, and value.
-_LOOK, _CLIMB, _VALUE = 3, 4, 12
+_LOOK, _CLIMB, _VALUE = 3, 3, 5
 #: Cells of a profile that is not a paraboloid: stresses to about 1e-6 p0.
 _CELLS = 60
+#: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius.
+_BETWEEN = 20
 _ANGLES = np.linspace(0.0, np.pi, 9)
-#: In the largest contact radius.
 _DEPTHS = np.array([0.0, 0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.9])
 _FIRST_STEPS = np.array([0.03, 0.15, 0.02])
 _SUMMITS = 4
 #: Places below this share of the highest in the first look are not climbed from.
 _PROMISING = 0.75
-_ROUNDS = 14
+_ROUNDS = 9
+#: The search keeps so far from the edge of a flat face, in the largest contact radius.
+_RING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -66,35 +68,51 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     """
     largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    starts = np.concatenate([own[None], _first_look(scene, largest)])
-    place = _climb(scene, np.concatenate([starts, _vicinity(own, largest)]), largest)
-    final = Body.of(scene, time_nodes(scene, _VALUE, np.unique([place[0], own[0]])), 2 * _CELLS)
-    both = final.swt(*_cartesian(np.stack([place, own])))
-    at_line = CriticalPlane(both.swt[1], both.normal[1])
-    best = int(both.swt[1] >= both.swt[0])
-    position = np.array(_cartesian(np.stack([place, own])[best]))
-    return BodyMaximum(float(both.swt[best]), position, both.normal[best]), at_line
+    # What makes swt at the line's maximum makes it nearby, too: these instants serve the whole search.
+    sharp = _closer(scene, own, looks=1)
+    starts = np.concatenate([own[None], _first_look(scene, largest), _vicinity(own, largest)])
+    place = _climb(scene, starts, largest, sharp)
+    both = np.stack([place, own])
+    final = Body.of(scene, together(scene, _closer(scene, own, looks=3), _closer(scene, place, looks=3)), 2 * _CELLS)
+    swt, normal = final.swt(*_cartesian(both))
+    best = int(swt[1] >= swt[0])
+    position = np.array(_cartesian(both[best]))
+    return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
+
+
+def _closer(scene: Scene, place: FloatArray, looks: int) -> TimeNodes:
+    """Instants that resolve the extremes over the cycle at one place."""
+    x, y, z = (float(v) for v in _cartesian(place))
+    return closer_nodes(scene, time_nodes(scene, _VALUE, place[:1]), (x, y, z), _CELLS, looks)
 
 
 def _first_look(scene: Scene, largest: float) -> FloatArray:
     """The highest places of a grid, not more than `_SUMMITS`, shape (k, 3)."""
-    b = float(scene.profile.flat_radius[0])
-    r = np.concatenate([scan_positions(scene)[0], b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
-    grid = np.stack(np.meshgrid(np.unique(r), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1)
-    places = grid.reshape(-1, 3)
-    body = Body.of(scene, time_nodes(scene, _LOOK), _CELLS)
-    swt = body.coarse_swt(*_cartesian(places))
+    grid = np.stack(
+        np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
+    ).reshape(-1, 3)
+    grid = _off_ring(scene, grid, largest)
+    swt = Body.of(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
     chosen: list[int] = []
     for index in np.argsort(-swt):
-        far = all(
-            (np.abs(places[index] - places[other]) > [0.1 * largest, 0.5, 0.1 * largest]).any()
-            for other in chosen
-        )
         if swt[index] < _PROMISING * swt.max() or len(chosen) == _SUMMITS:
             break
-        if far:
+        apart = np.abs(grid[index] - grid[chosen]) > [0.1 * largest, 0.5, 0.1 * largest]
+        if apart.any(axis=1).all():
             chosen.append(int(index))
-    return places[chosen]
+    return grid[chosen]
+
+
+def _radii(scene: Scene, largest: float) -> FloatArray:
+    """Distances from the axis of the first look: ends of the memory's pieces and edges, and in between."""
+    cycle, profile = scene.cycle, scene.profile
+    start = cycle.memory.start[np.isfinite(cycle.memory.start)]
+    turns = np.maximum(1.0 + cycle.protocol.normal_amplitude[0] * np.array([-1.0, 1.0]), 0.0)
+    cusps = profile.radius(np.unique(np.concatenate([start, turns]))[None])[0]
+    b = float(profile.flat_radius[0])
+    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _BETWEEN))
+    rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
+    return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
 
 def _vicinity(own: FloatArray, largest: float) -> FloatArray:
@@ -104,24 +122,34 @@ def _vicinity(own: FloatArray, largest: float) -> FloatArray:
     return _folded(own + np.array(away + deep))
 
 
-def _climb(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
+def _climb(scene: Scene, places: FloatArray, largest: float, sharp: TimeNodes) -> FloatArray:
     """Pattern search from several places at once; the highest of the summits, shape (3,)."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     steps = np.tile(_FIRST_STEPS * np.array([largest, 1.0, largest]), (len(places), 1))
-    for _ in range(_ROUNDS):
-        trial = _folded(places[:, None] + steps[:, None] * stencil)
+    for turn in range(_ROUNDS):
+        trial = _off_ring(scene, _folded(places[:, None] + steps[:, None] * stencil), largest)
         # Nearby radii share the aligned instants of the place in their midst.
-        body = Body.of(scene, time_nodes(scene, _CLIMB, np.unique(places[:, 0])), _CELLS)
-        swt = body.swt(*_cartesian(trial)).swt
+        nodes = together(scene, sharp, time_nodes(scene, _CLIMB, np.unique(places[:, 0])))
+        swt = Body.of(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
         best = swt.argmax(axis=1)
         row = np.arange(len(places))
-        stays = swt[row, best] <= swt[:, len(stencil) // 2] * (1.0 + 1e-9)
-        places = np.where(stays[:, None], places, trial[row, best])
-        steps[stays] *= 0.4
         highest = swt[row, best]
-        keep = highest >= (0.9 if _ == 0 else 0.97) * highest.max()
-        places, steps = places[keep], steps[keep]
-    return places[np.argmax(highest[keep])]
+        stays = highest <= swt[:, len(stencil) // 2] * (1.0 + 1e-9)
+        places = trial[row, best]
+        steps[stays] *= 0.4
+        keep = highest >= (0.9 if turn == 0 else 0.97) * highest.max()
+        places, steps, highest = places[keep], steps[keep], highest[keep]
+    return places[np.argmax(highest)]
+
+
+def _off_ring(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
+    """Places moved away from the edge of a flat face, where a profile's slope can be infinite."""
+    b, near = float(scene.profile.flat_radius[0]), _RING * largest
+    if b == 0.0:
+        return places
+    offset = places[..., 0] - b
+    r = np.where(np.abs(offset) < near, b + np.where(offset < 0.0, -near, near), places[..., 0])
+    return np.concatenate([r[..., None], places[..., 1:]], axis=-1)
 
 
 def _folded(places: FloatArray) -> FloatArray:

@@ -17,6 +17,8 @@ from swtstudy.mechanics.points import FloatArray
 _LARGEST_STEP = 0.2  # rad
 _SMALLEST_STEP = 1e-9  # rad: the height's relative error is the square of the angle's
 _LARGEST_ITERATIONS = 40
+#: Instants that may take the place of an active one.
+_RIVALS = 16
 
 
 def normal_weights(normal: FloatArray) -> FloatArray:
@@ -94,35 +96,33 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     tangent = _tangent_basis(normal)
     jets = _jet_weights(normal, tangent)[:, None]
     tension, elongation = _apply(jets, stress), _apply(jets, strain)
-    row = np.arange(len(normal))
-    top, high, low = (
-        tension[..., 0].argmax(axis=1),
-        elongation[..., 0].argmax(axis=1),
-        elongation[..., 0].argmin(axis=1),
-    )
-    amplitude = 0.5 * (elongation[row, high] - elongation[row, low])[:, None]
-    tops = np.broadcast_to(tension[row, top][:, None], tension.shape)
-    forms = np.concatenate([tension, tops, tops], axis=1)
-    changes = np.concatenate(
-        [
-            np.broadcast_to(amplitude, tension.shape),
-            0.5 * (elongation - elongation[row, low][:, None]),
-            0.5 * (elongation[row, high][:, None] - elongation),
-        ],
-        axis=1,
-    )
+    # The active instants first, then their rivals.
+    top, high, low = _ranked(tension), _ranked(elongation), _ranked(-elongation)
+    low *= -1.0
+    same = np.zeros_like(top)
+    forms = np.concatenate([top, same + top[:, :1], same + top[:, :1]], axis=1)
+    changes = 0.5 * np.concatenate([same + high[:, :1] - low[:, :1], high - low[:, :1], high[:, :1] - low], axis=1)
     possible = (forms[..., 0] > 0.0) & (changes[..., 0] > 0.0)
-    for active, offset in ((top, 0), (high, 1), (low, 2)):
-        possible[row, offset * stress.shape[1] + active] = False
-    # Only near ties can win within a step: the others need not be modelled.
-    forms[~possible] = tops[0, 0]
-    changes[~possible] = amplitude[0, 0]
+    possible[:, :: top.shape[1]] = False
+    forms[~possible] = changes[~possible] = 1.0
     steps, gain = _newton_step(
         forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, _LARGEST_STEP)
     )
     height = np.log(forms[..., 0] * changes[..., 0]) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
-    return _move(normal, tangent, steps.reshape(*possible.shape, 2)[row, best])
+    return _move(normal, tangent, steps.reshape(*possible.shape, 2)[np.arange(len(normal)), best])
+
+
+def _ranked(jets: FloatArray) -> FloatArray:
+    """The jets of the highest values in time, highest first, shape (n, rivals, 6)."""
+    value = jets[..., 0]
+    if value.shape[1] > _RIVALS:
+        highest = np.argpartition(-value, _RIVALS, axis=1)[:, :_RIVALS]
+    else:
+        highest = np.broadcast_to(np.arange(value.shape[1]), value.shape)
+    row = np.arange(len(jets))[:, None]
+    order = np.argsort(-value[row, highest], axis=1, kind="stable")
+    return jets[row, np.take_along_axis(highest, order, axis=1)]
 
 
 def _active_forms(

@@ -90,13 +90,13 @@ def contact_states(
     stuck_growth = touching & ~slips & (slope == GROWTH)
     shares = [np.where(touching, line, 0.0), *(stuck_growth & (branch == b) for b in branches)]
 
-    def slopes(ξ: FloatArray) -> FloatArray:
-        g = _profile_slope(profile, ξ)
-        return np.stack([g, *(g * _growth_slope(cycle, profile, ξ, b) for b in branches)])
+    def weighted_slopes(ξ: FloatArray) -> FloatArray:
+        m = profile.weighted_slope(ξ[None])[0]
+        return np.stack([m, *(m * _growth_slope(cycle, profile, ξ, b) for b in branches)])
 
     b = float(profile.flat_radius[0])
     tangential_slope = np.stack(shares, axis=1).astype(float)
-    return ContactStates(slope_cells(slopes, radius, start=b), touching.astype(float), tangential_slope)
+    return ContactStates(slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope)
 
 
 def _between(ranges: FloatArray, cells: int) -> FloatArray:
@@ -123,16 +123,10 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
         radius = np.linspace(0.0, end, count + 1)
         middle = 0.5 * (radius[1:] + radius[:-1])
         chord = np.diff(profile.depth(radius[None])[0]) * count / end
-        bend = np.abs(_profile_slope(profile, middle) - chord).max()
+        bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord).max()
         if bend < chord.max() / cells**2 or count > 8 * cells:
             return radius
         count *= 2
-
-
-def _profile_slope(profile: Profile, ξ: FloatArray) -> FloatArray:
-    """g′(ξ) = m/√(ξ² − b²)."""
-    b = profile.flat_radius[0]
-    return profile.weighted_slope(ξ[None])[0] / np.sqrt((ξ - b) * (ξ + b))
 
 
 def _growth_slope(cycle: Cycle, profile: Profile, ξ: FloatArray, branch: float) -> FloatArray:

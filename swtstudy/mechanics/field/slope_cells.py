@@ -62,28 +62,29 @@ def graded_radii(start: float, end: float, cells: int, power: float = 2.0) -> Fl
 
 
 def slope_cells(
-    slope: Callable[[FloatArray], FloatArray], radius: ArrayLike, start: float = 0.0
+    weighted_slope: Callable[[FloatArray], FloatArray], radius: ArrayLike, start: float = 0.0
 ) -> SlopeCells:
     """Project slope functions on straight pieces.
 
     Parameters
     ----------
-    slope
-        From an array of ξ > start in a_H to slopes in δ0/a_H: of the same shape for one function, or with a
-        leading axis k for several.
+    weighted_slope
+        From an array of ξ in a_H to slopes times √(ξ² − start²), as `Profile.weighted_slope`: of the same
+        shape for one function, or with a leading axis k for several.
     radius
         Shape (m + 1,), increasing, the first not below start: ends of the cells.
     start
         Radius at which the slope starts, possibly as (ξ − start)^(±1/2): the radius b of a punch's face.
     """
     ends = np.asarray(radius, dtype=float)
-    # In t = √(ξ − start) the root singularities at the start are smooth: ξ = start + t², dξ = 2t dt.
+    # In t = √(ξ − start) the root singularities at the start are smooth: ξ = start + t², dξ = 2t dt, and
+    # √(ξ² − start²) = t √(2 start + t²).
     root = np.sqrt(np.maximum(ends - start, 0.0))
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     t = 0.5 * (root[1:, None] + root[:-1, None] + nodes * np.diff(root)[:, None])
     width = np.diff(ends)
-    values = np.asarray(slope(start + t**2))
-    mass = values.reshape(-1, *t.shape) * (weights * t * np.diff(root)[:, None])
+    values = np.asarray(weighted_slope(start + t**2)).reshape(-1, *t.shape)
+    mass = values * (weights * np.diff(root)[:, None] / np.sqrt(2.0 * start + t**2))
     # Offset from the cell's middle in half widths; written in t to keep its digits in small cells.
     middle = 0.5 * (root[1:, None] ** 2 + root[:-1, None] ** 2)
     offset = (t**2 - middle) * (2.0 / width[:, None])

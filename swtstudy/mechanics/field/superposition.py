@@ -2,13 +2,15 @@
 
 Each spring sits at its depth G = g(ξ): a state of the contact says for each cell of radii whether it touches
 and with which slope dτ/dG its tangential displacement varies. The cells' fields do not depend on the state,
-so that they are computed once per point, and all instants follow by a matrix product.
+so that they are computed and summed up from the axis once per point. A state is made of few pieces with one
+slope: it picks the sums at their ends, which is a product with a sparse matrix.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.sparse import csr_array
 
 from swtstudy.mechanics.field.primitives import primitives
 from swtstudy.mechanics.field.punch import PunchFunctions, normal_components, tangential_components
@@ -21,7 +23,7 @@ _BLOCK = 16384
 
 def cell_stress(
     x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float
-) -> tuple[FloatArray, FloatArray]:
+) -> FloatArray:
     """Stress due to each cell of springs: compressed by their full slope, and dragged by each slope function.
 
     Parameters
@@ -35,22 +37,24 @@ def cell_stress(
 
     Returns
     -------
-    normal, tangential
-        Shapes (n, m, 6) and (n, k · m, 6), components as `punch.COMPONENTS`, in E* √(δ0/R): under the
-        pressure (1/π) ∫ g′ dξ/√(ξ² − r²), ξ over the cell, and under the shear (1/π) ∫ s dξ/√(ξ² − r²) in +x
-        for each slope function s.
+    stress
+        Shape (1 + k, m, n, 6), components as `punch.COMPONENTS`, in E* √(δ0/R): first under the pressure
+        (1/π) ∫ g′ dξ/√(ξ² − r²), ξ over the cell; then under the shear (1/π) ∫ s dξ/√(ξ² − r²) in +x for each
+        slope function s.
     """
-    x, y, z = (np.asarray(v, dtype=float)[:, None] for v in (x, y, z))
+    x, y, z = (np.asarray(v, dtype=float) for v in (x, y, z))
     plain, weighted = (
-        [np.diff(f) for f in functions] for functions in primitives(np.hypot(x, y), z, cells.radius)
+        [np.diff(f, axis=0) for f in functions]
+        for functions in primitives(np.hypot(x, y), z, cells.radius[:, None])
     )
-    tangential = []
-    for intercept, gradient in zip(cells.intercept / np.pi, cells.gradient / np.pi, strict=True):
+    stress = np.empty((1 + len(cells.intercept), len(cells.radius) - 1, x.size, 6))
+    slopes = cells.intercept[..., None] / np.pi, cells.gradient[..., None] / np.pi
+    for number, (intercept, gradient) in enumerate(zip(*slopes, strict=True)):
         f = PunchFunctions(*(intercept * a + gradient * b for a, b in zip(plain, weighted, strict=True)))
-        if not tangential:
-            normal = normal_components(f, x, y, z, poisson_ratio)
-        tangential.append(tangential_components(f, x, y, z, poisson_ratio))
-    return normal, np.concatenate(tangential, axis=1)
+        if number == 0:
+            stress[0] = normal_components(f, x, y, z, poisson_ratio)
+        stress[1 + number] = tangential_components(f, x, y, z, poisson_ratio)
+    return stress
 
 
 def stress_history(
@@ -87,14 +91,14 @@ def stress_history(
     """
     x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (x, y, z)))
     touching, shares = np.asarray(touching, dtype=float), np.asarray(tangential_slope, dtype=float)
-    instants, cell_count = touching.shape[:-1], touching.shape[-1]
     # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
-    drag = -friction * shares.reshape(-1, shares.shape[-2] * cell_count)
-    states = np.concatenate([touching.reshape(-1, cell_count), drag], axis=-1)
-    stress = np.empty((x.size, len(states), 6))
-    rows = max(1, _BLOCK // len(cells.radius))
-    for first in range(0, x.size, rows):
-        part = slice(first, first + rows)
+    states = np.concatenate([touching[..., None, :], -friction * shares], axis=-2)
+    jumps = csr_array(-np.diff(states, axis=-1, append=0.0).reshape(-1, states.shape[-2] * states.shape[-1]))
+    stress = np.empty((x.size, jumps.shape[0], 6))
+    columns = max(1, _BLOCK // len(cells.radius))
+    for first in range(0, x.size, columns):
+        part = slice(first, first + columns)
         fields = cell_stress(x.flat[part], y.flat[part], z.flat[part], cells, poisson_ratio)
-        stress[part] = states @ np.concatenate(fields, axis=1)
-    return stress.reshape(*x.shape, *instants, 6)
+        sums = np.cumsum(fields, axis=1, out=fields).reshape(jumps.shape[1], -1)
+        stress[part] = (jumps @ sums).reshape(jumps.shape[0], -1, 6).swapaxes(0, 1)
+    return stress.reshape(*x.shape, *touching.shape[:-1], 6)
