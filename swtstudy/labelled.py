@@ -13,6 +13,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.parameters import PARAMETERS
+from swtstudy.runner.records import STATES
 
 #: Attributes of the data variables, after the CF conventions.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
@@ -39,6 +40,15 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "flag_values": np.arange(len(REGIMES), dtype=np.int8),
         "flag_meanings": " ".join(REGIMES),
     },
+    "status": {
+        "long_name": "whether the point has been computed",
+        "flag_values": np.arange(len(STATES), dtype=np.int8),
+        "flag_meanings": " ".join(STATES),
+    },
+    "run": {
+        "long_name": "run that made the value, an index into the attribute runs; -1 if missing",
+        "units": "1",
+    },
 }
 
 
@@ -63,7 +73,7 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
     for name, value in grid.fixed.items():
         coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
     variables = {
-        name: (grid.dims, array.reshape(grid.shape), ATTRIBUTES[name]) for name, array in arrays.items()
+        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
     }
     return xr.Dataset(variables, coordinates)
 

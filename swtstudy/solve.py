@@ -49,8 +49,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     """
     from swtstudy.labelled import arrays_of, label
     from swtstudy.mechanics import solve_points
-    from swtstudy.runner.plan import take, unique_points
-    from swtstudy.runner.values import Values
+    from swtstudy.runner.chunk import joined, solution_at
+    from swtstudy.runner.plan import block_ends, unique_points
 
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}
@@ -73,13 +73,9 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)
-    values = Values.empty(len(unique.table))
-    start = 0
-    while start < len(unique.table):
-        stop = take(unique.table, start, len(unique.table))
-        values.put(np.arange(start, stop), solve_points(points_from(unique.table[start:stop]), float(rtol)))
-        start = stop
-    return label(grid, arrays_of(values.at(unique.index), unique.mirrored))
+    blocks = np.split(unique.table, block_ends(unique.table)[:-1])
+    solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
+    return label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
 
 
 def _scalar(raw: object) -> object:

@@ -1,21 +1,23 @@
-"""The archive of a study: its labelled values with full provenance."""
+"""The archive of a study: its labelled values, the state and origin of each, and full provenance."""
 
 from __future__ import annotations
 
+import json
 import platform
+from dataclasses import asdict
 from datetime import UTC, datetime
-from importlib.metadata import version
-from typing import TYPE_CHECKING
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
 
+import numpy as np
 import xarray as xr
 
 import swtstudy
+from swtstudy.grid.canonical import describe_point
 from swtstudy.labelled import arrays_of, label
 from swtstudy.runner.plan import UniquePoints
-from swtstudy.runner.values import Values
-
-if TYPE_CHECKING:
-    from swtstudy.study.definition import Study
+from swtstudy.runner.records import FAILED, Records
+from swtstudy.study.definition import Study
 
 #: Packages whose versions can matter for the numbers or the file.
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
@@ -23,26 +25,72 @@ _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 
 
-def build(study: Study, points: UniquePoints, values: Values, seconds: float) -> xr.Dataset:
-    """The Dataset of a computed study, with its provenance in the global attributes."""
-    dataset = label(study.grid, arrays_of(values.at(points.index), points.mirrored))
-    return dataset.assign_attrs(provenance(study, seconds))
+def versions() -> str:
+    """Versions of Python, of this package and of those that matter for its numbers and files."""
+    found = [f"python {platform.python_version()}", f"swtstudy {swtstudy.__version__}"]
+    for name in _PACKAGES:
+        try:
+            found.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            continue
+    return ", ".join(found)
 
 
-def provenance(study: Study, seconds: float) -> dict[str, str | float]:
-    """Global attributes: what the archive is, and how it was made."""
+def build(study: Study, points: UniquePoints, records: Records, history: str, seconds: float) -> xr.Dataset:
+    """The archive of a study.
+
+    Parameters
+    ----------
+    study
+        The study.
+    points
+        The distinct points of its grid.
+    records
+        What is known of them, in the same order.
+    history
+        What was done, a line each, the latest first.
+    seconds
+        Wall time of the run that ends with this.
+    """
+    arrays = arrays_of(records.take(points.index).solution, points.mirrored)
+    arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
+    dataset = label(study.grid, arrays)
+    dataset.s.attrs["ancillary_variables"] = "s_error regime status run"
+    dataset.status.attrs["failures"] = json.dumps(failures(records))
+    return dataset.assign_attrs(_provenance(study, records, history, seconds))
+
+
+def failures(records: Records) -> list[dict[str, Any]]:
+    """The failed points: canonical row, its description, and the message."""
+    return [
+        {
+            "row": records.table[index].tolist(),
+            "point": describe_point(records.table[index]),
+            "message": records.messages.get(int(index), ""),
+        }
+        for index in np.flatnonzero(records.status == FAILED)
+    ]
+
+
+def history_line(what: str) -> str:
+    """A line for the history: now, and what was done."""
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    versions = [f"python {platform.python_version()}", *(f"{name} {version(name)}" for name in _PACKAGES)]
-    attributes: dict[str, str | float] = {
+    return f"{now}: {what} by swtstudy {swtstudy.__version__}"
+
+
+def _provenance(study: Study, records: Records, history: str, seconds: float) -> dict[str, Any]:
+    attributes: dict[str, Any] = {
         "Conventions": "CF-1.11",
         "title": study.title,
         "source": f"swtstudy {swtstudy.__version__}",
-        "history": f"{now}: computed by swtstudy {swtstudy.__version__}",
+        "history": history,
         "references": REFERENCE,
-        "versions": ", ".join(versions),
+        "versions": versions(),
         "rtol": study.rtol,
         "wall_time_seconds": round(seconds, 3),
+        "computing_time_seconds": round(sum(run.seconds for run in records.runs), 3),
         "study": study.text,
+        "runs": json.dumps([asdict(run) for run in records.runs]),
     }
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()

@@ -34,14 +34,16 @@ def check_writable(path: str | PathLike[str]) -> None:
 
 
 @contextmanager
-def replacing(path: str | PathLike[str]) -> Iterator[Path]:
-    """A temporary file beside `path` that takes its place when the block ends without an error.
+def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator[Path]:
+    """A temporary file that takes the place of `path` when the block ends without an error.
+
+    The temporary file is in the same folder, or in `folder`, which must be on the same file system.
 
     The data is on the disk before the name points to it, so that neither a kill nor a power cut leaves
     half a file.
     """
     path = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder or path.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -56,14 +58,14 @@ def replacing(path: str | PathLike[str]) -> Iterator[Path]:
     _sync(path.parent)
 
 
-def save(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
-    """Write a Dataset as compressed netCDF-4, atomically."""
+def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
+    """Write a Dataset as compressed netCDF-4, atomically; see `replacing` for `beside`."""
     encoding = {
         name: {"zlib": True, "complevel": 4, "shuffle": True}
         for name, variable in dataset.data_vars.items()
         if variable.ndim
     }
-    with replacing(path) as temporary:
+    with replacing(path, beside) as temporary:
         dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
 
 

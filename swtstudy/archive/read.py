@@ -14,8 +14,18 @@ class ArchiveError(ValueError):
     """A file that is not an archive of a study."""
 
 
-def open_results(path: str | PathLike[str]) -> xr.Dataset:
+def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:
     """The results in an archive, loaded into memory; the file is closed again.
+
+    As long as there is no archive, because its first run goes on or was killed, these are the results that
+    have been saved so far: NaN, with the status "missing", for the others.
+
+    Parameters
+    ----------
+    path
+        The archive.
+    partial
+        Whether to show what an unfinished run has saved even if there is an archive of an earlier one.
 
     Raises
     ------
@@ -24,17 +34,31 @@ def open_results(path: str | PathLike[str]) -> xr.Dataset:
     ArchiveError
         A ValueError, if the file is not an archive of swtstudy.
     """
+    path = Path(path)
+    if partial or not path.exists():
+        from swtstudy.archive.partial import partial_results
+
+        dataset = partial_results(path)
+        if dataset is not None:
+            return dataset
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: no such archive")
+    return read_archive(path)
+
+
+def read_archive(path: Path) -> xr.Dataset:
+    """The Dataset in an archive file, loaded; raises as `open_results` does."""
     import xarray as xr
 
-    if not Path(path).is_file():
-        raise FileNotFoundError(f"{path}: no such archive")
     try:
         with xr.open_dataset(path, engine="netcdf4") as dataset:
             loaded = dataset.load()
-    except (OSError, ValueError, RuntimeError, KeyError, AttributeError) as error:
+    except (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError) as error:
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
-    if "s" not in loaded or "study" not in loaded.attrs:
-        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy")
+    lacking = [name for name in ("s", "status", "run") if name not in loaded]
+    lacking += [name for name in ("study", "runs", "rtol") if name not in loaded.attrs]
+    if lacking:
+        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(lacking)})")
     for variable in loaded.variables.values():
         variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
     return loaded

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 from typing import Any
 
 import click
 
 import swtstudy
+from swtstudy.cli.info import info
+from swtstudy.cli.merge import merge
+from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
 from swtstudy.cli.solve import solve
@@ -16,17 +20,32 @@ from swtstudy.cli.validate import validate
 #: Exit code for input that cannot be used, as click has it for wrong options.
 BAD_INPUT = 2
 
+#: Exit code after Ctrl-C, as shells have it.
+STOPPED = 130
+
 
 class _Commands(click.Group):
     """A group whose commands end bad input with one line a mistake, never with a traceback."""
 
     def invoke(self, context: click.Context) -> Any:
+        _log_to_terminal()
         try:
             return super().invoke(context)
         except (ValueError, OSError) as error:
             for line in (str(error) or type(error).__name__).splitlines():
                 click.echo(f"Error: {line}", err=True)
             sys.exit(BAD_INPUT)
+        except KeyboardInterrupt as error:
+            click.echo(str(error) or "stopped", err=True)
+            sys.exit(STOPPED)
+
+
+def _log_to_terminal() -> None:
+    """What the package has to say goes to the terminal as plain lines."""
+    logger = logging.getLogger("swtstudy")
+    if not logger.handlers:
+        logger.addHandler(logging.StreamHandler())
+    logger.setLevel(logging.INFO)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -35,5 +54,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, validate, plot, solve):
+for _command in (run, plan, validate, plot, info, merge, solve):
     main.add_command(_command)

@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+
+#: Exit code of a run in which points failed.
+POINTS_FAILED = 3
+
+#: Failed points that the summary names; the archive names them all.
+_NAMED = 5
 
 
 @click.command()
@@ -20,30 +32,75 @@ import click
     help="Format of the figure; may be given more than once.",
 )
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
-def run(studies: tuple[str, ...], results: str, formats: tuple[str, ...], workers: int) -> None:
-    """Compute each STUDY (a TOML file), and leave its archive and its figure."""
+@click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
+@click.option("--retry-failed", is_flag=True, help="Compute anew what failed before.")
+def run(
+    studies: tuple[str, ...],
+    results: str,
+    formats: tuple[str, ...],
+    workers: int,
+    scheduler: str | None,
+    retry_failed: bool,
+) -> None:
+    """Compute each STUDY (a TOML file), and leave its archive and its figure.
+
+    What is there already is not computed again: a run that was stopped goes on, a study that has grown is
+    extended. The exit code is 3 if points failed.
+    """
     from swtstudy.archive.files import check_writable
-    from swtstudy.study.definition import Study
     from swtstudy.study.several import read_studies
 
-    defined: dict[str, Study] = read_studies(studies)
+    defined = read_studies(studies)
     targets = {source: Path(results) / f"{Path(source).stem}.nc" for source in defined}
     for target in targets.values():
         check_writable(target)
 
     from swtstudy.runner.run import run as run_study
 
+    client = _connect(scheduler) if scheduler else None
+    failed = False
     for source, study in defined.items():
-        target = targets[source]
-        dataset = run_study(study, target, workers=workers)
-        seconds = dataset.attrs["wall_time_seconds"]
-        worst = float((dataset.s_error / dataset.s).max())
-        click.echo(f"{target}: {dataset.s.size} points in {seconds:.1f} s, relative error up to {worst:.1e}")
+        dataset = run_study(study, targets[source], workers=workers, client=client, retry_failed=retry_failed)
+        failed |= _summarize(dataset, targets[source])
         if study.figure is not None:
             from swtstudy.figures.draw import draw
             from swtstudy.figures.save import save_figure
 
             figure = draw(dataset)
             for ending in formats:
-                save_figure(figure, target.with_suffix(f".{ending}"))
-                click.echo(str(target.with_suffix(f".{ending}")))
+                save_figure(figure, targets[source].with_suffix(f".{ending}"))
+                click.echo(str(targets[source].with_suffix(f".{ending}")))
+    if failed:
+        sys.exit(POINTS_FAILED)
+
+
+def _connect(address: str) -> Client:
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ValueError(
+            '--scheduler needs the extra "distributed": pip install "swtstudy[distributed]"'
+        ) from None
+    try:
+        client = Client(address, timeout=10)
+    except (OSError, ValueError) as error:
+        raise OSError(f"no dask scheduler at {address} ({error})") from None
+    click.echo(f"dashboard: {client.dashboard_link}", err=True)
+    return client
+
+
+def _summarize(dataset: xr.Dataset, target: Path) -> bool:
+    """Say what a run came to; whether points failed."""
+    import json
+
+    worst = float((dataset.s_error / dataset.s).max())
+    seconds = dataset.attrs["wall_time_seconds"]
+    click.echo(f"{target}: {dataset.s.size} points in {seconds:.1f} s, relative error up to {worst:.1e}")
+    failures = json.loads(dataset.status.attrs["failures"])
+    for failure in failures[:_NAMED]:
+        click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)
+    if len(failures) > _NAMED:
+        click.echo(f"failed: {len(failures) - _NAMED} more, see swtstudy info {target}", err=True)
+    if failures:
+        click.echo(f"{len(failures)} points failed; --retry-failed computes them anew", err=True)
+    return bool(failures)

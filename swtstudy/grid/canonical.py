@@ -8,12 +8,15 @@ punch face of radius 0, the phase of an oscillation of amplitude 0).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray, Points
 from swtstudy.parameters import PROFILE_SHAPES
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.points import FloatArray, IntArray, Points
 
 PROFILES = tuple(PROFILE_SHAPES)
 SHAPE_COLUMNS = tuple(dict.fromkeys(name for shape in PROFILE_SHAPES.values() for name in shape))
@@ -21,9 +24,9 @@ SHAPE_COLUMNS = tuple(dict.fromkeys(name for shape in PROFILE_SHAPES.values() fo
 #: Columns of a table of canonical points; the profile is an index into `PROFILES`, ω2/ω1 = p/q.
 COLUMNS = (
     "profile",
-    "normal_amplitude",
     "p",
     "q",
+    "normal_amplitude",
     "tangential_amplitude",
     "phase",
     *SHAPE_COLUMNS,
@@ -82,7 +85,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(table[:, _COLUMN["phase"]] + nudge, p, q)
-    table[:, _COLUMN["phase"]] = (np.round((folded - nudge) / np.pi, DIGITS) + 0.0) * np.pi
+    table[:, _COLUMN["phase"]] = np.maximum(np.round((folded - nudge) / np.pi, DIGITS), 0.0) * np.pi
     return table, mirrored
 
 
@@ -112,6 +115,8 @@ def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
 
 def points_from(table: FloatArray) -> Points:
     """A batch for the solver from canonical rows that share one profile."""
+    from swtstudy.mechanics.points import Points
+
     profile = PROFILES[int(table[0, 0])]
     names = ("poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase")
     return Points(

@@ -102,9 +102,18 @@ def _factor(tokens: list[str]) -> tuple[Fraction | float, list[str]]:
             raise ValueError("a parenthesis is not closed")
         return value, rest[1:]
     if first[0] in "0123456789.":
-        # An exponent is read as a float first: Fraction("1e999999999") would fill the memory.
-        return Fraction(repr(float(first))) if "e" in first.lower() else Fraction(first), rest
+        return _number(first), rest
     raise ValueError(f"not a number: unexpected {first!r}")
+
+
+def _number(digits: str) -> Fraction:
+    if "e" not in digits.lower():
+        return Fraction(digits)
+    # By way of a float: Fraction("1e999999999") would fill the memory.
+    value = float(digits)
+    if not math.isfinite(value):
+        raise OverflowError
+    return Fraction(repr(value))
 
 
 def _square_root(value: Fraction | float) -> Fraction | float:

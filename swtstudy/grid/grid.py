@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, PROFILES, SHAPE_COLUMNS, canonical_number, canonical_points
 from swtstudy.grid.values import Value, read_value
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.points import FloatArray
 
 
 @dataclass(frozen=True)

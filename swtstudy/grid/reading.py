@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
 from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
@@ -23,11 +24,12 @@ LONGEST_AXIS = 1_000_000
 
 @dataclass(frozen=True)
 class Range:
-    """Evenly spaced values: `num` of them from `start` to `stop`, both included."""
+    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios."""
 
     start: object
     stop: object
     num: int
+    spacing: Literal["linear", "log"] = "linear"
 
 
 def read_grid(
@@ -115,28 +117,36 @@ def _read_axis(name: str, raw: Sequence[object] | Range, key: str, report: Repor
     return tuple(values)
 
 
-def _expand(spacing: Range, key: str, report: Report) -> list[object]:
+def _expand(axis: Range, key: str, report: Report) -> list[object]:
     """The values of a range: exact where its ends are rational."""
     ends: list[Fraction | float] = []
     for part in ("start", "stop"):
-        raw = getattr(spacing, part)
+        raw = getattr(axis, part)
         try:
             if isinstance(raw, bool) or not isinstance(raw, str | int | float | Fraction):
                 raise ValueError("not a number")
             ends.append(evaluate(raw if isinstance(raw, str) else str(raw)))
         except ValueError as error:
             report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
-    if not 2 <= spacing.num <= LONGEST_AXIS:
-        report(f"{key}.num", literal(spacing.num), f"a whole number from 2 to {LONGEST_AXIS}")
+    if not 2 <= axis.num <= LONGEST_AXIS:
+        report(f"{key}.num", literal(axis.num), f"a whole number from 2 to {LONGEST_AXIS}")
         return []
     if len(ends) < 2:
         return []
     start, stop = ends
-    step = (stop - start) / (spacing.num - 1)
+    step = (stop - start) / (axis.num - 1)
     if step == 0:
-        report(key, f"start and stop are both {literal(spacing.start)}", "two different ends")
+        report(key, f"start and stop are both {literal(axis.start)}", "two different ends")
         return []
-    return [start + index * step for index in range(spacing.num - 1)] + [stop]
+    if axis.spacing == "linear":
+        return [start + index * step for index in range(axis.num - 1)] + [stop]
+    if start <= 0 or stop <= 0:
+        ends_found = f"from {literal(axis.start)} to {literal(axis.stop)}"
+        report(key, f"equal ratios {ends_found}", "two positive ends")
+        return []
+    ratio = float(stop) / float(start)
+    inner = [float(start) * ratio ** (index / (axis.num - 1)) for index in range(1, axis.num - 1)]
+    return [start, *inner, stop]
 
 
 def _check_shapes(

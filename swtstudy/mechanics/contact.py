@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.gather import packed
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.protocol import Protocol, turning_instants
+from swtstudy.mechanics.protocol import Protocol, stick_depth, turning_instants
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
@@ -137,7 +137,6 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     stack.start[depth[:, 0] > 0.0, 0, 0] = 0.0
     record = Memory(*(np.empty((n, intervals, shape[2])) for _ in range(5)))
     only = np.zeros((n, 1), dtype=np.intp)
-    gross_slip = np.zeros(n, dtype=bool)
     flat = np.zeros(n)
     for period in range(2):
         for i in range(intervals):
@@ -156,10 +155,9 @@ def solve_cycle(protocol: Protocol) -> Cycle:
             )
             slips = front < now
             _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
-            if period == 1:
-                gross_slip |= slips & (front <= 0.0)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
+    gross_slip = stick_depth(protocol) < 0.0
     lift_off = protocol.normal_amplitude > 1.0
     number = np.broadcast_to(np.arange(intervals), (n, intervals))
     return Cycle(
@@ -212,9 +210,9 @@ def slip_front(
     """
     n, intervals, pieces = memory.start.shape
     place = np.arange(n).reshape((n,) + (1,) * (depth.ndim - 1)) * intervals + interval
-    last = np.maximum(np.isfinite(memory.start).sum(axis=-1) - 1, 0)
     front, sign = depth, np.ones_like(depth)
-    piece = np.broadcast_to(last.take(place), depth.shape)
+    # Where nothing slips the front is the edge, and during unloading that need not be in the last piece.
+    piece = (memory.start.reshape(-1, pieces).take(place, axis=0) < depth[..., None]).sum(axis=-1) - 1
     for sense, senses in ((1.0, forward), (-1.0, backward)):
         if not np.any(senses):
             continue

@@ -13,7 +13,7 @@ import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
 
-NEWTON_STEPS = 4
+NEWTON_STEPS = 3
 #: Largest step of 2θ in one Newton step, rad.
 LARGEST_STEP = 0.4
 

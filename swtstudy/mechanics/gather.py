@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TypeVar
 
 import numpy as np
@@ -11,22 +12,22 @@ T = TypeVar("T", bound=np.generic)
 
 
 def gather(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
-    """``np.take_along_axis(values, index, axis=-1)`` for leading axes of equal length or 1.
+    """``np.take_along_axis(values, index, axis=-1)``, where index may have more leading axes.
 
     Parameters
     ----------
     values
         Shape (…, k).
     index
-        Shape (…, m), 0 ≤ index < k.
+        Shape (…, m) or (s, …, m), 0 ≤ index < k.
     """
     lead = values.shape[:-1]
-    rows = np.arange(int(np.prod(lead)), dtype=np.intp).reshape(*lead, 1)
+    rows = np.arange(math.prod(lead), dtype=np.intp).reshape(*lead, 1)
     return np.ascontiguousarray(values).reshape(-1).take(rows * values.shape[-1] + index)
 
 
 def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
-    """One value of each row: values of shape (…, k) at the index of shape (…)."""
+    """One value of each row: values of shape (…, k) at the index of shape (…) or (s, …)."""
     return gather(values, index[..., None])[..., 0]
 
 

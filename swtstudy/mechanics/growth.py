@@ -27,10 +27,11 @@ class GrowthIntegrals:
     position
         Shape (n, X), r = |x|.
     count
-        Number of Chebyshev nodes of each series.
+        Number of Chebyshev nodes of each series for a smooth profile.
     """
 
     def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
+        count += profile.extra_nodes
         memory = cycle.memory
         n = len(memory.start)
         grown = (memory.slope == GROWTH) & np.isfinite(memory.start)

@@ -23,7 +23,11 @@ OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
 #: How the width shrinks while the best position is the outermost one.
 WALKING = 2.0 / 3.0
-LARGEST_ROUND_COUNT = 12
+LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
+#: Share of the last round's change that the next one would make at most.
+CHANGE_SHARE = 0.1
+#: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
+SETTLED, LEAST_ERROR = 0.3, 0.05
 #: Values closer than this are equal, relative.
 TIE = 1e-12
 
@@ -38,23 +42,22 @@ class Accuracy:
         Resolution of the local search over x.
     check
         A finer one for the value itself; the difference of the two is the error in time and angle.
-    rounds
-        Rounds of the local search.
+    tolerance
+        Relative accuracy asked for.
     """
 
     search: Resolution
     check: Resolution
-    rounds: int
+    tolerance: float
 
     @classmethod
     def for_tolerance(cls, rtol: float) -> Accuracy:
         """The least effort that keeps the error below ``rtol``."""
         digits = -np.log10(rtol)
-        zooms = max(int(np.ceil(digits / 2.0)), 1)
-        growth = int(4 * np.ceil(digits))
-        return cls(
-            Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 6), 2 + int(digits > 3.5)
-        )
+        # A zoom gains a factor of 30.
+        zooms = max(int(np.ceil(0.5 * digits)), 1)
+        growth = int(np.ceil(max(4.0 * digits - 2.0, 6.0 * digits - 10.0)))
+        return cls(Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 8), rtol)
 
 
 @dataclass(frozen=True)
@@ -93,8 +96,12 @@ class _Climb:
         Where the next round looks, in the c of `PositionBrackets`.
     top
         Estimated maximum of swt.
+    change
+        Change of `top` in the last round.
     rounds
         Rounds that narrowed the search.
+    settled
+        Whether the next round would change too little to matter.
     """
 
     point: NDArray[np.intp]
@@ -105,7 +112,9 @@ class _Climb:
     centre: FloatArray
     width: FloatArray
     top: FloatArray
+    change: FloatArray
     rounds: NDArray[np.intp]
+    settled: NDArray[np.bool_]
 
     @classmethod
     def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
@@ -115,7 +124,7 @@ class _Climb:
         hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
         zero = np.zeros(len(point))
         width, rounds = zero + FIRST_WIDTH, zero.astype(np.intp)
-        return cls(point, 1.0 - 2.0 * side, column, hot, look.double_angle[peak], zero, width, zero.copy(), rounds)
+        return cls(point, 1.0 - 2.0 * side, column, hot, look.double_angle[peak], zero, width, zero.copy(), zero.copy(), rounds, rounds > 0)
 
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
         return _Climb(*(values[index] for values in vars(self).values()))
@@ -130,7 +139,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     positions = positions_of_first_look(split.cycle, scene.profile)
     climb = _Climb.start(split, first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES), scene)
     for _ in range(LARGEST_ROUND_COUNT):
-        active = np.flatnonzero(climb.rounds < accuracy.rounds)
+        active = np.flatnonzero(~climb.settled)
         if not active.size:
             break
         _step(split, positions, climb, active, accuracy)
@@ -142,7 +151,9 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     best = climb.take(order[np.unique(climb.point[order], return_index=True)[1]])
     r = best.brackets(positions).radius(best.centre[:, None])
     value, angle = refine(split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check)
-    error = np.abs(value[:, 0] - best.top)
+    error = np.abs(value[:, 0] - best.top) + CHANGE_SHARE * best.change
+    # Nothing finer than this was looked at.
+    error = np.maximum(error, LEAST_ERROR * accuracy.tolerance * value[:, 0])
     return Maximum(value[:, 0], error, best.side * r[:, 0], angle[:, 0])
 
 
@@ -161,18 +172,23 @@ def _step(
     best = (values * (1.0 - TIE * np.abs(c - now.centre[:, None]))).argmax(axis=1)
     found = pick(c, best)
     centre, top = _vertex(c, values, best, brackets.is_corner)
+    change = np.abs(top - now.top)
     # A maximum next to a corner shows only once the search is narrow.
-    last = now.rounds + 1 == accuracy.rounds
-    centre = np.where(brackets.is_corner & (found == 0.0) & ~last, 0.0, centre)
+    flat = top - pick(values, best) <= accuracy.tolerance * top
+    stays = brackets.is_corner & (found == 0.0) & (flat | (now.rounds < LEAST_ROUND_COUNT))
+    centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
     beyond = (np.abs(found) == 1.0) & (now.column + found.astype(np.intp) != positions.r.shape[1])
-    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != 0.0)
+    outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != now.centre)
     climb.column[active] += np.where(beyond, found.astype(np.intp), 0)
     climb.centre[active] = np.where(beyond, 0.0, centre)
     climb.angle[active], climb.top[active] = pick(angles, best), top
+    climb.change[active] = change
     narrower = now.width * np.where(outermost, WALKING, SHRINKING)
     climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
     climb.rounds[active] += ~outermost
+    small = CHANGE_SHARE * change <= SETTLED * accuracy.tolerance * top
+    climb.settled[active] = ~outermost & small & (now.rounds + 1 >= LEAST_ROUND_COUNT)
 
 
 def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:

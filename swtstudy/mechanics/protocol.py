@@ -83,10 +83,14 @@ class Protocol:
         if self.p == self.q:
             return self._harmonic_instant(sense, goal, low, high)
 
-        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+        def line(
+            instant: FloatArray, active: NDArray[np.intp]
+        ) -> tuple[FloatArray, FloatArray, FloatArray]:
             one = self.take(active)
-            value = sense * one.displacement(instant) - one.depth(instant) - goal[active]
-            return value, sense * one.displacement_rate(instant) - one.depth_rate(instant)
+            u, depth = sense * one.displacement(instant), one.depth(instant)
+            slope = sense * one.displacement_rate(instant) - one.depth_rate(instant)
+            bend = self.q**2 * (depth - 1.0) - self.p**2 * u
+            return u - depth - goal[active], slope, bend
 
         return monotone_roots(line, low, high)
 
@@ -157,6 +161,21 @@ def turning_instants(protocol: Protocol) -> FloatArray:
     return np.sort(np.concatenate(columns, axis=1), axis=1)
 
 
+def stick_depth(protocol: Protocol) -> FloatArray:
+    """Depth G_s = (min(u + δ) − max(u − δ))/2 up to which springs stick all through the stationary cycle.
+
+    A spring at G can keep one offset if that fits into all of its bounds [u − δ + G, u + δ − G]. Negative
+    if the whole contact slides, or is lost, once a cycle.
+
+    Returns
+    -------
+    Shape (n,), in δ0.
+    """
+    instants = turning_instants(protocol)
+    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+    return 0.5 * ((displacement + depth).min(axis=1) - (displacement - depth).max(axis=1))
+
+
 def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     """Zeros of d(u − sign·δ)/dφ in [0, 2π], shape (n, k), filled up with 2π."""
     order = max(protocol.p, protocol.q)
@@ -164,12 +183,12 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     step = 2.0 * np.pi / (24 * order)
     grid = step * np.arange(24 * order + 2) + 0.0123 / order
     nodes = np.broadcast_to(grid, (len(protocol), grid.size))
-    rate = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
+    rates = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
 
-    row, cell = np.nonzero((rate[:, :-1] < 0.0) != (rate[:, 1:] < 0.0))
+    row, cell = np.nonzero((rates[:, :-1] < 0.0) != (rates[:, 1:] < 0.0))
     low, high = grid[cell], grid[cell + 1]
     # A close pair of zeros inside a cell pair shows as a parabola whose vertex crosses zero.
-    left, mid, right = rate[:, :-2], rate[:, 1:-1], rate[:, 2:]
+    left, mid, right = rates[:, :-2], rates[:, 1:-1], rates[:, 2:]
     curvature = left - 2.0 * mid + right
     with np.errstate(divide="ignore", invalid="ignore"):
         offset = 0.5 * (left - right) / curvature
@@ -185,12 +204,15 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     line = protocol.take(row)
     p, q = protocol.p, protocol.q
 
-    def rate_and_slope(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+    def rate(
+        instant: FloatArray, active: NDArray[np.intp]
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
         one = line.take(active)
         slope = -p * p * one.displacement(instant) + sign * q * q * (one.depth(instant) - 1.0)
-        return one.displacement_rate(instant) - sign * one.depth_rate(instant), slope
+        u_rate, depth_rate = one.displacement_rate(instant), one.depth_rate(instant)
+        return u_rate - sign * depth_rate, slope, sign * q * q * depth_rate - p * p * u_rate
 
-    roots = np.mod(monotone_roots(rate_and_slope, low, high), 2.0 * np.pi)
+    roots = np.mod(monotone_roots(rate, low, high), 2.0 * np.pi)
     return filled_rows(row, roots, len(protocol), 2.0 * np.pi)
 
 

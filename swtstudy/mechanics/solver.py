@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.maximum import Accuracy, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.profiles import make_profile, roughness
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
-#: Points of one batch: large enough to hide the interpreter, small enough to stay in the cache.
-BATCH_SIZE = 16
+#: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
+BATCH_SIZE = 1600
 
 
 def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
@@ -55,15 +55,17 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
-    """Indices of points with the same frequency ratio, neighbouring loads together."""
-    order = np.lexsort(
-        (points.phase, points.tangential_amplitude, points.normal_amplitude, points.p, points.q)
-    )
-    p, q = points.p[order], points.q[order]
-    ends = np.flatnonzero((np.diff(p) != 0) | (np.diff(q) != 0)) + 1
+    """Indices of points with the same frequency ratio and roughness, neighbouring loads together."""
+    level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    loads = points.phase, points.tangential_amplitude, points.normal_amplitude
+    order = np.lexsort((*loads, level, points.p, points.q))
+    kind = np.stack([points.p, points.q, level])[:, order]
+    ends = np.flatnonzero((np.diff(kind, axis=1) != 0).any(axis=0)) + 1
     for group in np.split(order, ends):
-        for begin in range(0, len(group), BATCH_SIZE):
-            yield group[begin : begin + BATCH_SIZE]
+        turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
+        size = max(BATCH_SIZE // turns, 1)
+        for begin in range(0, len(group), size):
+            yield group[begin : begin + size]
 
 
 def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol, NDArray[np.intp]]:

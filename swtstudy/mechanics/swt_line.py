@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, product
+from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, parabola, product
 from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
@@ -25,7 +25,7 @@ ANGLE_ROUNDS = 2
 #: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
 HOT = 0.35
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
-STARTS = (0.0, -0.25, 0.25)
+STARTS = np.array([0.0, -0.25, 0.25])
 
 
 @dataclass(frozen=True)
@@ -180,7 +180,8 @@ def refine(
     side = side[:, None, None]
     nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
     planes = scene.planes(line.history(nodes), side)
-    angle, at = _best_plane(planes, double_angle)
+    inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
+    angle, at = _best_plane(planes, inside, double_angle)
     node = gather(number, np.stack(at, axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
@@ -196,19 +197,32 @@ def refine(
 
 
 def _best_plane(
-    planes: PlaneHistory, double_angle: FloatArray
+    planes: PlaneHistory, inside: NDArray[np.bool_], double_angle: FloatArray
 ) -> tuple[FloatArray, list[NDArray[np.intp]]]:
-    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes."""
+    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes.
+
+    ``inside``, shape (…, T), tells which instants are not at the end of their stretch.
+    """
     parts = [planes] * 3
-    best, best_start = np.full(double_angle.shape, -1.0), double_angle
-    for start in STARTS:
-        angle = double_angle + start
-        for _ in range(ANGLE_ROUNDS):
-            angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
-        stress, high, low = (curve.max(axis=-1) for curve in _curves(parts, angle))
-        swt = product(stress, high, -low)
-        best, best_start = np.where(swt > best, swt, best), np.where(swt > best, angle, best_start)
-    return best_start, _extremes(parts, best_start)
+    angle = double_angle + STARTS.reshape(-1, *(1,) * double_angle.ndim)
+    for _ in range(ANGLE_ROUNDS):
+        angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
+    stress, high, low = (_peak(curve, inside) for curve in _curves(parts, angle))
+    best = np.moveaxis(product(stress, high, -low), 0, -1).argmax(axis=-1)
+    angle = pick(np.moveaxis(angle, 0, -1), best)
+    return angle, _extremes(parts, angle)
+
+
+def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """Maximum over the instants, interpolated in the stretches that the largest value belongs to."""
+    best = curve.argmax(axis=-1)
+    top = pick(curve, best)
+    for step in (-1, 0, 1):
+        middle = np.clip(best + step, 1, curve.shape[-1] - 2)
+        left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
+        vertex = centre + parabola(left, centre, right)[1]
+        top = np.where(pick(inside, middle), np.maximum(top, vertex), top)
+    return top
 
 
 def _parts(planes: PlaneHistory) -> list[PlaneHistory]:
@@ -230,4 +244,8 @@ def _extremes(parts: list[PlaneHistory], angle: FloatArray) -> list[NDArray[np.i
 
 def _active(parts: list[PlaneHistory], at: list[NDArray[np.intp]]) -> tuple[FloatArray, FloatArray]:
     """Coefficients of σ_n at its maximum and of ε_n between its extremes, each (3, …)."""
-    return pick(parts[0].stress, at[0]), pick(parts[1].strain, at[1]) - pick(parts[2].strain, at[2])
+    peak, high, low = (
+        np.stack([pick(v, index) for v in values])
+        for values, index in zip((parts[0].stress, parts[1].strain, parts[2].strain), at, strict=True)
+    )
+    return peak, high - low

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
 
-from swtstudy.mechanics.points import FloatArray, Points, Solution
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import REGIMES, FloatArray, IntArray, Points, Solution
 
 #: What solves a batch of points with a relative accuracy.
 Solver = Callable[[Points, float], Solution]
@@ -14,46 +17,143 @@ Solver = Callable[[Points, float], Solution]
 
 @dataclass(frozen=True)
 class Chunk:
-    """Points to be solved together.
+    """Blocks of points; each block is solved in one call.
 
     Attributes
     ----------
-    start
-        Index of the first point among all points of the run.
+    rows
+        Shape (n,): where the points are in the table of the run.
     table
-        Canonical rows of one profile, shape (n, len(COLUMNS)).
+        Their canonical rows, shape (n, len(COLUMNS)).
+    lengths
+        Points of each block, adding up to n.
     """
 
-    start: int
+    rows: IntArray
     table: FloatArray
+    lengths: tuple[int, ...]
+
+    @classmethod
+    def of(cls, table: FloatArray, blocks: list[IntArray]) -> Chunk:
+        """The chunk of the given blocks of rows."""
+        rows = np.concatenate(blocks)
+        return cls(rows, table[rows], tuple(map(len, blocks)))
 
     def __len__(self) -> int:
-        return len(self.table)
+        return len(self.rows)
+
+    @property
+    def name(self) -> str:
+        """Name of the task: no two chunks of a run have a row in common."""
+        return f"points-{self.rows[0]}-{len(self)}"
+
+    def split(self) -> Iterator[Chunk]:
+        """Its blocks, or the points of its only block, as chunks of their own."""
+        lengths = self.lengths if len(self.lengths) > 1 else (1,) * len(self)
+        start = 0
+        for length in lengths:
+            part = slice(start, start + length)
+            yield Chunk(self.rows[part], self.table[part], (length,))
+            start += length
 
 
 @dataclass(frozen=True)
 class Result:
-    """Solution of a chunk, and the seconds that a worker took for it."""
+    """What came of a chunk.
 
-    start: int
+    Attributes
+    ----------
+    rows
+        As in the chunk.
+    solution
+        NaN for points that failed.
+    failed
+        Shape (n,).
+    messages
+        Why a point failed, by its position in `rows`.
+    seconds
+        Time that the worker took.
+    solver_version
+        Of the mechanics on the worker.
+    """
+
+    rows: IntArray
     solution: Solution
+    failed: NDArray[np.bool_]
+    messages: dict[int, str]
     seconds: float
+    solver_version: str
 
     def __len__(self) -> int:
-        return len(self.solution.s)
+        return len(self.rows)
 
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
-    """Solve a chunk; runs in a worker."""
-    from swtstudy.grid.canonical import points_from
+    """Solve a chunk, whatever happens to single points of it; runs in a worker."""
+    from swtstudy.mechanics.version import SOLVER_VERSION
 
     begin = time.perf_counter()
-    solution = solver(points_from(chunk.table), rtol)
-    return Result(chunk.start, solution, time.perf_counter() - begin)
+    solutions: list[Solution] = []
+    messages: dict[int, str] = {}
+    start = 0
+    for length in chunk.lengths:
+        block = chunk.table[start : start + length]
+        try:
+            solutions.append(_checked(block, rtol, solver))
+        except Exception:
+            # One of them fails: the others shall not.
+            for offset in range(length):
+                try:
+                    solutions.append(_checked(block[offset : offset + 1], rtol, solver))
+                except Exception as error:
+                    solutions.append(blank(1))
+                    messages[start + offset] = f"{type(error).__name__}: {error}"
+        start += length
+    failed = np.zeros(len(chunk), bool)
+    failed[list(messages)] = True
+    seconds = time.perf_counter() - begin
+    return Result(chunk.rows, joined(solutions), failed, messages, seconds, SOLVER_VERSION)
+
+
+def given_up(chunk: Chunk, message: str) -> Result:
+    """The result of a chunk that could not be brought to an end."""
+    from swtstudy.mechanics.version import SOLVER_VERSION
+
+    size = len(chunk)
+    messages = dict.fromkeys(range(size), message)
+    return Result(chunk.rows, blank(size), np.ones(size, bool), messages, 0.0, SOLVER_VERSION)
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
-    """The solver of the mechanics, imported only where it is used: the parent process does without."""
+    """The solver of the mechanics, looked up where it runs."""
     from swtstudy import mechanics
 
     return mechanics.solve_points(points, rtol)
+
+
+def blank(size: int) -> Solution:
+    """A solution without values."""
+    s, s_error, critical_x, critical_angle = np.full((4, size), np.nan)
+    regime = np.full(size, REGIMES.index("not_finite"), np.int8)
+    return Solution(s, s_error, critical_x, critical_angle, regime)
+
+
+def solution_at(solution: Solution, rows: NDArray) -> Solution:
+    """The solution at the given rows."""
+    return Solution(**{item.name: getattr(solution, item.name)[rows] for item in fields(Solution)})
+
+
+def joined(solutions: list[Solution]) -> Solution:
+    """Solutions one after the other as one."""
+    names = [item.name for item in fields(Solution)]
+    return Solution(**{name: np.concatenate([getattr(part, name) for part in solutions]) for name in names})
+
+
+def _checked(table: FloatArray, rtol: float, solver: Solver) -> Solution:
+    from swtstudy.grid.canonical import points_from
+
+    solution = solver(points_from(table), rtol)
+    lost = np.isnan(solution.s) & (np.asarray(solution.regime) != REGIMES.index("not_finite"))
+    if lost.any():
+        raise ArithmeticError("the solver found no value")
+    return solution

@@ -8,7 +8,7 @@ from concurrent.futures.process import BrokenProcessPool
 from types import TracebackType
 from typing import Any, Protocol
 
-from swtstudy.runner.chunk import Chunk, Result, Solver, solve_chunk
+from swtstudy.runner.chunk import Chunk, Result, Solver, given_up, solve_chunk
 from swtstudy.runner.workers import start_workers
 
 #: Takes every result as soon as it is there.
@@ -17,12 +17,17 @@ Deliver = Callable[[Result], None]
 #: Chunks a worker is given at once; the others wait at the end of such a wave for the last one.
 _WAVE = 16
 
-#: Times that a chunk may lose its worker before it is given up.
-_ATTEMPTS = 3
+LOST_WORKER = "the worker process died while it computed this point"
 
 
 class Engine(Protocol):
-    """What a run needs of an engine."""
+    """What a run needs of an engine; the engine is ready inside a with block."""
+
+    def __enter__(self) -> Engine: ...
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
         """Solve all chunks, in any order; return when every result is delivered."""
@@ -30,6 +35,12 @@ class Engine(Protocol):
 
 class Here:
     """Solves in this process."""
+
+    def __enter__(self) -> Here:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
         """See `Engine`."""
@@ -40,8 +51,6 @@ class Here:
 class LocalWorkers:
     """Solves in worker processes of this machine, through dask.
 
-    Use as a context manager: the workers start with it and end with it.
-
     Parameters
     ----------
     count
@@ -50,51 +59,55 @@ class LocalWorkers:
 
     def __init__(self, count: int = 2) -> None:
         self.count = count
-        self._pool = start_workers(count)
 
     def __enter__(self) -> LocalWorkers:
+        self._pool = start_workers(self.count)
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self._pool.shutdown(wait=kind is None, cancel_futures=True)
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
-        """See `Engine`; a lost worker is replaced and what it had in hand is given out again."""
+        """See `Engine`; a lost worker is replaced, and what it had in hand is given out again."""
         waiting = iter(chunks)
         while wave := list(itertools.islice(waiting, _WAVE * self.count)):
-            for attempt in range(_ATTEMPTS):
-                missing = {chunk.start: chunk for chunk in wave}
+            lost = self._attempt(wave, rtol, solver, deliver)
+            if lost:
+                lost = self._attempt(lost, rtol, solver, deliver)
+            # Lost twice: one of them may be what kills workers.
+            for chunk in lost:
+                self._alone(chunk, rtol, solver, deliver)
 
-                def received(result: Result, missing: dict[int, Chunk] = missing) -> None:
-                    del missing[result.start]
-                    deliver(result)
+    def _alone(self, chunk: Chunk, rtol: float, solver: Solver, deliver: Deliver) -> None:
+        """Solve one chunk with nothing beside it; cut it up until the point that kills is found."""
+        if not self._attempt([chunk], rtol, solver, deliver):
+            return
+        if len(chunk) == 1:
+            deliver(given_up(chunk, LOST_WORKER))
+            return
+        for part in chunk.split():
+            self._alone(part, rtol, solver, deliver)
 
-                try:
-                    self._solve_wave(wave, rtol, solver, received)
-                    break
-                except BrokenProcessPool:
-                    if attempt == _ATTEMPTS - 1:
-                        raise
-                    self._pool.shutdown(wait=False, cancel_futures=True)
-                    self._pool = start_workers(self.count)
-                    wave = list(missing.values())
-
-    def _solve_wave(self, wave: list[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
+    def _attempt(self, wave: list[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> list[Chunk]:
+        """Solve chunks; those that were lost with a worker are returned."""
         import dask
         from dask.callbacks import Callback
 
-        tasks = [
-            dask.delayed(solve_chunk, pure=False, traverse=False)(
-                chunk, rtol, solver, dask_key_name=f"chunk-{chunk.start}"
-            )
-            for chunk in wave
-        ]
+        missing = {chunk.name: chunk for chunk in wave}
+        task = dask.delayed(solve_chunk, pure=False, traverse=False)
+        tasks = [task(chunk, rtol, solver, dask_key_name=name) for name, chunk in missing.items()]
 
-        def done(_key: str, result: Any, _graph: Any, _state: Any, _worker: Any) -> None:
-            if isinstance(result, Result):
+        def done(key: str, result: Any, *_: object) -> None:
+            if key in missing:
                 deliver(result)
+                del missing[key]
 
-        with Callback(posttask=done):
-            dask.compute(*tasks, scheduler="processes", pool=self._pool, chunksize=1, optimize_graph=False)
+        try:
+            with Callback(posttask=done):
+                dask.compute(
+                    *tasks, scheduler="processes", pool=self._pool, chunksize=1, optimize_graph=False
+                )
+        except BrokenProcessPool:
+            self._pool.shutdown(wait=False, cancel_futures=True)
+            self._pool = start_workers(self.count)
+        return list(missing.values())

@@ -5,27 +5,25 @@ from __future__ import annotations
 from swtstudy.runner.chunk import Result
 
 #: Seconds of work in a chunk: long against what it costs to send one, short enough to lose.
-_CHUNK_SECONDS = 0.4
+CHUNK_SECONDS = 0.4
 
-#: Points of the first chunk, solved to see how long they take.
-PROBE_POINTS = 4
+#: More than this in one chunk would make a part of the archive that takes long to write.
+_LARGEST_WEIGHT = 10_000
 
-_LARGEST_CHUNK = 20_000
+#: Rough cost of a point by its weight in `plan.weights`, before any has been timed.
+SECONDS_PER_WEIGHT = 4e-3
 
 
 class Pace:
-    """Running mean of the seconds that a point takes a worker."""
+    """Running mean of the seconds that points take a worker, by their weight."""
 
     def __init__(self) -> None:
-        self.seconds_per_point = 0.0
+        self.seconds_per_weight = SECONDS_PER_WEIGHT
 
-    def update(self, result: Result) -> None:
+    def update(self, result: Result, weight: int) -> None:
         """Take the timing of one more result into account."""
-        new = result.seconds / len(result)
-        self.seconds_per_point = new if not self.seconds_per_point else (self.seconds_per_point + new) / 2
+        self.seconds_per_weight = (self.seconds_per_weight + max(result.seconds, 1e-9) / weight) / 2
 
-    def chunk_size(self) -> int:
-        """Points that make a good chunk."""
-        if not self.seconds_per_point:
-            return PROBE_POINTS
-        return max(1, min(_LARGEST_CHUNK, round(_CHUNK_SECONDS / self.seconds_per_point)))
+    def chunk_weight(self) -> float:
+        """Weight of a chunk that takes a good time."""
+        return min(_LARGEST_WEIGHT, CHUNK_SECONDS / self.seconds_per_weight)

@@ -1,20 +1,29 @@
-"""What has to be computed: the distinct points of a grid, in a good order, and cut into chunks."""
+"""What has to be computed: the distinct points of a grid, in a good order, cut into blocks and chunks."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.grid.grid import Grid
-from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.runner.chunk import Chunk
 
-#: Columns that make the load; they follow the profile, so that points of one load are neighbours.
-_LOAD = slice(1, COLUMNS.index("phase") + 1)
+if TYPE_CHECKING:
+    from swtstudy.mechanics.points import FloatArray, IntArray
+
+_P, _Q, _PHASE = (COLUMNS.index(name) for name in ("p", "q", "phase"))
+#: Columns that the points of a block share: profile and frequency ratio.
+_FAMILY = slice(0, _Q + 1)
+#: Columns that make the load.
+_LOAD = slice(1, _PHASE + 1)
+
+#: Bounds of the points in a block. A block of 32 costs per point as little as a larger one.
+_SMALLEST_BLOCK, _LARGEST_BLOCK = 4, 32
 
 
 @dataclass(frozen=True)
@@ -24,7 +33,7 @@ class UniquePoints:
     Attributes
     ----------
     table
-        Shape (m, len(COLUMNS)), sorted by profile, then by load.
+        Shape (m, len(COLUMNS)), sorted by profile and frequency ratio, then by load.
     index
         Shape (grid.size,): row of `table` for every grid point.
     mirrored
@@ -43,32 +52,77 @@ def unique_points(grid: Grid) -> UniquePoints:
     return UniquePoints(rows[first], index, mirrored)
 
 
-def take(table: FloatArray, start: int, size: int) -> int:
-    """End of the chunk of about `size` points that begins at `start`.
+def weights(table: FloatArray) -> IntArray:
+    """Rough relative cost of points: long cycles cost more."""
+    return (table[:, _P] + table[:, _Q]).astype(np.int64)
 
-    A chunk has one profile, and ends between two loads where it can: points with the same load share
-    their contact solution only within a chunk.
+
+def block_ends(table: FloatArray) -> IntArray:
+    """Ends of the blocks of a table; what is solved in one call does not depend on the run.
+
+    The last bits of a value depend on what it is solved together with. Blocks that depend on the table
+    alone make an interrupted run end with the very values of an undisturbed one.
+
+    A block has one profile and one frequency ratio, and ends between two loads where it can: points with
+    the same load share their contact solution.
     """
-    stop = min(start + size, len(table))
-    other_profile = np.flatnonzero(table[start:stop, 0] != table[start, 0])
-    if len(other_profile):
-        return start + int(other_profile[0])
-    if stop == len(table):
-        return stop
-    same_load = (table[start:stop, _LOAD] == table[stop, _LOAD]).all(axis=1)
-    begins = stop - int(np.argmin(same_load[::-1])) if not same_load.all() else stop
-    # Only a cut that keeps at least half of the wanted size is worth it.
-    return begins if begins - start >= size / 2 else stop
+    ends: list[int] = []
+    # Last row of each stretch of the same family, and of the same load.
+    family_end = _stretch_ends(table[:, _FAMILY])
+    load_end = _stretch_ends(table[:, : _PHASE + 1])
+    load_begin = np.concatenate([[0], load_end[:-1]])[
+        np.searchsorted(load_end, np.arange(len(table)), "right")
+    ]
+    sizes = np.clip(64 // weights(table), _SMALLEST_BLOCK, _LARGEST_BLOCK).tolist()
+    start, family = 0, 0
+    while start < len(table):
+        while family_end[family] <= start:
+            family += 1
+        stop = min(start + sizes[start], int(family_end[family]))
+        # Only a cut that keeps at least half of the wanted size is worth it.
+        if stop < family_end[family] and load_begin[stop] - start >= sizes[start] / 2:
+            stop = int(load_begin[stop])
+        ends.append(stop)
+        start = stop
+    return np.array(ends, np.int64)
+
+
+def _stretch_ends(columns: FloatArray) -> IntArray:
+    changes = np.flatnonzero((columns[1:] != columns[:-1]).any(axis=1)) + 1
+    return np.append(changes, len(columns))
+
+
+def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
+    """Chunks of the wanted points of a table: whole blocks, about `size()` in weight when cut.
+
+    Parameters
+    ----------
+    table
+        Canonical rows in the order of `unique_points`.
+    wanted
+        Shape (len(table),): the points to be solved.
+    size
+        Asked anew for every chunk.
+    """
+    weight = weights(table)
+    blocks: list[IntArray] = []
+    heaviness = 0
+    begin = 0
+    for end in block_ends(table).tolist():
+        rows = begin + np.flatnonzero(wanted[begin:end])
+        begin = end
+        if not len(rows):
+            continue
+        block_weight = int(weight[rows].sum())
+        if blocks and heaviness + block_weight > size():
+            yield Chunk.of(table, blocks)
+            blocks, heaviness = [], 0
+        blocks.append(rows)
+        heaviness += block_weight
+    if blocks:
+        yield Chunk.of(table, blocks)
 
 
 def loads(table: FloatArray) -> int:
     """Number of distinct loads, each of which needs one contact solution."""
     return len(group_rows(table[:, _LOAD])[0])
-
-
-def cut(table: FloatArray, begin: int, size: Callable[[], int]) -> Iterator[Chunk]:
-    """Chunks of the rows of a table from `begin` on, each cut to `size()` points when it is asked for."""
-    while begin < len(table):
-        stop = take(table, begin, size())
-        yield Chunk(begin, table[begin:stop])
-        begin = stop

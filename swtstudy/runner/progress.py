@@ -1,60 +1,91 @@
-"""Progress of a run: a bar on a terminal, nothing elsewhere."""
+"""Progress of a run: a bar on a terminal, a plain line now and then elsewhere."""
 
 from __future__ import annotations
 
+import logging
 import sys
 import time
+from collections.abc import Callable
 from typing import TextIO
+
+_log = logging.getLogger(__name__)
 
 _WIDTH = 30
 
+#: Seconds between two lines in a log, and between two looks of the bar.
+_LINE_SECONDS, _BAR_SECONDS = 30.0, 0.1
+
 
 class Progress:
-    """Counts points, and draws a bar with their rate and the time left.
+    """Counts points, and shows their rate and the time left.
 
     Parameters
     ----------
     total
         Points to be computed.
     stream
-        Where the bar goes; nothing is written unless it is a terminal.
+        Where the bar goes if it is a terminal; otherwise a line goes to the log every half minute.
+    clock
+        Seconds, increasing.
     """
 
-    def __init__(self, total: int, stream: TextIO | None = None) -> None:
+    def __init__(
+        self, total: int, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self.total = total
         self.done = 0
         self._stream = sys.stderr if stream is None else stream
-        self._visible = self._stream.isatty()
-        self._begin = time.monotonic()
+        self._terminal = self._stream.isatty()
+        self._clock = clock
+        self._begin = self._shown = clock()
 
     def add(self, points: int) -> None:
         """Count more points as done."""
         self.done += points
-        if self._visible:
-            line = bar(self.done, self.total, time.monotonic() - self._begin)
-            self._stream.write(f"\r{line}\x1b[K")
+        now = self._clock()
+        if now - self._shown < (_BAR_SECONDS if self._terminal else _LINE_SECONDS) and self.done < self.total:
+            return
+        if self._terminal:
+            self._stream.write(f"\r{bar(self.done, self.total)}  {self._words(now)}\x1b[K")
             self._stream.flush()
+        elif now - self._begin >= _LINE_SECONDS:
+            _log.info(self._words(now))
+        self._shown = now
 
     def close(self) -> None:
         """End the line of the bar."""
-        if self._visible and self.done:
+        if self._terminal and self.done:
             self._stream.write("\n")
             self._stream.flush()
 
+    def _words(self, now: float) -> str:
+        return words(self.done, self.total, now - self._begin)
 
-def bar(done: int, total: int, seconds: float) -> str:
-    """One line that says how far a run is.
+
+def bar(done: int, total: int) -> str:
+    """A bar as long as the part that is done.
 
     Examples
     --------
-    >>> bar(50, 200, 10.0)
-    '███████▌                         25 %  50/200 points  5.0/s  30 s left'
+    >>> bar(50, 200)
+    '███████▌                      '
     """
     eighths = round(8 * _WIDTH * done / total)
     full = "█" * (eighths // 8) + " ▏▎▍▌▋▊▉"[eighths % 8].strip()
+    return f"{full:<{_WIDTH}}"
+
+
+def words(done: int, total: int, seconds: float) -> str:
+    """How far a run is, in words.
+
+    Examples
+    --------
+    >>> words(50, 200, 10.0)
+    '50 of 200 points (25 %), 5/s, 30 s left'
+    """
     rate = done / seconds if seconds > 0 else 0.0
     left = duration((total - done) / rate) + " left" if rate and done < total else duration(seconds)
-    return f"{full:<{_WIDTH}} {100 * done / total:4.0f} %  {done}/{total} points  {rate:.3g}/s  {left}"
+    return f"{done} of {total} points ({100 * done / total:.0f} %), {rate:.3g}/s, {left}"
 
 
 def duration(seconds: float) -> str:

@@ -1,90 +1,196 @@
-"""Run a study: plan, compute, write the archive."""
+"""Run a study: look up what is known, compute what is missing, write the archive."""
 
 from __future__ import annotations
 
+import logging
+import shutil
 import time
+from datetime import UTC, datetime
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from swtstudy.archive.files import check_writable
+from swtstudy.mechanics.version import SOLVER_VERSION
 from swtstudy.runner.chunk import Result, Solver, solve_points
-from swtstudy.runner.engines import Here, LocalWorkers
-from swtstudy.runner.pace import PROBE_POINTS, Pace
-from swtstudy.runner.plan import UniquePoints, cut, unique_points
+from swtstudy.runner.engines import Engine, Here, LocalWorkers
+from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
+from swtstudy.runner.plan import chunks, weights
 from swtstudy.runner.progress import Progress
-from swtstudy.runner.values import Values
+from swtstudy.runner.records import COMPUTED, MISSING, Records, Run, look_up
+from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study
 
 if TYPE_CHECKING:
     import xarray as xr
+    from distributed import Client
+
+    from swtstudy.archive.parts import PartsWriter
+
+_log = logging.getLogger(__name__)
 
 #: Less work than this is done before a worker process has started.
-_SMALL_SECONDS = 0.5
+_SMALL_SECONDS = 1.0
+
+
+class Stopped(KeyboardInterrupt):
+    """A run that was stopped by Ctrl-C; the message says what is saved and how to go on."""
+
+
+class SolverMismatchError(RuntimeError):
+    """Workers that have another version of the solver than this process."""
 
 
 def run(
-    study: Study, path: str | PathLike[str], *, workers: int = 2, solver: Solver = solve_points
+    study: Study,
+    path: str | PathLike[str],
+    *,
+    workers: int = 2,
+    client: Client | None = None,
+    retry_failed: bool = False,
+    solver: Solver = solve_points,
 ) -> xr.Dataset:
     """Compute a study and leave its archive at `path`.
+
+    Every finished chunk is saved beside the archive at once. A run that was killed goes on where it was;
+    an archive that has some of the points already gives these.
 
     Parameters
     ----------
     study
         The study.
     path
-        Where the netCDF archive goes; an archive that is there is replaced once the new one is complete.
+        Where the netCDF archive is or goes.
     workers
-        Number of worker processes; a study of less than about half a second is computed without.
+        Number of local worker processes; a study of less than about a second is computed without.
+    client
+        Of a dask.distributed cluster, which is used instead of local workers.
+    retry_failed
+        Whether to compute anew what failed before.
     solver
         What solves a batch of points; a function that worker processes can import.
 
     Returns
     -------
     xarray.Dataset
-        The archive, loaded.
+        The archive, loaded. Points that failed are NaN, with their status and message.
 
     Raises
     ------
     OSError
-        If the archive cannot be written; found out before anything is computed.
+        If the archive cannot be written, found out before anything is computed, or if another run is
+        writing it (`LockedError`).
+    ArchiveError
+        A ValueError, if there is a file that is not an archive.
+    Stopped
+        A KeyboardInterrupt, on Ctrl-C.
     """
+    from swtstudy.archive.lock import locked
+    from swtstudy.archive.parts import parts_folder
+
+    path = Path(path)
     check_writable(path)
-    begin = time.perf_counter()
-    points = unique_points(study.grid)
-    values = compute(points, study.rtol, workers, solver)
+    with locked(parts_folder(path)):
+        return _run_locked(study, path, workers, client, retry_failed, solver)
 
-    from swtstudy.archive.archive import build
+
+def _run_locked(
+    study: Study, path: Path, workers: int, client: Client | None, retry_failed: bool, solver: Solver
+) -> xr.Dataset:
+    from swtstudy.archive.archive import build, history_line, versions
     from swtstudy.archive.files import save
-    from swtstudy.archive.read import open_results
+    from swtstudy.archive.parts import PartsWriter, clear_parts, clear_unfinished, parts_folder, read_parts
+    from swtstudy.archive.read import read_archive
 
-    dataset = build(study, points, values, time.perf_counter() - begin)
-    save(dataset, path)
-    return open_results(path)
+    begin = time.perf_counter()
+    folder = parts_folder(path)
+    clear_unfinished(folder)
+    work = assess(study, path, retry_failed)
+    records, todo = work.records, int(work.missing.sum())
+    old = read_archive(path) if path.exists() else None
+    if todo == 0 and old is not None and old.attrs["study"] == study.text:
+        clear_parts(folder)
+        return old
+    _tell(work, todo)
+    if todo:
+        writer = PartsWriter(folder, read_parts(folder))
+        now = datetime.now(UTC).isoformat(timespec="seconds")
+        this = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
+        engine = _engine(work, workers, client)
+        records = _compute(records, this, engine, solver, writer, path)
+    history = history_line(f"{todo} of {len(records)} distinct points computed")
+    if old is not None:
+        history += "\n" + old.attrs["history"]
+        _keep_dropped(path, work, old)
+    dataset = build(study, work.points, records.trimmed(), history, time.perf_counter() - begin)
+    save(dataset, path, beside=folder)
+    clear_parts(folder)
+    return read_archive(path)
 
 
-def compute(points: UniquePoints, rtol: float, workers: int, solver: Solver) -> Values:
-    """The values of all distinct points, computed here or by workers, whichever is sooner."""
-    values = Values.empty(len(points.table))
-    progress, pace = Progress(len(points.table)), Pace()
+def _keep_dropped(path: Path, work: Work, old: xr.Dataset) -> None:
+    """Keep the old archive under another name if it has points that the study no longer has."""
+    from swtstudy.archive.files import replacing
+    from swtstudy.archive.recall import records_of
+
+    there = records_of(old)
+    there = there.take(there.status == COMPUTED)
+    everything = Records.missing(work.points.table)
+    dropped = int((look_up(there.table, everything, everything.status == MISSING) < 0).sum())
+    if dropped:
+        previous = path.with_name(f"{path.stem}.previous{path.suffix}")
+        with replacing(previous) as temporary:
+            shutil.copyfile(path, temporary)
+        _log.info("%d points are not in this study any more: %s keeps them", dropped, previous)
+
+
+def _tell(work: Work, todo: int) -> None:
+    if work.outdated:
+        _log.warning("%d points come from another version of the solver: computed anew", work.outdated)
+    if work.coarse:
+        _log.info("%d points are less accurate than the study asks for: computed anew", work.coarse)
+    if 0 < todo < len(work.records):
+        _log.info("%d of %d distinct points are there already", len(work.records) - todo, len(work.records))
+
+
+def _engine(work: Work, workers: int, client: Client | None) -> Engine:
+    if client is not None:
+        from swtstudy.runner.cluster import Cluster
+
+        return Cluster(client)
+    seconds = weights(work.points.table[work.missing]).sum() * SECONDS_PER_WEIGHT
+    return Here() if workers < 2 or seconds < _SMALL_SECONDS else LocalWorkers(workers)
+
+
+def _compute(
+    records: Records, this: Run, engine: Engine, solver: Solver, writer: PartsWriter, path: Path
+) -> Records:
+    """The records with all that was missing; every result is a part as soon as it is delivered."""
+    missing = records.status == MISSING
+    weight = weights(records.table)
+    progress, pace = Progress(int(missing.sum())), Pace()
 
     def deliver(result: Result) -> None:
-        values.put(np.arange(result.start, result.start + len(result)), result.solution)
-        pace.update(result)
+        nonlocal records
+        if result.solver_version != SOLVER_VERSION:
+            raise SolverMismatchError(
+                f"a worker has version {result.solver_version} of the solver, this machine {SOLVER_VERSION}"
+            )
+        part = Records.of(result, records.table[result.rows], this)
+        writer.add(part)
+        records = records.put(result.rows, part)
+        pace.update(result, int(weight[result.rows].sum()))
         progress.add(len(result))
 
     try:
-        # A few points here first: their timing decides on the chunks, and whether workers are worth it.
-        probe = next(cut(points.table, 0, lambda: PROBE_POINTS))
-        Here().solve([probe], rtol, solver, deliver)
-        left = len(points.table) - len(probe)
-        chunks = cut(points.table, len(probe), pace.chunk_size)
-        if left * pace.seconds_per_point < _SMALL_SECONDS or workers < 2:
-            Here().solve(chunks, rtol, solver, deliver)
-        else:
-            with LocalWorkers(workers) as engine:
-                engine.solve(chunks, rtol, solver, deliver)
+        with engine:
+            engine.solve(chunks(records.table, missing, pace.chunk_weight), this.rtol, solver, deliver)
+    except KeyboardInterrupt:
+        saved = int((records.status != MISSING).sum())
+        raise Stopped(
+            f"stopped; {saved} of {len(records)} distinct points are saved beside {path}; "
+            "the same command goes on from there"
+        ) from None
     finally:
         progress.close()
-    return values
+    return records

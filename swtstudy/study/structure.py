@@ -44,6 +44,8 @@ def _mistake(detail: Any, source: str) -> Mistake:
         return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)
     if path[0] == "axes" and len(path) == 2:
         allowed = "a list of values or {start, stop, num}"
+    elif path[0] == "axes" and path[-1] == "spacing":
+        allowed = '"linear" or "log"'
     elif path[0] == "axes" and path[-1] == "num":
         allowed = "a whole number"
     else:

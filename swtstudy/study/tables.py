@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
@@ -14,11 +14,12 @@ class _Table(BaseModel):
 
 
 class RangeTable(_Table):
-    """Evenly spaced values of an axis, both ends included."""
+    """Evenly spaced values of an axis, or values in equal ratios, both ends included."""
 
     start: Any
     stop: Any
     num: int
+    spacing: Literal["linear", "log"] = "linear"
 
 
 def _axis_kind(raw: object) -> str:

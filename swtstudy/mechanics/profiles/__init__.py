@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
 from swtstudy.mechanics.profiles.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.profiles.paraboloid import Paraboloid
@@ -21,9 +21,14 @@ def make_profile(name: str, shape: dict[str, FloatArray], largest_depth: FloatAr
     return PROFILES[name](largest_depth, **shape)
 
 
+def roughness(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> IntArray:
+    """Levels of `Profile.roughness` of n profiles."""
+    return PROFILES[name].roughness(largest_depth, **shape)
+
+
 def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:
     """Why a profile cannot be used up to the depth 1 + ``normal_amplitude``, or None."""
     return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
 
 
-__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile"]
+__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile", "roughness"]

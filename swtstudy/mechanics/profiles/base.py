@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 
 
 class Primitives(ABC):
@@ -49,6 +49,11 @@ class Profile(ABC):
         self.largest_depth = largest_depth
 
     @classmethod
+    def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
+        """How finely g′ must be resolved, in steps of 8 rad: points that differ are not batched together."""
+        return np.zeros(len(largest_depth), dtype=np.int64)
+
+    @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
         """Why the contact is not a full disc up to ``largest_depth``, or None."""
         return None
@@ -61,6 +66,11 @@ class Profile(ABC):
     def flat_radius(self) -> FloatArray:
         """Shape (n,): radius b inside of which g = 0."""
         return np.zeros(len(self.largest_depth))
+
+    @property
+    def extra_nodes(self) -> int:
+        """Nodes that running integrals of g′ need beyond those of a smooth profile."""
+        return 0
 
     @property
     def feature_length(self) -> FloatArray:

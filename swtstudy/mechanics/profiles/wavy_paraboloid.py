@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 from swtstudy.mechanics.profiles.struve import struve_functions
 from swtstudy.mechanics.profiles.tables import TablePrimitives
 
 #: Chebyshev nodes of the tables: so many, and so many more per rad of kξ.
 TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
-#: Positions of the first guess of the contact radius: so many, and so many more per rad of kξ.
-GUESS_NODES, GUESSES_PER_RADIAN = 64, 8
+#: Positions of the first guess of the contact radius of a smooth profile.
+GUESSES = 64
+#: Step of kξ in rad between levels of roughness.
+ROUGHNESS_STEP = 8.0
 
 
 class WavyParaboloid(Profile):
@@ -36,12 +38,20 @@ class WavyParaboloid(Profile):
         length = wavelength * np.sqrt(waviness_amplitude)
         self.wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
         self.reach = _upper_radius(largest_depth, waviness_amplitude, self.wave_number)
-        phase = float((self.wave_number * self.reach).max(initial=0.0))
-        self.table_nodes = TABLE_NODES + int(NODES_PER_RADIAN * phase)
-        guesses = GUESS_NODES + int(GUESSES_PER_RADIAN * phase)
-        self._guess_radius = self.reach[:, None] * np.linspace(0.0, 1.0, guesses)
+        # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
+        level = self.roughness(largest_depth, waviness_amplitude, wavelength).max(initial=0)
+        self.phase = ROUGHNESS_STEP * float(level)
+        self._guess_radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
         # Both ends of √g(ξ) are straight.
         self._guess_root = np.sqrt(np.maximum(self.depth(self._guess_radius), 0.0))
+
+    @classmethod
+    def roughness(cls, largest_depth: FloatArray, *shape: FloatArray, **named: FloatArray) -> IntArray:
+        amplitude, wavelength = shape or (named["waviness_amplitude"], named["wavelength"])
+        length = wavelength * np.sqrt(amplitude)
+        wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        reach = _upper_radius(largest_depth, amplitude, wave_number)
+        return np.ceil(wave_number * reach / ROUGHNESS_STEP).astype(np.int64)
 
     @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
@@ -62,6 +72,10 @@ class WavyParaboloid(Profile):
         return WavyParaboloid(
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
+
+    @property
+    def extra_nodes(self) -> int:
+        return int(NODES_PER_RADIAN * self.phase)
 
     @property
     def feature_length(self) -> FloatArray:
@@ -106,7 +120,8 @@ class WavyParaboloid(Profile):
 
     def primitives(self, position: FloatArray) -> Primitives:
         largest = self.radius(self.largest_depth)
-        return TablePrimitives(self, position, self.table_nodes, self.table_nodes, largest)
+        nodes = TABLE_NODES + self.extra_nodes
+        return TablePrimitives(self, position, nodes, nodes, largest)
 
 
 def smallest_compact_wavelength(phase: float) -> float:

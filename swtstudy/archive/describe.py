@@ -1,0 +1,75 @@
+"""An archive in words."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.figures.words import value_words
+from swtstudy.runner.records import COMPUTED, STATES
+
+#: Values of an axis, or failed points, that are listed one by one.
+_LISTED = 8
+
+
+def describe(dataset: xr.Dataset) -> Iterator[str]:
+    """What an archive is, from which study and versions, how complete, how accurate; line by line."""
+    attributes = dataset.attrs
+    yield f"{attributes['title']}"
+    yield f"  made by        {attributes['source']} ({attributes['versions']})"
+    for line in attributes["history"].splitlines():
+        yield f"  history        {line}"
+    for name in map(str, dataset.s.dims):
+        yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}"
+    for name in map(str, dataset.coords):
+        if not dataset[name].ndim:
+            yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
+    yield f"  complete       {_completeness(dataset)}"
+    yield f"  asked for      rtol {attributes['rtol']:g}"
+    yield f"  accurate       {_accuracy(dataset)}"
+    meanings = dataset.regime.attrs["flag_meanings"].split()
+    computed = dataset.status.values == COMPUTED
+    counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
+    words = (f"{n} {meaning}" for n, meaning in zip(counts, meanings, strict=False) if n)
+    yield f"  regimes        {', '.join(words)}"
+    runs = json.loads(attributes["runs"])
+    counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
+    for number, run in enumerate(runs):
+        yield (
+            f"  run {number}          {counted[number]} points, rtol {run['rtol']:g}, "
+            f"solver version {run['solver_version']}, {run['seconds']:.1f} s of computing, "
+            f"started {run['started']}"
+        )
+    failures = json.loads(dataset.status.attrs["failures"])
+    for failure in failures[:_LISTED]:
+        yield f"  failed         {failure['point']}: {failure['message']}"
+    if len(failures) > _LISTED:
+        yield f"  failed         {len(failures) - _LISTED} more"
+    yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
+
+
+def _axis_words(name: str, values: np.ndarray) -> str:
+    words = [value_words(name, value) for value in values.tolist()]
+    if len(words) <= _LISTED:
+        return ", ".join(words)
+    return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
+
+
+def _completeness(dataset: xr.Dataset) -> str:
+    counts = np.bincount(dataset.status.values.astype(int).ravel(), minlength=len(STATES))
+    return ", ".join(f"{count} {state}" for count, state in zip(counts, STATES, strict=False) if count)
+
+
+def _accuracy(dataset: xr.Dataset) -> str:
+    relative = (dataset.s_error / dataset.s).values[dataset.status.values == COMPUTED]
+    relative = relative[np.isfinite(relative)]
+    if not relative.size:
+        return "nothing to tell"
+    above = int((relative > dataset.attrs["rtol"]).sum())
+    return (
+        f"relative error of s estimated up to {relative.max():.1e}, median {np.median(relative):.1e}; "
+        f"{above} of {relative.size} points above rtol"
+    )

@@ -1,0 +1,29 @@
+"""All that is known at the place of an archive: the archive itself and the parts of unfinished runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.archive.read import ArchiveError, read_archive
+from swtstudy.archive.recall import records_of
+from swtstudy.runner.records import Records, join
+
+
+def known_records(path: Path) -> Records:
+    """The records in the archive at `path`, if there is one, and in its parts.
+
+    Raises
+    ------
+    ArchiveError
+        If there is a file that is not an archive; it is not for us to replace it.
+    """
+    found = []
+    if path.exists():
+        try:
+            found.append(records_of(read_archive(path)))
+        except ArchiveError as error:
+            message = str(error).removeprefix(f"{path}: ")
+            raise ArchiveError(f"{path}: {message}; move it away to start anew") from None
+    found.append(read_parts(parts_folder(path)))
+    return join(found)

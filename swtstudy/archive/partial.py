@@ -1,0 +1,31 @@
+"""The results of a run that has not ended."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.archive.archive import build, history_line
+from swtstudy.archive.known import known_records
+from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.runner.plan import unique_points
+from swtstudy.runner.records import Records, look_up
+from swtstudy.study.definition import Study
+
+
+def partial_results(path: Path) -> xr.Dataset | None:
+    """What the latest run for the archive at `path` has saved so far; None if it has no parts."""
+    parts = read_parts(parts_folder(path))
+    if not parts.runs:
+        return None
+    latest = max(parts.runs, key=lambda run: run.started)
+    study = Study.from_text(latest.study, str(path))
+    points = unique_points(study.grid)
+    known = known_records(path)
+    usable = known.usable(study.rtol, latest.solver_version, retry_failed=False)
+    found = look_up(points.table, known, usable)
+    records = Records.missing(points.table)
+    records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
+    return build(study, points, records, history_line("opened unfinished"), 0.0)

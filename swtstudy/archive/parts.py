@@ -1,0 +1,139 @@
+"""The parts of an archive in the making: every finished chunk is a file, written atomically.
+
+They lie in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import zipfile
+from collections.abc import Iterable
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import numpy as np
+
+from swtstudy.archive.files import replacing
+from swtstudy.grid.canonical import COLUMNS, PROFILES
+from swtstudy.mechanics.points import Solution
+from swtstudy.runner.records import Records, Run, join
+
+_log = logging.getLogger(__name__)
+
+_ARRAYS = tuple(item.name for item in fields(Solution))
+
+#: Parts are gathered into one when there are this many: a long run leaves no thousands of files.
+_GATHERED = 32
+
+#: What the numbers in a table mean; parts of another layout are of no use.
+_LAYOUT = {"columns": list(COLUMNS), "profiles": list(PROFILES)}
+
+
+def parts_folder(path: Path) -> Path:
+    """The folder of the parts of the archive at `path`."""
+    return path.with_name(path.name + ".parts")
+
+
+class PartsWriter:
+    """Writes records as parts into a folder that it has for itself.
+
+    Parameters
+    ----------
+    folder
+        Folder of the parts.
+    present
+        What is in its parts already; written anew as one part.
+    """
+
+    def __init__(self, folder: Path, present: Records) -> None:
+        self._folder = folder
+        self._number = 1 + max((int(path.stem) for path in _paths(folder)), default=0)
+        self._small: list[tuple[Path, Records]] = []
+        old = _paths(folder)
+        if len(old) > 1:
+            self._write(present)
+            _remove(old)
+
+    def add(self, records: Records) -> None:
+        """Write one more part; when this returns, it is safe."""
+        self._small.append((self._write(records), records))
+        if len(self._small) >= _GATHERED:
+            # Every point is in the new part before its old one goes.
+            self._write(join(records for _, records in self._small))
+            _remove(path for path, _ in self._small)
+            self._small.clear()
+
+    def _write(self, records: Records) -> Path:
+        path = self._folder / f"{self._number:06d}.npz"
+        self._number += 1
+        meta = {
+            "layout": _LAYOUT,
+            "runs": [asdict(run) for run in records.runs],
+            "messages": records.messages,
+        }
+        with replacing(path) as temporary, open(temporary, "wb") as file:
+            np.savez(
+                file,
+                meta=np.array(json.dumps(meta)),
+                table=records.table,
+                status=records.status,
+                run=records.run,
+                **{name: getattr(records.solution, name) for name in _ARRAYS},
+            )
+        return path
+
+
+def read_parts(folder: Path) -> Records:
+    """What is in the parts of a folder, also while a run goes on; nothing if there is no such folder.
+
+    A part that cannot be read is left out, and its points are computed again.
+    """
+    for _ in range(10):
+        try:
+            return join(part for path in _paths(folder) if (part := _read(path)) is not None)
+        except FileNotFoundError:
+            continue  # gathered between listing and reading
+    return join([])
+
+
+def clear_parts(folder: Path) -> None:
+    """Remove the parts, once the archive has it all, and what killed runs left of unfinished files."""
+    _remove(_paths(folder))
+    clear_unfinished(folder)
+
+
+def clear_unfinished(folder: Path) -> None:
+    """Remove what killed runs left of unfinished files."""
+    _remove(folder.glob(".*"))
+
+
+def _paths(folder: Path) -> list[Path]:
+    return sorted(path for path in folder.glob("*.npz") if path.stem.isdigit())
+
+
+def _remove(paths: Iterable[Path]) -> None:
+    for path in paths:
+        path.unlink(missing_ok=True)
+
+
+def _read(path: Path) -> Records | None:
+    try:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as part:
+            meta = json.loads(part["meta"].item())
+            if meta["layout"] != _LAYOUT:
+                raise ValueError("made by another version of swtstudy")
+            records = Records(
+                part["table"],
+                Solution(**{name: part[name] for name in _ARRAYS}),
+                part["status"],
+                part["run"],
+                tuple(Run(**run) for run in meta["runs"]),
+                {int(index): message for index, message in meta["messages"].items()},
+            )
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+        _log.warning("%s: left out, its points will be computed again (%s)", path, error)
+        return None
+    return records

@@ -1,0 +1,26 @@
+"""swtstudy info"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.argument("archive")
+def info(archive: str) -> None:
+    """Say what an ARCHIVE is: from which study and versions, how complete, how accurate."""
+    from swtstudy.archive.describe import describe
+    from swtstudy.archive.parts import parts_folder, read_parts
+    from swtstudy.archive.read import ArchiveError, open_results
+
+    dataset = open_results(archive)
+    try:
+        for line in describe(dataset):
+            click.echo(line)
+    except (KeyError, TypeError, AttributeError, IndexError) as error:
+        raise ArchiveError(f"{archive}: not a complete archive of swtstudy ({error!r})") from None
+    parts = read_parts(parts_folder(Path(archive)))
+    if len(parts):
+        click.echo(f"  unfinished     {len(parts)} distinct points are saved by a run that has not ended")

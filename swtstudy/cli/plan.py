@@ -1,0 +1,69 @@
+"""swtstudy plan"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from swtstudy.study.definition import Study
+
+
+@click.command()
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+@click.option("--results", default="results", show_default=True, help="Folder of the archives.")
+@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
+    """Say what running each STUDY would compute, and how long that would take.
+
+    A few points are computed to see how long they take, and nothing is written.
+    """
+    from swtstudy.study.several import read_studies
+
+    for source, study in read_studies(studies).items():
+        target = Path(results) / f"{Path(source).stem}.nc"
+        for line in describe(study, target, workers):
+            click.echo(line)
+
+
+def describe(study: Study, target: Path, workers: int) -> list[str]:
+    """What a run would do, in lines."""
+    from swtstudy.runner.chunk import solve_points
+    from swtstudy.runner.estimate import estimate
+    from swtstudy.runner.pace import CHUNK_SECONDS
+    from swtstudy.runner.plan import loads
+    from swtstudy.runner.progress import duration
+    from swtstudy.runner.work import assess
+
+    work = assess(study, target)
+    missing = work.missing
+    grid, distinct, todo = study.grid, len(missing), int(missing.sum())
+    panels = study.figure.panels if study.figure else None
+    count = len(grid.values(panels)) if panels else 1
+    shared = todo - loads(work.points.table[missing])
+    lines = [
+        study.title,
+        f"  archive            {target}{'' if target.exists() else ' (not there yet)'}",
+        f"  panels             {count} of {grid.size // count} points",
+        f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
+        f"  there already      {distinct - todo}",
+        f"  to be computed     {todo} ({shared} of them with the contact solution of another)",
+    ]
+    if work.outdated:
+        lines.append(f"  anew               {work.outdated} come from another version of the solver")
+    if work.coarse:
+        lines.append(f"  anew               {work.coarse} are less accurate than the study asks for")
+    if todo:
+        timed: list[int] = []
+        seconds = estimate(
+            work.points.table, missing, study.rtol, solve_points, lambda result: timed.append(len(result))
+        )
+        chunk_count = max(1, round(seconds / CHUNK_SECONDS))
+        lines.append(f"  chunks             about {chunk_count}")
+        lines.append(
+            f"  time               about {duration(seconds / workers)} with {workers} workers "
+            f"({1e3 * seconds / todo:.3g} ms a point, from {sum(timed)} points timed)"
+        )
+    return lines

@@ -1,0 +1,62 @@
+"""How long a study will take, from timing a few of its points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.canonical import group_rows
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.runner.chunk import Chunk, Result, Solver, solve_chunk
+from swtstudy.runner.plan import block_ends
+
+#: Kinds of points (profile and frequency ratio) that are timed, one block of each.
+_TIMED_KINDS = 4
+
+
+def estimate(
+    table: FloatArray,
+    missing: NDArray[np.bool_],
+    rtol: float,
+    solver: Solver,
+    timed: Callable[[Result], None] = lambda result: None,
+) -> float:
+    """Seconds of computing that the missing points of a table need, from timing a few blocks of them.
+
+    Parameters
+    ----------
+    table
+        Canonical rows in the order of `unique_points`.
+    missing
+        Shape (len(table),).
+    rtol, solver
+        As in `run`.
+    timed
+        Told about each block that was solved for this.
+    """
+    rows = np.flatnonzero(missing)
+    if not len(rows):
+        return 0.0
+    _, kind = group_rows(table[rows][:, :3])
+    kinds, sizes = np.unique(kind, return_counts=True)
+    largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
+    ends = block_ends(table)
+    seconds = points = 0.0
+    total = 0.0
+    for index, each in enumerate(largest):
+        middle = rows[kind == each][(kind == each).sum() // 2]
+        block = int(np.searchsorted(ends, middle, "right"))
+        begin = int(ends[block - 1]) if block else 0
+        inside = begin + np.flatnonzero(missing[begin : ends[block]])
+        if index == 0:
+            # Once for nothing: the first call imports and fills tables.
+            solve_chunk(Chunk.of(table, [inside[:1]]), rtol, solver)
+        result = solve_chunk(Chunk.of(table, [inside]), rtol, solver)
+        timed(result)
+        seconds += result.seconds
+        points += len(result)
+        total += result.seconds / len(result) * sizes[each]
+    others = len(rows) - sizes[largest].sum()
+    return float(total + seconds / points * others)

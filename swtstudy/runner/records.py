@@ -1,0 +1,179 @@
+"""Results by canonical point, with what is known of how each was made."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.mechanics.points import FloatArray, IntArray, Solution
+from swtstudy.runner.chunk import Result, blank, joined, solution_at
+
+#: States of a point, in the order of their flag values.
+STATES = ("computed", "failed", "missing")
+COMPUTED, FAILED, MISSING = range(3)
+
+
+@dataclass(frozen=True)
+class Run:
+    """What made some of the results.
+
+    Attributes
+    ----------
+    solver_version
+        Version of the mechanics' values.
+    rtol
+        Relative accuracy that was asked for.
+    study
+        Text of the study file.
+    versions
+        Versions of Python and of the packages that matter.
+    started
+        Date and time of its first result, ISO 8601.
+    seconds
+        Computing time, summed over all workers.
+    """
+
+    solver_version: str
+    rtol: float
+    study: str
+    versions: str
+    started: str = field(default="", compare=False)
+    seconds: float = field(default=0.0, compare=False)
+
+
+@dataclass(frozen=True)
+class Records:
+    """Results of n canonical points.
+
+    Attributes
+    ----------
+    table
+        Canonical rows, shape (n, len(COLUMNS)).
+    solution
+        Their solutions, arrays of shape (n,).
+    status
+        Index into `STATES`, shape (n,).
+    run
+        Index into `runs`, -1 where missing, shape (n,).
+    runs
+        What made them.
+    messages
+        Why a point failed, by its index.
+    """
+
+    table: FloatArray
+    solution: Solution
+    status: NDArray[np.int8]
+    run: NDArray[np.int32]
+    runs: tuple[Run, ...] = ()
+    messages: dict[int, str] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    @classmethod
+    def missing(cls, table: FloatArray) -> Records:
+        """Records of points of which nothing is known yet."""
+        n = len(table)
+        return cls(table, blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
+
+    @classmethod
+    def of(cls, result: Result, table: FloatArray, run: Run) -> Records:
+        """Records of one result, whose canonical rows are `table`."""
+        run = replace(run, seconds=result.seconds)
+        status = np.where(result.failed, FAILED, COMPUTED).astype(np.int8)
+        return cls(table, result.solution, status, np.zeros(len(table), np.int32), (run,), result.messages)
+
+    def take(self, rows: NDArray) -> Records:
+        """The records at the given indices; all runs are kept."""
+        rows = np.flatnonzero(rows) if rows.dtype == bool else rows
+        messages = {i: self.messages[j] for i, j in enumerate(rows.tolist()) if j in self.messages}
+        return Records(
+            self.table[rows],
+            solution_at(self.solution, rows),
+            self.status[rows],
+            self.run[rows],
+            self.runs,
+            messages,
+        )
+
+    def put(self, rows: IntArray, part: Records) -> Records:
+        """These records with others filled in at `rows`; the arrays are filled in place."""
+        runs, number = _with_runs(self.runs, part.runs)
+        for item in fields(Solution):
+            getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
+        self.status[rows] = part.status
+        self.run[rows] = number[part.run]
+        self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
+        return replace(self, runs=runs)
+
+    def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
+        """Which of these can be used for a study with this accuracy and solver, shape (n,)."""
+        good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
+        worst = COMPUTED if retry_failed else FAILED
+        return np.array([*good, False])[self.run] & (self.status <= worst)
+
+    def trimmed(self) -> Records:
+        """These records without runs that none of them comes from."""
+        used = np.unique(self.run[self.run >= 0])
+        number = np.full(len(self.runs) + 1, -1, np.int32)
+        number[used] = np.arange(len(used))
+        return replace(self, run=number[self.run], runs=tuple(self.runs[i] for i in used))
+
+
+def join(parts: Iterable[Records]) -> Records:
+    """Records one after the other; equal runs become one, with their computing times added."""
+    parts = list(parts)
+    if not parts:
+        return Records.missing(np.empty((0, len(COLUMNS))))
+    runs: tuple[Run, ...] = ()
+    numbers, messages, start = [], {}, 0
+    for part in parts:
+        runs, number = _with_runs(runs, part.runs)
+        numbers.append(number[part.run])
+        messages.update({start + i: message for i, message in part.messages.items()})
+        start += len(part)
+    return Records(
+        np.concatenate([part.table for part in parts]),
+        joined([part.solution for part in parts]),
+        np.concatenate([part.status for part in parts]),
+        np.concatenate(numbers),
+        runs,
+        messages,
+    )
+
+
+def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run, ...], NDArray[np.int32]]:
+    """Runs with others added, and the new number of each of these others, with -1 at the end."""
+    every, numbers = list(runs), []
+    for run in more:
+        if run in every:
+            number = every.index(run)
+            started = min(filter(None, (every[number].started, run.started)), default="")
+            total = every[number].seconds + run.seconds
+            every[number] = replace(every[number], started=started, seconds=total)
+        else:
+            number = len(every)
+            every.append(run)
+        numbers.append(number)
+    return tuple(every), np.array([*numbers, -1], np.int32)
+
+
+def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
+    """For every canonical row of a table the index of its record, or -1.
+
+    Of several candidates for one point, a computed one comes before a failed one, then the most accurate,
+    then the latest.
+    """
+    index = np.flatnonzero(candidates)
+    tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
+    order = np.lexsort((-index, tolerance, records.status[index]))
+    index = index[order]
+    # The first of equal rows wins: candidates in order of preference, then the table itself.
+    first, group = group_rows(np.concatenate([records.table[index], table]))
+    winner = first[group[len(index) :]]
+    return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)

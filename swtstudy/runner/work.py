@@ -1,0 +1,61 @@
+"""What there is to do for a study: what it needs, and what of it is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.version import SOLVER_VERSION
+from swtstudy.runner.plan import UniquePoints, unique_points
+from swtstudy.runner.records import MISSING, Records, look_up
+from swtstudy.study.definition import Study
+
+
+@dataclass(frozen=True)
+class Work:
+    """What a study needs and what of it is known.
+
+    Attributes
+    ----------
+    points
+        The distinct points of the study.
+    known
+        All records at the place of the archive.
+    records
+        The records of the points that can be used, "missing" for the others.
+    outdated, coarse
+        Number of points that are known from another version of the solver, or with less accuracy.
+    """
+
+    points: UniquePoints
+    known: Records
+    records: Records
+    outdated: int
+    coarse: int
+
+    @property
+    def missing(self) -> NDArray[np.bool_]:
+        """Which points are to be computed."""
+        return self.records.status == MISSING
+
+
+def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
+    """What there is to do for a study whose archive is at `path`; computes nothing."""
+    from swtstudy.archive.known import known_records
+
+    points = unique_points(study.grid)
+    known = known_records(path)
+    found = look_up(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
+    records = Records.missing(points.table)
+    records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
+    # Why the others cannot be used.
+    there = known.status != MISSING
+    lacking = points.table[found < 0]
+    versions = np.array([*(run.solver_version == SOLVER_VERSION for run in known.runs), True])[known.run]
+    tolerance = np.array([*(run.rtol for run in known.runs), 0.0])[known.run]
+    outdated = int((look_up(lacking, known, there & ~versions) >= 0).sum())
+    coarse = int((look_up(lacking, known, there & versions & (tolerance > study.rtol)) >= 0).sum())
+    return Work(points, known, records, outdated, coarse)

@@ -1,0 +1,47 @@
+"""The text of a study that was not read from a file."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.values import Value
+from swtstudy.study.figure import FigureLayout
+
+
+def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) -> str:
+    """A study file that gives exactly this grid.
+
+    Examples
+    --------
+    >>> print(to_toml("t", 1e-4, Grid({"friction": 0.3}, {"frequency_ratio": (Fraction(3, 2),)}), None))
+    title = "t"
+    rtol = 0.0001
+    <BLANKLINE>
+    [fixed]
+    friction = 0.3
+    <BLANKLINE>
+    [axes]
+    frequency_ratio = ["3/2"]
+    <BLANKLINE>
+    """
+    lines = [f"title = {_string(title)}", f"rtol = {rtol!r}"]
+    lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
+    lines += ["", "[axes]"]
+    lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
+    if figure is not None:
+        lines += ["", "[figure]", *(f"{role} = {_string(name)}" for role, name in figure.roles())]
+        lines.append(f"y = [{', '.join(map(_string, figure.y))}]")
+        if figure.title:
+            lines.append(f"title = {_string(figure.title)}")
+    return "\n".join(lines) + "\n"
+
+
+def _literal(value: Value) -> str:
+    return _string(str(value)) if isinstance(value, str | Fraction) else repr(value)
+
+
+def _string(text: str) -> str:
+    # A JSON string is a TOML string but for DEL, which TOML wants escaped.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,33 @@
+"""Shared by the tests: a small study and the fast stand-in for the mechanics."""
+
+from __future__ import annotations
+
+import pytest
+
+from swtstudy.study.definition import Study
+
+SMALL = """
+title = "A small study"
+rtol = 1e-3
+
+[fixed]
+frequency_ratio = 1
+
+[axes]
+normal_amplitude = [0.25, "8/9"]
+phase = { start = 0, stop = "2*pi", num = 9 }
+
+[figure]
+x = "phase"
+hue = "normal_amplitude"
+"""
+
+
+@pytest.fixture
+def small_text() -> str:
+    return SMALL
+
+
+@pytest.fixture
+def small(small_text) -> Study:
+    return Study.from_text(small_text)

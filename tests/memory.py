@@ -1,0 +1,81 @@
+"""Reading the package's memory diagram: the force of any spring at any instant of the stationary cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.protocol import Protocol
+
+Array = NDArray[np.float64]
+
+
+def protocol(
+    normal_amplitude: float = 0.75,
+    tangential_amplitude: float = 5 / 6,
+    phase: float = 0.0,
+    p: int = 1,
+    q: int = 1,
+) -> Protocol:
+    """One protocol."""
+    return Protocol(np.array([normal_amplitude]), np.array([tangential_amplitude]), np.array([phase]), p, q)
+
+
+def front_at(cycle: Cycle, instants: Array) -> tuple[Array, Array, NDArray[np.intp], NDArray[np.intp]]:
+    """Slip front, sense of slip, piece in which the front lies, and interval, of the first cycle."""
+    interval = np.minimum(np.searchsorted(cycle.end[0], instants, side="left"), cycle.end.shape[1] - 1)
+    depth = np.maximum(cycle.protocol.depth(instants[None]), 0.0)
+    displacement = cycle.protocol.displacement(instants[None])
+    senses = cycle.forward, cycle.backward
+    found = slip_front(cycle.protocol, cycle.memory, *senses, interval[None], depth, displacement)
+    front, sign, piece = (values[0] for values in found)
+    return front, sign, piece, interval
+
+
+def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:
+    """τ of the springs at depths ``g`` of the first cycle, shape (len(instants), len(g))."""
+    load = cycle.protocol
+    front, sign, _, interval = front_at(cycle, instants)
+    depth, displacement = load.depth(instants[None])[0], load.displacement(instants[None])[0]
+    result = np.empty((len(instants), len(g)))
+    for k, i in enumerate(interval):
+        memory = cycle.memory.take((slice(0, 1), slice(i, i + 1)))
+        start, offset, slope, branch = (
+            getattr(memory, name)[0, 0] for name in ("start", "offset", "slope", "branch")
+        )
+        if start[0] > 0.0:  # nothing is held from before this interval
+            start = np.append(0.0, start[1:])
+        piece = np.searchsorted(start, g, side="right") - 1
+        line = offset[piece] + np.where(slope[piece] == GROWTH, 0.0, slope[piece]) * (g - start[piece])
+        grown = load.displacement(load.touch_down(g[None], branch[piece][None]))[0]
+        held = np.where(slope[piece] == GROWTH, grown, line)
+        w = depth[k] - g
+        result[k] = np.where(g < front[k], displacement[k] - held, sign[k] * w)
+        result[k][w <= 0.0] = 0.0
+    return result
+
+
+def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[float], float]]]:
+    """dτ/dG of the first cycle at an instant: from depth, to depth, slope over G."""
+    load = cycle.protocol
+    front, sign, piece, interval = (values[0] for values in front_at(cycle, np.array([instant])))
+    start, slope, branch = (getattr(cycle.memory, name)[0, interval] for name in ("start", "slope", "branch"))
+
+    def piece_slope(g: float, k: int) -> float:
+        if slope[k] != GROWTH:
+            return -float(slope[k])
+        touch = load.touch_down(np.array([g]), branch[k : k + 1])
+        return -float((load.displacement_rate(touch) / load.depth_rate(touch))[0])
+
+    ends = np.append(np.minimum(start[: piece + 1], front), front)
+    found: list[tuple[float, float, Callable[[float], float]]] = [
+        (ends[k], ends[k + 1], partial(piece_slope, k=k)) for k in range(piece + 1) if ends[k] < ends[k + 1]
+    ]
+    depth = load.depth(np.array([[instant]]))[0, 0]
+    if depth > front:
+        found.append((front, depth, lambda g: -float(sign)))
+    return found

@@ -1,0 +1,1 @@
+"""Independent routes to what the package computes."""

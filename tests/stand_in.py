@@ -1,0 +1,96 @@
+"""Stand-ins for the solver of the mechanics, importable by worker processes."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+
+import numpy as np
+
+from swtstudy.mechanics.points import Points, Solution
+
+
+def smooth(points: Points, rtol: float) -> Solution:
+    """A cheap function of every parameter, whose last bits depend on what is solved together."""
+    s = 0.1 + 0.01 * points.normal_amplitude * np.cos(points.phase) + points.friction
+    s = s + points.p / points.q + 0.1 * points.tangential_amplitude + points.poisson_ratio
+    for index, shape in enumerate(points.shape.values()):
+        s = s + (index + 1) * shape
+    s = s * (1 + 1e-13 * len(points))
+    angle = 10 * np.sin(points.phase)
+    return Solution(s, rtol * s, 1 + points.phase, angle, np.ones(len(points), np.int8))
+
+
+def slow(points: Points, rtol: float) -> Solution:
+    """The same, 5 ms a point."""
+    time.sleep(0.005 * len(points))
+    return smooth(points, rtol)
+
+
+def process(points: Points, rtol: float) -> Solution:
+    """Like `slow`, but critical_x is the number of the process and s its number of BLAS threads."""
+    solution = slow(points, rtol)
+    threads = float(os.environ.get("OPENBLAS_NUM_THREADS", "nan"))
+    return Solution(
+        np.full(len(points), threads),
+        solution.s_error,
+        np.full(len(points), float(os.getpid())),
+        solution.critical_angle,
+        solution.regime,
+    )
+
+
+def kill_once(mark: str, points: Points, rtol: float) -> Solution:
+    """Like `smooth`, but the first worker that comes here is killed; `mark` is a file that says so."""
+    try:
+        os.close(os.open(mark, os.O_CREAT | os.O_EXCL))
+    except FileExistsError:
+        return slow(points, rtol)
+    os.kill(os.getpid(), signal.SIGKILL)
+    raise AssertionError
+
+
+def fail_at(friction: float, points: Points, rtol: float) -> Solution:
+    """Like `smooth`, but it fails at one value of the friction."""
+    if np.isclose(points.friction, friction).any():
+        raise ZeroDivisionError("an injected failure")
+    return smooth(points, rtol)
+
+
+def kill_at(friction: float, points: Points, rtol: float) -> Solution:
+    """Like `smooth`, but it kills its process at one value of the friction."""
+    if np.isclose(points.friction, friction).any():
+        os.kill(os.getpid(), signal.SIGKILL)
+    return smooth(points, rtol)
+
+
+def lose_at(friction: float, points: Points, rtol: float) -> Solution:
+    """Like `smooth`, but it finds no value at one value of the friction."""
+    solution = smooth(points, rtol)
+    s = np.where(np.isclose(points.friction, friction), np.nan, solution.s)
+    return Solution(s, solution.s_error, solution.critical_x, solution.critical_angle, solution.regime)
+
+
+class Counting:
+    """`smooth` in this process, with the number of points that it was asked for."""
+
+    def __init__(self) -> None:
+        self.points = 0
+
+    def __call__(self, points: Points, rtol: float) -> Solution:
+        self.points += len(points)
+        return smooth(points, rtol)
+
+
+class Interrupting(Counting):
+    """Like `Counting`, but Ctrl-C comes after a number of points."""
+
+    def __init__(self, after: int) -> None:
+        super().__init__()
+        self.after = after
+
+    def __call__(self, points: Points, rtol: float) -> Solution:
+        if self.points >= self.after:
+            raise KeyboardInterrupt
+        return super().__call__(points, rtol)

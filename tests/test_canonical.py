@@ -1,0 +1,117 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.reading import read_grid
+from swtstudy.runner.plan import block_ends, chunks, loads, unique_points, weights
+
+
+def grid_of(fixed=None, **axes):
+    grid, mistakes = read_grid(fixed or {}, axes)
+    assert not mistakes, mistakes
+    return grid
+
+
+def count(fixed=None, **axes):
+    return len(unique_points(grid_of(fixed, **axes)).table)
+
+
+def test_values_are_told_apart_by_twelve_digits():
+    one, _ = grid_of({"friction": 0.2}).canonical()
+    other, _ = grid_of({"friction": 0.1 + 0.1 + 1e-16}).canonical()
+    third, _ = grid_of({"friction": 0.2 + 1e-9}).canonical()
+    assert (one == other).all()
+    assert (one != third).any()
+
+
+PHASES = [i * np.pi / 72 for i in range(145)]  # 2.5° steps over 0…2π
+
+
+@pytest.mark.parametrize(
+    ("ratio", "distinct"), [("1/4", 144), ("1/2", 144), ("1", 72), ("3/2", 48), ("2", 36), ("3", 24)]
+)
+def test_symmetric_phases_are_one_point(ratio, distinct):
+    assert count({"frequency_ratio": ratio}, phase=PHASES) == distinct
+
+
+@given(st.integers(1, 12), st.integers(1, 12), st.integers(-20, 20), st.integers(-20, 20), st.integers(1, 36))
+def test_the_phase_folds_whatever_its_rounding_error(p, q, numerator, turns, denominator):
+    ratio = np.float64(p) / q
+    p, q = int(p // np.gcd(p, q)), int(q // np.gcd(p, q))
+    phase = np.pi * numerator / denominator
+    period = (2 if q % 2 == 0 else 1) * np.pi / p
+    first, mirrored = grid_of({"frequency_ratio": ratio, "phase": phase}).canonical()
+    second, mirrored_again = grid_of({"frequency_ratio": ratio, "phase": phase + turns * period}).canonical()
+    assert (first == second).all()
+    assert (mirrored[0] ^ mirrored_again[0]) == (q % 2 == 1 and turns % 2 == 1)
+    assert 0 <= first[0, COLUMNS.index("phase")] < period
+
+
+def test_what_does_not_matter_makes_no_new_point():
+    profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
+    assert count({"profile": "paraboloid", "flat_radius": 0.5}) == 1
+    assert count(profile=profiles, flat_radius=[0, 0.5]) == 3  # b = 0 is the paraboloid
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0}
+    assert count(wavy, wavelength=[5, 6]) == 1
+    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2]) == 1
+
+
+def test_groups_are_the_distinct_rows():
+    table = np.random.default_rng(0).integers(0, 3, (500, 4)).astype(float)
+    first, group = group_rows(table)
+    assert (table[first][group] == table).all()
+    assert len(first) == len(np.unique(table, axis=0))
+    assert (table[first] == np.unique(table, axis=0)).all()
+
+
+def test_slabs_of_a_grid_are_the_grid():
+    grid = grid_of(phase=PHASES[:7], profile=["paraboloid", "rounded_punch"], flat_radius=[0.1, 0.2, 0.3])
+    whole, mirrored = grid.canonical()
+    parts = [grid.canonical(start, min(start + 5, grid.size)) for start in range(0, grid.size, 5)]
+    assert (np.concatenate([rows for rows, _ in parts]) == whole).all()
+    assert (np.concatenate([flags for _, flags in parts]) == mirrored).all()
+
+
+@given(st.integers(0, 100), st.integers(0, 2**36 - 1))
+def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
+    profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
+    axes = {"profile": profiles, "flat_radius": [0.1, 0.5], "phase": [0, 1, 2], "friction": [0.1, 0.2, 0.3]}
+    table = unique_points(grid_of(**axes)).table
+    wanted = np.array([bool(bits >> i & 1) for i in range(len(table))])
+    cut = list(chunks(table, wanted, lambda: size))
+    rows = np.concatenate([chunk.rows for chunk in cut]) if cut else []
+    assert (rows == np.flatnonzero(wanted)).all()
+    assert all((chunk.table == table[chunk.rows]).all() for chunk in cut)
+    block = np.searchsorted(block_ends(table), np.arange(len(table)), "right")
+    for chunk in cut:
+        assert sum(chunk.lengths) == len(chunk)
+        parts = np.split(block[chunk.rows], np.cumsum(chunk.lengths)[:-1])
+        assert all(len(set(part)) == 1 for part in parts)
+        assert weights(chunk.table).sum() <= size or len(chunk.lengths) == 1
+    assert len({chunk.name for chunk in cut}) == len(cut)
+    assert loads(table) == 3
+
+
+def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads():
+    phases = [i / 10 for i in range(5)]
+    axes = {"phase": phases, "friction": [i / 10 for i in range(1, 13)], "frequency_ratio": [1, "1/4"]}
+    table = unique_points(grid_of(**axes)).table
+    blocks = np.split(table, block_ends(table)[:-1])
+    assert all(len(np.unique(block[:, :3], axis=0)) == 1 for block in blocks)
+    assert {len(block) for block in blocks} == {24, 12}  # two loads with a ratio of 1, one with 1/4
+    assert sum(map(len, blocks)) == len(table)
+
+
+def test_a_load_that_is_larger_than_a_block_is_cut():
+    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
+    assert np.diff(block_ends(table), prepend=0).tolist() == [32, 32, 32, 4]
+
+
+def test_a_split_chunk_is_the_same_points():
+    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
+    (chunk,) = chunks(table, np.ones(100, bool), lambda: 1e9)
+    parts = list(chunk.split())
+    assert [len(part) for part in parts] == [32, 32, 32, 4]
+    assert [part.rows.tolist() for part in parts[3].split()] == [[96], [97], [98], [99]]

@@ -1,0 +1,111 @@
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stand_in
+
+from swtstudy import Study, run
+from swtstudy.figures.draw import draw, quantity
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.words import value_words
+from swtstudy.study.figure import FigureLayout
+
+PANELS = """
+title = "Panels"
+[axes]
+phase = [0, "pi"]
+frequency_ratio = ["1/2", 1, "3/2"]
+flat_radius = {start = 0, stop = 2, num = 5}
+[fixed]
+profile = "rounded_punch"
+[figure]
+x = "flat_radius"
+hue = "frequency_ratio"
+panels = "phase"
+y = ["s", "s/s(flat_radius=0)"]
+title = "A title"
+"""
+
+
+@pytest.fixture
+def panels(tmp_path):
+    return run(Study.from_text(PANELS), tmp_path / "panels.nc", solver=stand_in.smooth)
+
+
+def test_lines_ticks_and_legend(small, tmp_path):
+    figure = draw(run(small, tmp_path / "small.nc", solver=stand_in.smooth))
+    (axes,) = figure.axes
+    assert len(axes.lines) == 2
+    assert axes.get_xlabel() == r"$\psi$"
+    assert axes.get_ylabel() == "$s$"
+    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["0", "π/2", "π", "3π/2", "2π"]
+    texts = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert texts == [r"$\delta_A/\delta_0$ = 0.25", r"$\delta_A/\delta_0$ = 8/9"]
+
+
+def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
+    figure = draw(panels)
+    assert len(figure.axes) == 4
+    titles = [axes.get_title("left") for axes in figure.axes]
+    assert titles == [r"(A)  $\psi$ = 0", r"(B)  $\psi$ = π", r"(C)  $\psi$ = 0", r"(D)  $\psi$ = π"]
+    assert figure.axes[2].get_ylabel() == "$s$ / $s$($b/a_H$ = 0)"
+    assert all(line.get_ydata()[0] == 1 for line in figure.axes[2].lines)
+    assert figure.get_suptitle() == "A title"
+    np.testing.assert_array_equal(figure.axes[0].lines[1].get_ydata(), panels.s[0, 1])
+
+
+def test_lines_differ_in_colour_and_style(panels):
+    lines = draw(panels).axes[0].lines
+    assert len({line.get_color() for line in lines}) == len(lines)
+    assert len({str(line.get_linestyle()) + str(line._dash_pattern) for line in lines}) == len(lines)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]
+)
+def test_the_ending_is_the_format(panels, tmp_path, suffix, start):
+    save_figure(draw(panels), tmp_path / f"figure{suffix}")
+    assert (tmp_path / f"figure{suffix}").read_bytes().startswith(start)
+
+
+def test_other_endings_are_refused(panels, tmp_path):
+    with pytest.raises(ValueError, match="ends in one of"):
+        save_figure(draw(panels), tmp_path / "figure.docx")
+
+
+def test_what_cannot_be_drawn_is_refused(panels):
+    with pytest.raises(ValueError, match="not a dimension"):
+        draw(panels, FigureLayout(x="friction"))
+    with pytest.raises(ValueError, match="has no figure"):
+        draw(panels.drop_attrs())
+
+
+def test_the_reference_of_a_normalised_quantity(panels):
+    ratio = quantity(panels, "s/s(flat_radius=0)")
+    np.testing.assert_allclose(ratio * panels.s.isel(flat_radius=0), panels.s)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("normal_amplitude", 0.1, "0.1"),
+        ("normal_amplitude", 2 / 3, "2/3"),
+        ("frequency_ratio", 0.25, "1/4"),
+        ("wavelength", 5.5, "5.5"),
+        ("wavelength", 4.47213595, "4.472"),
+        ("phase", -np.pi / 4, "-π/4"),
+        ("phase", 1.234, "1.234"),
+        ("profile", "wavy_paraboloid", "wavy paraboloid"),
+    ],
+)
+def test_values_in_words(name, value, words):
+    assert value_words(name, value) == words
+
+
+def test_pyplot_is_not_touched():
+    package = Path(sys.modules["swtstudy"].__file__).parent
+    assert not any(
+        "pyplot" in path.read_text() and "import" in path.read_text().split("pyplot")[0][-20:]
+        for path in package.rglob("*.py")
+    )

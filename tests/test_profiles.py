@@ -1,0 +1,216 @@
+"""The profiles: g from f, inverses, limits, the integrals of the surface stress, compactness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.special import struve
+
+from swtstudy.mechanics.profiles import PROFILES, Profile, check_shape, make_profile
+from swtstudy.mechanics.profiles.struve import safe_struve, struve_functions
+from swtstudy.parameters import PROFILE_SHAPES
+from tests.oracles import profiles as oracle
+
+Array = NDArray[np.float64]
+
+#: Largest depth reached: δ0 + δA with δA = δ0.
+DEEPEST = 2.0
+INDENTERS = {
+    "paraboloid": oracle.paraboloid(),
+    "rounded_small_face": oracle.rounded_punch(0.05),
+    "rounded": oracle.rounded_punch(0.5),
+    "rounded_large_face": oracle.rounded_punch(2.0),
+    "truncated_small_face": oracle.truncated_paraboloid(0.05),
+    "truncated": oracle.truncated_paraboloid(0.5),
+    "truncated_large_face": oracle.truncated_paraboloid(2.0),
+    "wavy": oracle.wavy_paraboloid(0.01, 5.0),
+    "wavy_steep": oracle.wavy_paraboloid(0.1, 3.6),
+    "wavy_fine": oracle.wavy_paraboloid(5e-4, 4.5),
+}
+every_indenter = pytest.mark.parametrize("indenter", INDENTERS.values(), ids=INDENTERS.keys())
+
+
+def batch(indenter: oracle.Indenter, count: int = 1, depth: float = DEEPEST) -> Profile:
+    """The package's profiles of the same shape, ``count`` times."""
+    shape = {name: np.full(count, value) for name, value in indenter.shape.items()}
+    return make_profile(indenter.profile, shape, np.full(count, depth))
+
+
+def reached(indenter: oracle.Indenter, share: Array) -> Array:
+    """Radii at a share of the way from the face or centre to the largest contact radius, shape (1, k)."""
+    b, largest = indenter.flat_radius, batch(indenter).radius(np.array([[DEEPEST]]))
+    return b + (largest - b) * share
+
+
+def test_every_profile_of_the_table_of_parameters_exists() -> None:
+    assert set(PROFILES) == set(PROFILE_SHAPES)
+
+
+@every_indenter
+def test_g_is_abels_transform_of_f(indenter: oracle.Indenter) -> None:
+    xi = reached(indenter, np.linspace(0.01, 1.0, 30))
+    expected = [indenter.depth(x) for x in xi[0]]
+    np.testing.assert_allclose(batch(indenter).depth(xi)[0], expected, rtol=0.0, atol=1e-10)
+
+
+@every_indenter
+def test_slope_of_g(indenter: oracle.Indenter) -> None:
+    xi = reached(indenter, np.linspace(0.01, 1.0, 30))
+    profile, step = batch(indenter), 1e-6
+    slope = profile.weighted_slope(xi) / np.sqrt(xi**2 - indenter.flat_radius**2)
+    np.testing.assert_allclose(slope[0], [indenter.slope(x) for x in xi[0]], rtol=1e-9, atol=1e-9)
+    # The oracle's own g′ against its g: the difference quotient's error is 1e-12 g‴ + 1e-13/1e-6.
+    far = xi[0, 5:]
+    quotient = [(indenter.depth(x + step) - indenter.depth(x - step)) / (2.0 * step) for x in far]
+    np.testing.assert_allclose(slope[0, 5:], quotient, rtol=1e-6, atol=1e-6)
+
+
+@every_indenter
+def test_contact_radius_inverts_g(indenter: oracle.Indenter) -> None:
+    depths = np.concatenate([[0.0], np.geomspace(1e-9, DEEPEST, 200)])[None]
+    profile = batch(indenter)
+    radius = profile.radius(depths)
+    assert radius[0, 0] == indenter.flat_radius
+    assert np.all(np.diff(radius[0]) >= 0.0)
+    # Next to the face a double ξ knows w = √(ξ² − b²) to 2e-8 b only, and g may be as steep as b w.
+    atol = 1e-11 + 2e-8 * indenter.flat_radius**2
+    np.testing.assert_allclose(profile.depth(radius), depths, rtol=1e-9, atol=atol)
+
+
+@every_indenter
+def test_half_of_the_normal_load(indenter: oracle.Indenter) -> None:
+    radius = reached(indenter, np.array([0.1, 0.5, 1.0]))
+    # ∫ ξ g′ dξ = a g(a) − ∫ g dξ, smooth up to the face.
+    b = indenter.flat_radius
+    expected = [
+        a * indenter.depth(a) - oracle.integral(lambda x: indenter.depth(x) if x > b else 0.0, b, a)
+        for a in radius[0]
+    ]
+    np.testing.assert_allclose(batch(indenter).half_load(radius)[0], expected, rtol=1e-9, atol=1e-11)
+
+
+def stress_positions(indenter: oracle.Indenter) -> Array:
+    """Positions near the centre, under and around the edge of a face, and near the contact's edges."""
+    b = indenter.flat_radius
+    edges = batch(indenter).radius(np.array([[0.25, 1.0, DEEPEST]]))[0]
+    around_face = b * np.array([0.01, 0.5, 0.99, 1.0 - 1e-5, 1.0 + 1e-5, 1.01])
+    around_edges = np.outer(edges, [0.97, 1.0 - 1e-6, 1.0, 1.02]).ravel()
+    inside = np.array([0.02, 0.3]) * edges[-1]
+    return np.unique(np.concatenate([around_face[around_face > 0.0], around_edges, inside]))
+
+
+INACCURATE = ("rounded_small_face", "rounded", "truncated_small_face")
+SMALL_FACE = pytest.mark.xfail(strict=True, reason="the tables do not resolve w ~ b of a small face")
+
+
+@pytest.mark.parametrize(
+    "indenter",
+    [pytest.param(v, id=k, marks=SMALL_FACE if k in INACCURATE else ()) for k, v in INDENTERS.items()],
+)
+def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
+    position = stress_positions(indenter)
+    radius = np.append(position, batch(indenter).radius(np.array([[0.6]]))[0])
+    radius = np.sort(np.minimum(radius, batch(indenter).radius(np.array([[DEEPEST]]))[0, 0]))
+    primitives = batch(indenter).primitives(position[None])
+    inner, outer = (
+        f(np.broadcast_to(radius, (1, position.size, radius.size)))[:, 0]
+        for f in (primitives.inner, primitives.outer)
+    )
+    largest = max(inner.max(), outer.max(), 1.0)
+    for k, r in enumerate(position):
+        for j in range(k % 3, radius.size, 3):
+            assert inner[:, k, j] == pytest.approx(indenter.inner(r, radius[j]), abs=1e-9 * largest)
+            assert outer[:, k, j] == pytest.approx(indenter.outer(r, radius[j]), abs=1e-9 * largest)
+
+
+LIMITS = [
+    ("rounded_punch", {"flat_radius": 0.0}, 1e-12),
+    ("truncated_paraboloid", {"flat_radius": 0.0}, 1e-12),
+    ("wavy_paraboloid", {"waviness_amplitude": 0.0, "wavelength": 5.0}, 1e-12),
+    # g differs by (π/2) b ξ, by b²/2 and by (π/2) h kξ H₀ ~ √(h kξ) h.
+    ("rounded_punch", {"flat_radius": 1e-7}, 1e-6),
+    ("truncated_paraboloid", {"flat_radius": 1e-4}, 1e-6),
+    ("wavy_paraboloid", {"waviness_amplitude": 1e-5, "wavelength": 5.0}, 1e-3),
+]
+
+
+@pytest.mark.parametrize(("name", "shape", "tolerance"), LIMITS)
+def test_the_paraboloid_is_the_limit(name: str, shape: dict[str, float], tolerance: float) -> None:
+    deepest = np.array([DEEPEST])
+    limit = make_profile("paraboloid", {}, deepest)
+    profile = make_profile(name, {key: np.array([value]) for key, value in shape.items()}, deepest)
+    depth = np.linspace(0.01, DEEPEST, 50)[None]
+    radius = limit.radius(depth)
+    np.testing.assert_allclose(profile.radius(depth), radius, rtol=0.0, atol=tolerance)
+    np.testing.assert_allclose(profile.depth(radius), depth, rtol=0.0, atol=tolerance)
+    np.testing.assert_allclose(profile.half_load(radius), limit.half_load(radius), rtol=0.0, atol=tolerance)
+    position = np.array([[0.1, 0.7, 1.0, 1.3]])
+    upper = np.broadcast_to(radius, (1, 4, 50))
+    for integrals in ("inner", "outer"):
+        found, expected = (getattr(one.primitives(position), integrals)(upper) for one in (profile, limit))
+        # A wave changes the slope by more than the depth: by √(h/δ0) for λ ~ √(hR).
+        atol = 1e-9 + (
+            tolerance if name != "wavy_paraboloid" else 10.0 * np.sqrt(shape["waviness_amplitude"])
+        )
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=atol)
+
+
+@pytest.mark.xfail(strict=True, reason="the neighbours of the mended value are NaN themselves")
+def test_struve_functions_next_to_a_zero_where_the_library_fails() -> None:
+    z = 25.765363129500482
+    assert np.isnan(struve(0, z))  # else this guard has become superfluous
+    value = safe_struve(0, np.array([z - 1e-9, z, z + 1e-9]))
+    # It is a zero of H₀.
+    np.testing.assert_allclose(value, 0.0, atol=1e-8)
+
+
+def test_struve_functions_of_the_table() -> None:
+    z = np.random.default_rng(0).uniform(0.0, 60.0, 2000)
+    zeroth, first = struve_functions(z)
+    np.testing.assert_allclose(zeroth, safe_struve(0, z), rtol=0.0, atol=1e-10)
+    np.testing.assert_allclose(first, safe_struve(1, z), rtol=0.0, atol=1e-10)
+
+
+@pytest.mark.parametrize(("h", "amplitude"), [(0.01, 0.75), (0.1, 0.75), (1e-4, 0.0), (0.5, 0.9)])
+def test_waviness_is_refused_exactly_where_g_stops_growing(h: float, amplitude: float) -> None:
+    low, high = 0.5, 8.0
+    while high - low > 1e-6:
+        wavelength = 0.5 * (low + high)
+        shape = {"waviness_amplitude": h, "wavelength": wavelength}
+        refused = check_shape("wavy_paraboloid", shape, amplitude) is not None
+        low, high = (wavelength, high) if refused else (low, wavelength)
+    limit = high
+
+    def least_slope(wavelength: float) -> float:
+        wavy = oracle.wavy_paraboloid(h, wavelength)
+        wave_number = 2.0 * np.pi / (wavelength * np.sqrt(h))
+        # Up to the contact radius and the wave around it.
+        xi = np.linspace(1e-3, np.sqrt(1.0 + amplitude) + np.pi / wave_number, 4000)
+        return min(wavy.slope(x) / x for x in xi)
+
+    assert least_slope(limit) == pytest.approx(0.0, abs=1e-3)
+    assert least_slope(0.98 * limit) < 0.0 < least_slope(1.02 * limit)
+
+
+def test_the_message_of_a_contact_that_is_not_compact_names_the_limit() -> None:
+    shape = {"waviness_amplitude": 0.01, "wavelength": 3.1}
+    message = check_shape("wavy_paraboloid", shape, 0.75)
+    assert message is not None
+    assert "wavelength 3.1 is below 3.5" in message
+    assert "waviness_amplitude 0.01" in message
+    assert check_shape("wavy_paraboloid", {**shape, "wavelength": 3.6}, 0.75) is None
+    assert check_shape("wavy_paraboloid", {**shape, "waviness_amplitude": 0.0}, 0.75) is None
+
+
+def test_rounded_punch_of_the_literature() -> None:
+    # Lengths in mm, forces in N: b = 20, R = 10, δ = 0.1, a rigid punch on E = 70 GPa, ν = 0.3.
+    R, depth, effective = 10.0, 0.1, 70e3 / (1.0 - 0.3**2)
+    unit = np.sqrt(R * depth)
+    punch = make_profile("rounded_punch", {"flat_radius": np.array([20.0 / unit])}, np.ones(1))
+    contact = punch.radius(np.ones((1, 1)))
+    radius = contact[0, 0] * unit
+    force = 2.0 * effective * depth * unit * punch.half_load(contact)[0, 0]
+    assert radius == pytest.approx(20.38, abs=0.005)
+    assert force == pytest.approx(311.21e3, abs=5.0)
+    assert force / (np.pi * radius**2) == pytest.approx(238.49, abs=0.005)

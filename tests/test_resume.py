@@ -1,0 +1,250 @@
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from functools import partial
+
+import numpy as np
+import pytest
+import stand_in
+import xarray as xr
+
+from swtstudy import Study, open_results, run
+from swtstudy.archive.lock import LockedError, locked
+from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.runner import records, work
+from swtstudy.runner import run as run_module
+from swtstudy.runner.run import Stopped
+
+LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 4, num = 400}\n'
+
+
+def square(frictions, phases, rtol=1e-3):
+    axes = f"friction = {list(frictions)}\nphase = {list(phases)}\n"
+    return Study.from_text(f'title = "t"\nrtol = {rtol}\n[axes]\n{axes}')
+
+
+@pytest.fixture
+def line():
+    return Study.from_text(LINE)
+
+
+def same(one: xr.Dataset, other: xr.Dataset) -> None:
+    xr.testing.assert_equal(one, other)
+
+
+def test_a_stopped_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
+    path = tmp_path / "line.nc"
+    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth)
+    with pytest.raises(Stopped, match="of 400 distinct points are saved") as stopped:
+        run(line, path, solver=stand_in.Interrupting(192), workers=1)
+    saved = int(str(stopped.value).split()[1])
+    assert 0 < saved <= 192
+    assert not path.exists()
+    partial_dataset = open_results(path)
+    assert int((partial_dataset.status == records.COMPUTED).sum()) == saved
+    assert int(np.isnan(partial_dataset.s).sum()) == 400 - saved
+    rest = stand_in.Counting()
+    same(run(line, path, solver=rest, workers=1), undisturbed)
+    assert rest.points == 400 - saved
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["line.nc", "other.nc"]
+
+
+def test_a_finished_study_is_not_touched(line, tmp_path):
+    path = tmp_path / "line.nc"
+    first = run(line, path, solver=stand_in.smooth, workers=1)
+    stamp = path.stat().st_mtime_ns
+    again = stand_in.Counting()
+    xr.testing.assert_identical(run(line, path, solver=again), first)
+    assert again.points == 0
+    assert path.stat().st_mtime_ns == stamp
+
+
+def test_an_extension_computes_only_what_is_new(tmp_path):
+    path = tmp_path / "square.nc"
+    small = run(square([0.1, 0.2, 0.3, 0.4], [0, 0.5, 1, 1.5]), path, solver=stand_in.smooth)
+    counting = stand_in.Counting()
+    # Written differently, the old values are still the old points.
+    frictions = ["0.1", 0.1 + 0.1, 0.30000000000000004, "2/5", 0.5, 0.6]
+    large = run(square(frictions, [0, 0.5, 1, 1.5]), path, solver=counting)
+    assert counting.points == 8
+    np.testing.assert_array_equal(large.s.isel(friction=slice(4)), small.s)
+    assert len(json.loads(large.attrs["runs"])) == 2
+    assert set(np.unique(large.run.isel(friction=slice(4)))) == {0}
+    assert set(np.unique(large.run.isel(friction=slice(4, 6)))) == {1}
+    assert large.attrs["history"].count("\n") == 1
+
+
+def test_points_that_leave_the_study_are_kept_beside_it(tmp_path, caplog):
+    caplog.set_level("INFO", logger="swtstudy")
+    path = tmp_path / "square.nc"
+    old = run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
+    run(square([0.1], [0, 1]), path, solver=stand_in.smooth)
+    same(open_results(tmp_path / "square.previous.nc"), old)
+    assert "2 points are not in this study any more" in caplog.text
+
+
+def test_only_what_is_too_coarse_is_computed_again(tmp_path):
+    path = tmp_path / "square.nc"
+    run(square([0.1, 0.2], [0, 1], rtol=1e-3), path, solver=stand_in.smooth)
+    run(square([0.1, 0.2, 0.3], [0, 1], rtol=1e-3), path, solver=stand_in.smooth)
+    looser, tighter = stand_in.Counting(), stand_in.Counting()
+    run(square([0.1, 0.2, 0.3], [0, 1], rtol=1e-2), path, solver=looser)
+    assert looser.points == 0
+    dataset = run(square([0.1, 0.2, 0.3], [0, 1], rtol=1e-4), path, solver=tighter)
+    assert tighter.points == 6
+    assert [run["rtol"] for run in json.loads(dataset.attrs["runs"])] == [1e-4]
+
+
+def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
+    path = tmp_path / "square.nc"
+    run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
+    monkeypatch.setattr("swtstudy.mechanics.version.SOLVER_VERSION", "next")
+    for module in (run_module, work):
+        if hasattr(module, "SOLVER_VERSION"):
+            monkeypatch.setattr(module, "SOLVER_VERSION", "next")
+    counting = stand_in.Counting()
+    dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
+    assert counting.points == 6
+    assert "4 points come from another version of the solver" in caplog.text
+    assert [run["solver_version"] for run in json.loads(dataset.attrs["runs"])] == ["next"]
+
+
+def test_a_failed_point_is_one_point(tmp_path, line):
+    path = tmp_path / "line.nc"
+    dataset = run(line, path, solver=partial(stand_in.fail_at, 0.3), workers=1)
+    assert int(np.isfinite(dataset.s).sum()) == 399
+    (failure,) = json.loads(dataset.status.attrs["failures"])
+    assert failure["message"] == "ZeroDivisionError: an injected failure"
+    assert "friction=0.3" in failure["point"]
+    assert dataset.status.sel(friction=0.3, method="nearest").item() == records.FAILED
+    # It is not tried again unless that is asked for, and its message is not lost.
+    counting = stand_in.Counting()
+    text = LINE.replace("title", "# grown\ntitle")
+    dataset = run(Study.from_text(text), path, solver=counting, workers=1)
+    assert counting.points == 0
+    assert len(json.loads(dataset.status.attrs["failures"])) == 1
+    dataset = run(line, path, solver=counting, retry_failed=True, workers=1)
+    assert counting.points == 1
+    assert np.isfinite(dataset.s).all()
+    assert json.loads(dataset.status.attrs["failures"]) == []
+
+
+def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
+    path = tmp_path / "line.nc"
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(192), workers=1)
+    for part in parts_folder(path).glob("*.npz"):
+        part.write_bytes(part.read_bytes()[:-100])
+        break
+    dataset = run(line, path, solver=stand_in.smooth, workers=1)
+    assert np.isfinite(dataset.s).all()
+    assert "will be computed again" in caplog.text
+
+
+def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("swtstudy.archive.parts._GATHERED", 3)
+    path = tmp_path / "line.nc"
+    # One block a chunk: the pace is taken for very slow.
+    monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(320), workers=1)
+    assert len(list(parts_folder(path).glob("*.npz"))) == 3 + 1
+    assert len(read_parts(parts_folder(path))) == 320
+    assert np.isfinite(run(line, path, solver=stand_in.smooth, workers=1).s).all()
+
+
+def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch):
+    path = tmp_path / "line.nc"
+    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
+    fsync, calls = os.fsync, []
+
+    def full(handle):
+        calls.append(handle)
+        if len(calls) > 4:
+            raise OSError(28, "No space left on device")
+        fsync(handle)
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        run(line, path, solver=stand_in.smooth, workers=1)
+    monkeypatch.undo()
+    counting = stand_in.Counting()
+    same(run(line, path, solver=counting, workers=1), undisturbed)
+    assert 0 < counting.points < 400
+
+
+def test_one_run_at_a_time(line, tmp_path):
+    path = tmp_path / "line.nc"
+    # The kernel's lock is per open file: another process, as a second run is, must be refused.
+    code = (
+        "import sys, time, pathlib\nfrom swtstudy.archive.lock import locked\n"
+        "with locked(pathlib.Path(sys.argv[1])):\n    print('held', flush=True)\n    time.sleep(60)\n"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", code, str(parts_folder(path))], stdout=subprocess.PIPE, text=True
+    ) as holder:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == "held\n"
+        with pytest.raises(LockedError, match=f"is being written by process {holder.pid}"):
+            run(line, path, solver=stand_in.smooth, workers=1)
+        holder.kill()
+        holder.wait()
+    # Nothing stale is left of it.
+    assert np.isfinite(run(line, path, solver=stand_in.smooth, workers=1).s).all()
+
+
+def test_the_lock_leaves_nothing(tmp_path):
+    for _ in range(2):
+        with locked(tmp_path / "folder"):
+            assert (tmp_path / "folder" / "lock").exists()
+        assert not (tmp_path / "folder").exists()
+
+
+def test_workers_end_with_their_parent(tmp_path):
+    code = (
+        "import time\nfrom swtstudy.runner.workers import start_workers\n"
+        "pool = start_workers(2)\npool.submit(int).result()\n"
+        "print(*[p.pid for p in pool._processes.values()], flush=True)\ntime.sleep(60)\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        workers = [int(word) for word in parent.stdout.readline().split()]
+        parent.kill()
+        parent.wait()
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline and any(map(_alive, workers)):
+        time.sleep(0.05)
+    assert not any(map(_alive, workers))
+
+
+def _alive(process: int) -> bool:
+    try:
+        with open(f"/proc/{process}/stat") as file:
+            return file.read().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def test_a_file_that_is_no_archive_is_not_replaced(line, tmp_path):
+    path = tmp_path / "line.nc"
+    path.write_bytes(b"precious")
+    with pytest.raises(ValueError, match="move it away"):
+        run(line, path, solver=stand_in.smooth, workers=1)
+    assert path.read_bytes() == b"precious"
+
+
+def test_partial_results_of_an_extension(tmp_path, line):
+    path = tmp_path / "line.nc"
+    half = Study.from_text(LINE.replace("stop = 4, num = 400", "stop = 2, num = 200"))
+    old = run(half, path, solver=stand_in.smooth, workers=1)
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(32), workers=1)
+    same(open_results(path), old)
+    both = open_results(path, partial=True)
+    assert both.sizes == {"friction": 400}
+    assert 200 < int((both.status == records.COMPUTED).sum()) < 400
+    shutil.rmtree(parts_folder(path))
+    same(open_results(path, partial=True), old)

@@ -1,0 +1,146 @@
+import io
+import os
+from functools import partial
+
+import numpy as np
+import pytest
+import stand_in
+
+from swtstudy import Study, run
+from swtstudy.runner.chunk import Chunk, Result
+from swtstudy.runner.engines import LOST_WORKER, Here, LocalWorkers
+from swtstudy.runner.pace import CHUNK_SECONDS, Pace
+from swtstudy.runner.plan import unique_points
+from swtstudy.runner.progress import Progress
+
+WIDE = """
+title = "Enough for workers"
+[axes]
+profile = ["paraboloid", "rounded_punch"]
+phase = {start = 0, stop = 3, num = 20}
+friction = [0.1, 0.2, 0.3, 0.4]
+[fixed]
+flat_radius = 0.5
+"""
+
+
+@pytest.fixture
+def wide():
+    return Study.from_text(WIDE)
+
+
+def test_workers_give_what_one_process_gives(wide, tmp_path):
+    here = run(wide, tmp_path / "here.nc", solver=stand_in.smooth, workers=1)
+    there = run(wide, tmp_path / "there.nc", solver=stand_in.slow)
+    for name in here.data_vars:
+        np.testing.assert_array_equal(here[name], there[name])
+
+
+def test_work_is_shared_by_workers_with_one_thread_each(wide, tmp_path):
+    dataset = run(wide, tmp_path / "wide.nc", solver=stand_in.process)
+    processes = set(np.abs(dataset.critical_x.values).ravel())
+    assert len(processes) == 2
+    assert os.getpid() not in processes
+    assert (dataset.s == 1).all()
+
+
+def test_symmetric_points_are_computed_once(small, tmp_path):
+    counting = stand_in.Counting()
+    dataset = run(small, tmp_path / "small.nc", solver=counting)
+    assert counting.points == 2 * 4
+    assert dataset.s.size == 2 * 9
+    np.testing.assert_array_equal(dataset.s.isel(phase=0), dataset.s.isel(phase=4))
+    np.testing.assert_array_equal(dataset.critical_x.isel(phase=0), -dataset.critical_x.isel(phase=4))
+
+
+def test_chunks_aim_at_a_fraction_of_a_second(small):
+    pace = Pace()
+    table = unique_points(small.grid).table
+    solution = stand_in.smooth
+    from swtstudy.grid.canonical import points_from
+
+    for _ in range(30):
+        n = len(table)
+        solved = solution(points_from(table), 1e-3)
+        pace.update(Result(np.arange(n), solved, np.zeros(n, bool), {}, 0.02 * n, "1"), 2 * n)
+    assert pace.chunk_weight() == pytest.approx(CHUNK_SECONDS / 0.01)
+
+
+def single_chunks(study):
+    table = unique_points(study.grid).table
+    return table, [Chunk.of(table, [np.array([i])]) for i in range(len(table))]
+
+
+def test_a_lost_worker_is_replaced(wide, tmp_path):
+    table, chunks = single_chunks(wide)
+    done = []
+    with LocalWorkers(2) as engine:
+        solver = partial(stand_in.kill_once, str(tmp_path / "killed"))
+        engine.solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows))
+    assert (tmp_path / "killed").exists()
+    assert sorted(done) == list(range(len(table)))
+
+
+def test_a_point_that_kills_its_worker_is_alone_in_failing():
+    study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
+    table = unique_points(study.grid).table
+    chunk = Chunk.of(table, [np.arange(5), np.arange(5, 10)])
+    results = []
+    with LocalWorkers(2) as engine:
+        engine.solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append)
+    assert sorted(row for result in results for row in result.rows) == list(range(10))
+    failed = [result for result in results if result.failed.any()]
+    assert [result.rows.tolist() for result in failed] == [[2]]
+    assert failed[0].messages == {0: LOST_WORKER}
+
+
+@pytest.mark.parametrize("solver", [stand_in.fail_at, stand_in.lose_at])
+def test_one_failure_is_one_point(solver):
+    study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
+    table = unique_points(study.grid).table
+    results = []
+    Here().solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
+    (result,) = results
+    assert np.flatnonzero(result.failed).tolist() == [2]
+    assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
+    assert list(result.messages) == [2]
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def __call__(self) -> float:
+        self.now += 5.0
+        return self.now
+
+
+def test_a_terminal_shows_points_rate_and_time_left():
+    terminal = Terminal()
+    progress = Progress(10, terminal, Clock())
+    progress.add(4)
+    progress.close()
+    assert "4 of 10 points (40 %), 0.8/s, 7.5 s left" in terminal.getvalue()
+
+
+def test_a_log_has_a_line_now_and_then(caplog):
+    caplog.set_level("INFO", logger="swtstudy")
+    file = io.StringIO()
+    progress = Progress(100, file, Clock())
+    for _ in range(100):
+        progress.add(1)
+    assert file.getvalue() == ""
+    assert 10 <= len(caplog.messages) <= 20
+    assert caplog.messages[-1].startswith("100 of 100 points")
+
+
+def test_a_short_run_is_quiet_in_a_log(small, tmp_path, caplog, capfd):
+    caplog.set_level("INFO", logger="swtstudy")
+    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    assert caplog.messages == []
+    assert capfd.readouterr() == ("", "")

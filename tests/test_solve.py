@@ -1,0 +1,92 @@
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy import StudyError, solve
+
+
+def test_dimensions_in_the_order_given():
+    dataset = solve(phase=[0, 1.5, 3.0], profile="paraboloid", normal_amplitude=[0.25, 0.75], rtol=1e-2)
+    assert dataset.s.dims == ("phase", "normal_amplitude")
+    assert set(dataset.data_vars) == {"s", "s_error", "critical_x", "critical_angle", "regime"}
+    assert dataset.friction.ndim == 0
+    assert dataset.friction.item() == 0.3
+    assert dataset.profile.item() == "paraboloid"
+    assert (dataset.s > 0).all()
+
+
+def test_scalars_give_scalars():
+    dataset = solve(phase=np.float64(0.5), frequency_ratio=Fraction(3, 2), friction=np.array(0.2), rtol=1e-2)
+    assert dataset.s.ndim == 0
+    assert dataset.frequency_ratio.item() == 1.5
+    assert dataset.frequency_ratio.attrs["fractions"] == "3/2"
+
+
+@pytest.mark.parametrize("values", [[0, 1], (0, 1), range(2), np.array([0, 1]), np.array([0.0, 1.0])])
+def test_any_one_dimensional_sequence_is_a_dimension(values):
+    assert solve(phase=values, rtol=1e-2).sizes == {"phase": 2}
+
+
+def test_symmetric_phases_are_mirrored():
+    dataset = solve(phase=[0.7, 0.7 + np.pi, "7/10 + 2*pi"], rtol=1e-2)
+    s, x, angle = dataset.s.values, dataset.critical_x.values, dataset.critical_angle.values
+    assert s[0] == s[1] == s[2]
+    assert x[0] == -x[1] == x[2]
+    assert angle[0] == -angle[1] == angle[2]
+
+
+def test_the_order_of_values_does_not_matter():
+    forth = solve(phase=[0.1, 0.9, 2.5], friction=[0.2, 0.6], rtol=1e-2)
+    back = solve(friction=[0.6, 0.2], phase=[2.5, 0.9, 0.1], rtol=1e-2)
+    assert (back.s.transpose(*forth.s.dims).values[::-1, ::-1] == forth.s.values).all()
+
+
+def test_attributes_follow_the_table():
+    dataset = solve(phase=[0, 1], rtol=1e-2)
+    assert dataset.phase.attrs["units"] == "rad"
+    assert dataset.friction.attrs["symbol"] == r"\mu"
+    assert dataset.s.attrs["units"] == "1"
+    assert dataset.s.attrs["ancillary_variables"] == "s_error regime"
+    meanings = dataset.regime.attrs["flag_meanings"].split()
+    assert len(meanings) == len(dataset.regime.attrs["flag_values"])
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"friction": -0.1}, "out of range"),
+        ({"friction": float("nan")}, "not a finite number"),
+        ({"friction": None}, "not a number"),
+        ({"friction": np.bool_(True)}, "not a number"),
+        ({"poisson_ratio": 0.6}, "out of range"),
+        ({"frequency_ratio": np.pi}, "irrational"),
+        ({"frequency_ratio": "3/0"}, "division by zero"),
+        ({"psi": 0}, "unknown parameter"),
+        ({"frictoin": 0}, "did you mean friction"),
+        ({"phase": []}, "an empty axis"),
+        ({"phase": [0, 0]}, "the same as"),
+        ({"phase": [[0, 1]]}, "one-dimensional"),
+        ({"phase": [[0, 1], [2]]}, "one-dimensional"),
+        ({"profile": "rounded_punch"}, "flat_radius"),
+        ({"rtol": 0}, "rtol"),
+        ({"rtol": float("nan")}, "rtol"),
+        ({"friction": 10**400}, "not a finite number"),
+    ],
+)
+def test_bad_input_is_a_value_error(parameters, message):
+    with pytest.raises(ValueError, match=message):
+        solve(**parameters)
+
+
+def test_all_mistakes_come_at_once():
+    with pytest.raises(StudyError) as caught:
+        solve(friction=-1, poisson_ratio=2, psi=0, rtol=5)
+    assert len(caught.value.mistakes) == 4
+
+
+def test_the_package_exports_lazily():
+    assert set(swtstudy.__all__) <= set(dir(swtstudy))
+    with pytest.raises(AttributeError):
+        swtstudy.nothing  # noqa: B018

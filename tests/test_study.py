@@ -1,0 +1,235 @@
+import math
+from fractions import Fraction
+
+import pytest
+
+from swtstudy import Study, StudyError
+
+MINIMAL = 'title = "t"\n'
+
+
+def mistakes_of(text: str) -> dict[str, str]:
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(text, "study.toml")
+    assert all(str(mistake).startswith("study.toml: ") for mistake in caught.value.mistakes)
+    return {mistake.key: f"{mistake.found}; {mistake.allowed}" for mistake in caught.value.mistakes}
+
+
+def test_defaults_are_table_1():
+    study = Study.from_text(MINIMAL)
+    assert study.grid.fixed == {
+        "poisson_ratio": 0.3,
+        "friction": 0.3,
+        "normal_amplitude": 0.75,
+        "frequency_ratio": Fraction(1),
+        "tangential_amplitude": 5 / 6,
+        "phase": 0.0,
+        "profile": "paraboloid",
+    }
+    assert study.grid.axes == {}
+    assert study.grid.size == 1
+    assert study.rtol == 1e-4
+
+
+def test_axes_keep_their_order_and_exact_values(small):
+    assert small.grid.dims == ("normal_amplitude", "phase")
+    assert small.grid.axes["normal_amplitude"] == (0.25, 8 / 9)
+    assert small.grid.axes["phase"] == pytest.approx([i * math.pi / 4 for i in range(9)], rel=1e-15)
+
+
+def test_a_range_with_rational_ends_has_the_nearest_floats():
+    study = Study.from_text(MINIMAL + "[axes]\nfriction = {start = 0, stop = 1, num = 11}")
+    assert study.grid.axes["friction"] == tuple(i / 10 for i in range(11))
+
+
+def test_ratios_are_exact():
+    axis = 'frequency_ratio = ["1/4", 0.5, 1, "1.5", 2.0, 0.3333333333333333]'
+    study = Study.from_text(MINIMAL + "[axes]\n" + axis)
+    expected = (Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(3, 2), Fraction(2), Fraction(1, 3))
+    assert study.grid.axes["frequency_ratio"] == expected
+
+
+@pytest.mark.parametrize(
+    ("entry", "found"),
+    [
+        ("friction = nan", "not a finite number"),
+        ("friction = inf", "not a finite number"),
+        ("friction = -0.1", "out of range"),
+        ("friction = true", "not a number"),
+        ("friction = [0.1]", "not a number"),
+        ("friction = 1979-05-27", "not a number"),
+        ("poisson_ratio = 0.51", "out of range"),
+        ('frequency_ratio = "3/0"', "division by zero"),
+        ('frequency_ratio = "pi"', "irrational"),
+        ("frequency_ratio = 3.14159", "irrational, or no small fraction"),
+        ("frequency_ratio = 0", "not positive"),
+        ("frequency_ratio = -1", "not positive"),
+        ("frequency_ratio = 65", "too large"),
+        ('frequency_ratio = "1/65"', "no small fraction"),
+        ('profile = "parabloid"', "did you mean paraboloid?"),
+        ("profile = 3", "not a name"),
+        ("frictoin = 0.1", "did you mean friction?"),
+        ('tangential_amplitude = "5 6"', "unexpected"),
+        ("phase = 1e9", "out of range"),
+    ],
+)
+def test_a_bad_value_is_named(entry, found):
+    mistakes = mistakes_of(MINIMAL + "[fixed]\n" + entry)
+    assert list(mistakes) == ["fixed." + entry.split(" ")[0]]
+    assert found in next(iter(mistakes.values()))
+
+
+@pytest.mark.parametrize(
+    ("axis", "key", "found"),
+    [
+        ("phase = []", "axes.phase", "an empty axis"),
+        ("phase = 0", "axes.phase", "a list of values or {start, stop, num}"),
+        ("phase = [0, 1, 0.0]", "axes.phase[2]", "the same as axes.phase[0]"),
+        ('friction = [0.30000000000000004, "3/10"]', "axes.friction[1]", "the same as"),
+        ('frequency_ratio = [0.5, "1/2"]', "axes.frequency_ratio[1]", "the same as"),
+        ("phase = [0, nan]", "axes.phase[1]", "not a finite number"),
+        ("fase = [0, 1]", "axes.fase", "did you mean phase?"),
+        ("phase = {start = 0, stop = 1}", "axes.phase.num", "nothing"),
+        ("phase = {start = 0, stop = 1, num = 1}", "axes.phase.num", "a whole number from 2"),
+        ("phase = {start = 0, stop = 1, num = 2.5}", "axes.phase.num", "a whole number"),
+        ("phase = {start = 0, stop = 0, num = 3}", "axes.phase", "two different ends"),
+        ('phase = {start = 0, stop = "two", num = 3}', "axes.phase.stop", "not a number"),
+        ("phase = {start = 0, stop = 1, num = 3, step = 1}", "axes.phase.step", "did you mean stop?"),
+        ("flat_radius = [0, 1]", "axes.flat_radius", "no profile here has"),
+        ('profile = ["paraboloid", "cone"]', "axes.profile[1]", "no such profile"),
+    ],
+)
+def test_a_bad_axis_is_named(axis, key, found):
+    mistakes = mistakes_of(MINIMAL + "[axes]\n" + axis)
+    assert list(mistakes) == [key]
+    assert found in mistakes[key]
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("", "title"),
+        ("title = 3", "title"),
+        (MINIMAL + "rtol = 0", "rtol"),
+        (MINIMAL + "rtol = nan", "rtol"),
+        (MINIMAL + 'rtol = "1e-4"', "rtol"),
+        (MINIMAL + "axes = 3", "axes"),
+        (MINIMAL + "fixed = 3", "fixed"),
+        (MINIMAL + "figure = 3", "figure"),
+        (MINIMAL + "rtoll = 1e-3", "rtoll"),
+    ],
+)
+def test_a_bad_structure_is_named(text, key):
+    assert list(mistakes_of(text)) == [key]
+
+
+def test_shape_parameters_are_required_by_their_profiles():
+    mistakes = mistakes_of(MINIMAL + '[axes]\nprofile = ["rounded_punch", "wavy_paraboloid"]')
+    assert list(mistakes) == ["fixed.flat_radius", "fixed.waviness_amplitude", "fixed.wavelength"]
+    assert "rounded_punch needs it" in mistakes["fixed.flat_radius"]
+
+
+def test_a_shape_parameter_that_the_profile_lacks_is_not_used():
+    study = Study.from_text(MINIMAL + "[fixed]\nflat_radius = 0.5")
+    assert study.grid.values("flat_radius") == (0.5,)
+
+
+def test_waviness_that_breaks_the_contact_up_is_refused():
+    fixed = '[fixed]\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 0.02\nwavelength = 3'
+    mistakes = mistakes_of(MINIMAL + fixed)
+    assert list(mistakes) == ["fixed.waviness_amplitude, fixed.wavelength"]
+
+
+FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\nhue = "friction"\n'
+
+
+@pytest.mark.parametrize(
+    ("figure", "key", "found"),
+    [
+        (FIGURE.replace('"phase"', '"psi"'), "figure.x", "not an axis"),
+        (FIGURE.replace('"friction"', '"frictoin"'), "figure.hue", "did you mean friction?"),
+        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "used for x too"),
+        (FIGURE.replace('hue = "friction"', ""), "figure", "no place for the axis friction"),
+        (FIGURE + 'panels = "profile"', "figure.panels", "not an axis"),
+        (FIGURE + 'colour = "red"', "figure.colour", "known:"),
+        (FIGURE + "y = 3", "figure.y", "a text, or a list"),
+        (FIGURE + 'y = "t"', "figure.y", "not a quantity"),
+        (FIGURE + "y = []", "figure.y", "empty list"),
+        (FIGURE + 'y = "s/s(friction=0.2)"', "figure.y", "not on that axis"),
+        (FIGURE + 'y = "s/s(normal_amplitude=0)"', "figure.y", "not an axis"),
+        (FIGURE + 'y = "s/s(friction=-1)"', "figure.y", "out of range"),
+    ],
+)
+def test_a_figure_that_the_study_cannot_make_is_named(figure, key, found):
+    mistakes = mistakes_of(MINIMAL + figure)
+    assert key in mistakes
+    assert found in mistakes[key]
+
+
+def test_normalised_quantities_are_accepted():
+    study = Study.from_text(MINIMAL + FIGURE + 'y = ["s", "s/s(friction=1/10)", "s / s(phase = 0)"]')
+    assert study.figure is not None
+    assert len(study.figure.y) == 3
+
+
+def test_every_mistake_is_reported_at_once():
+    mistakes = mistakes_of(
+        """
+        titel = "t"
+        rtol = 2
+        [fixed]
+        friction = -1
+        poisson_ratio = 0.6
+        phase = 0
+        [axes]
+        phase = [0, nan, "x"]
+        frequency_ratio = ["3/0", "pi"]
+        profile = ["rounded_punch"]
+        normal_amplitude = []
+        [figure]
+        x = "psi"
+        """
+    )
+    assert mistakes.keys() >= {
+        "titel",
+        "title",
+        "rtol",
+        "fixed.friction",
+        "fixed.poisson_ratio",
+        "axes.phase",
+        "axes.phase[1]",
+        "axes.phase[2]",
+        "axes.frequency_ratio[0]",
+        "axes.frequency_ratio[1]",
+        "axes.normal_amplitude",
+        "fixed.flat_radius",
+        "figure.x",
+    }
+
+
+def test_a_syntax_error_is_one_message():
+    with pytest.raises(
+        StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML$"
+    ):
+        Study.from_text("title = ", "bad.toml")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("absent.toml", None, "no such file"),
+        ("binary.toml", b"\xff\xfe\x00", "no UTF-8"),
+        ("nul\0.toml", None, "null"),
+    ],
+)
+def test_a_file_that_cannot_be_read_is_one_message(tmp_path, name, content, message):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(StudyError, match=message) as caught:
+        Study.from_toml(tmp_path / name)
+    assert len(caught.value.mistakes) == 1
+
+
+def test_a_folder_is_no_study(tmp_path):
+    with pytest.raises(StudyError, match="directory"):
+        Study.from_toml(tmp_path)
