@@ -74,7 +74,9 @@ def contact_states(
     grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
     branches = np.unique(memory.branch[grown])
     starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
-    breaks = np.concatenate([depth.ravel(), front.ravel(), np.unique(starts)])
+    # The deepest contact of the cycle is there for instants without any contact.
+    deepest = 1.0 + protocol.normal_amplitude
+    breaks = np.concatenate([depth.ravel(), front.ravel(), np.unique(starts), deepest])
     if len(branches):
         between = _between(np.stack([memory.start[grown], memory.stop[grown]]), cells)
         breaks = np.concatenate([breaks, between[between < breaks.max()]])
