@@ -149,10 +149,8 @@ def solve_cycle(protocol: Protocol) -> Cycle:
                     getattr(record, name)[:, i] = getattr(stack, name)[:, 0]
             stack.start[stack.start >= now[:, None, None]] = np.inf
             senses = forward[:, i : i + 1], backward[:, i : i + 1]
-            front, sign, _ = (
-                values[:, 0]
-                for values in slip_front(protocol, stack, *senses, only, now[:, None], u[:, None])
-            )
+            fronts, signs, _ = slip_front(protocol, stack, *senses, only, now[:, None], u[:, None])
+            front, sign = fronts[:, 0], signs[:, 0]
             slips = front < now
             _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)

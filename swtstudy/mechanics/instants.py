@@ -94,14 +94,17 @@ def cosine_nodes(cycle: Cycle, ends: FloatArray, count: int) -> tuple[Nodes, NDA
     begin, end = np.repeat(cycle.begin, count + 1, axis=1), np.repeat(cycle.end, count + 1, axis=1)
     common = begin + (end - begin) * np.tile(share, intervals)
 
-    low, high = gather(low, stretch).reshape(n, -1), gather(high, stretch).reshape(n, -1)
+    own_low, own_high = (gather(v, stretch).reshape(n, -1) for v in (low, high))
     place, of_interval = place.reshape(n, -1), stretch.reshape(n, -1) // 3
     index = of_interval * (count + 1) + place
-    own = (low != gather(cycle.begin, of_interval)) | (high != gather(cycle.end, of_interval))
+    own = (own_low != gather(cycle.begin, of_interval)) | (own_high != gather(cycle.end, of_interval))
     index = np.where(own, common.shape[1] + np.cumsum(own, axis=1) - 1, index)
     # A row without instants of its own keeps one for the others' sake.
     own[:, 0] |= ~own.any(axis=1)
-    own_interval, own_instant = packed(own, of_interval), packed(own, low + (high - low) * share[place])
+    own_interval, own_instant = (
+        packed(own, of_interval),
+        packed(own, own_low + (own_high - own_low) * share[place]),
+    )
     nodes = Nodes(
         np.concatenate([np.broadcast_to(interval, common.shape), *own_interval], axis=1),
         np.concatenate([common, *own_instant], axis=1),
@@ -139,11 +142,9 @@ def _edge_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
 def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     """Instant at which the spring at G starts to slip in each interval, else the end, shape (n, X, i)."""
     protocol, memory = cycle.protocol, cycle.memory
-    n, columns = depth.shape
-    low, high = cycle.begin[:, None], cycle.end[:, None]
-    at = depth[:, :, None]
+    high, at = cycle.end[:, None], depth[:, :, None]
     piece = np.maximum((memory.start[:, None] < at[..., None]).sum(axis=-1) - 1, 0)
-    row = np.arange(n)[:, None, None]
+    row = np.arange(len(depth))[:, None, None]
     where = row, np.arange(piece.shape[2]), piece
     start, slope = memory.start[where], memory.slope[where]
     held = memory.offset[where] + np.where(slope == GROWTH, 0.0, slope) * (at - start)
@@ -190,7 +191,8 @@ def _slip_line_passes(
     """Where in (n, X, i), and when, the slip line sense·u − δ rises through ``goal``."""
     protocol = cycle.protocol
     first, last = (
-        sense * protocol.displacement(instant) - protocol.depth(instant) for instant in (cycle.begin, cycle.end)
+        sense * protocol.displacement(instant) - protocol.depth(instant)
+        for instant in (cycle.begin, cycle.end)
     )
     hit = np.nonzero(allowed & (first[:, None] < goal) & (goal < last[:, None]))
     row, _, interval = hit

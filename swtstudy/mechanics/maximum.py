@@ -122,9 +122,11 @@ class _Climb:
         peak = local_maxima(look.swt)
         point, side, column = peak
         hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
-        zero = np.zeros(len(point))
-        width, rounds = zero + FIRST_WIDTH, zero.astype(np.intp)
-        return cls(point, 1.0 - 2.0 * side, column, hot, look.double_angle[peak], zero, width, zero.copy(), zero.copy(), rounds, rounds > 0)
+        centre, top, change = np.zeros((3, len(point)))
+        width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
+        angle, settled = look.double_angle[peak], np.zeros(len(point), dtype=bool)
+        x_sign = np.where(side == 0, 1.0, -1.0)
+        return cls(point, x_sign, column, hot, angle, centre, width, top, change, rounds, settled)
 
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
         return _Climb(*(values[index] for values in vars(self).values()))
@@ -150,7 +152,9 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     order = np.lexsort((-climb.top, climb.point))
     best = climb.take(order[np.unique(climb.point[order], return_index=True)[1]])
     r = best.brackets(positions).radius(best.centre[:, None])
-    value, angle = refine(split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check)
+    value, angle = refine(
+        split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check
+    )
     error = np.abs(value[:, 0] - best.top) + CHANGE_SHARE * best.change
     # Nothing finer than this was looked at.
     error = np.maximum(error, LEAST_ERROR * accuracy.tolerance * value[:, 0])
@@ -174,13 +178,14 @@ def _step(
     centre, top = _vertex(c, values, best, brackets.is_corner)
     change = np.abs(top - now.top)
     # A maximum next to a corner shows only once the search is narrow.
-    flat = top - pick(values, best) <= accuracy.tolerance * top
+    flat = top - pick(values, best) <= CHANGE_SHARE * accuracy.tolerance * top
     stays = brackets.is_corner & (found == 0.0) & (flat | (now.rounds < LEAST_ROUND_COUNT))
     centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
-    beyond = (np.abs(found) == 1.0) & (now.column + found.astype(np.intp) != positions.r.shape[1])
+    neighbour = now.column + found.astype(np.intp)
+    beyond = (np.abs(found) == 1.0) & (neighbour >= 0) & (neighbour < positions.count[now.point])
     outermost = ((best == 0) | (best == c.shape[1] - 1)) & (found != now.centre)
-    climb.column[active] += np.where(beyond, found.astype(np.intp), 0)
+    climb.column[active] = np.where(beyond, neighbour, now.column)
     climb.centre[active] = np.where(beyond, 0.0, centre)
     climb.angle[active], climb.top[active] = pick(angles, best), top
     climb.change[active] = change
@@ -188,7 +193,8 @@ def _step(
     climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
     climb.rounds[active] += ~outermost
     small = CHANGE_SHARE * change <= SETTLED * accuracy.tolerance * top
-    climb.settled[active] = ~outermost & small & (now.rounds + 1 >= LEAST_ROUND_COUNT)
+    enough = now.rounds + 1 >= LEAST_ROUND_COUNT
+    climb.settled[active] = ~outermost & small & enough & (flat | ~stays)
 
 
 def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
@@ -204,7 +210,8 @@ def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], N
     peak = (swt >= padded[..., 2:]) & (swt > padded[..., :-2]) & (swt >= CANDIDATE_SHARES[0] * largest)
     # A point without tension anywhere keeps one bracket all the same.
     peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
-    return np.nonzero(peak)
+    point, side, column = np.nonzero(peak)
+    return point, side, column
 
 
 def _look(centre: FloatArray, width: FloatArray) -> FloatArray:

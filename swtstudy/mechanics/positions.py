@@ -33,12 +33,15 @@ class Positions:
     ----------
     r
         Shape (n, X); shorter rows repeat their first position.
+    count
+        Shape (n,): number of positions of each row.
     low, high, alpha, step
         Shape (n, X, 2), for the left and the right side of each position: the ends of the stretch, the
         angle α of the position in it, and the change of α to the next position.
     """
 
     r: FloatArray
+    count: NDArray[np.intp]
     low: FloatArray
     high: FloatArray
     alpha: FloatArray
@@ -85,8 +88,8 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     # The last real stretch keeps its end.
     last = count - 2 - real[:, ::-1].argmax(axis=1)
     keep[np.arange(n), last, steps[np.arange(n), last]] = True
-    flat = (n, -1)
-    stretch, place = packed(keep.reshape(flat), stretch.reshape(flat), place.reshape(flat))
+    keep = keep.reshape(n, -1)
+    stretch, place = packed(keep, stretch.reshape(n, -1), place.reshape(n, -1))
 
     previous = np.maximum.accumulate(np.where(real, np.arange(count - 1), -1), axis=1)
     before = np.where(place > 0, stretch, gather(previous, np.maximum(stretch - 1, 0)))
@@ -96,11 +99,17 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     inside = before == stretch
     left = np.where(inside, alpha, np.pi)
     sides = np.stack([before, stretch], axis=-1)
+
+    def of_sides(values: FloatArray) -> FloatArray:
+        return gather(values, sides.reshape(n, -1)).reshape(sides.shape)
+
     return Positions(
         _cosine(gather(low, stretch), gather(high, stretch), alpha),
-        *(gather(v, sides.reshape(n, -1)).reshape(sides.shape) for v in (low, high)),
+        keep.sum(axis=1),
+        of_sides(low),
+        of_sides(high),
         np.stack([left, alpha], axis=-1),
-        gather(step, sides.reshape(n, -1)).reshape(sides.shape),
+        of_sides(step),
     )
 
 

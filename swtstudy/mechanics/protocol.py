@@ -83,9 +83,7 @@ class Protocol:
         if self.p == self.q:
             return self._harmonic_instant(sense, goal, low, high)
 
-        def line(
-            instant: FloatArray, active: NDArray[np.intp]
-        ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
             one = self.take(active)
             u, depth = sense * one.displacement(instant), one.depth(instant)
             slope = sense * one.displacement_rate(instant) - one.depth_rate(instant)
@@ -114,9 +112,7 @@ def _expand(values: FloatArray, like: FloatArray) -> FloatArray:
     return values.reshape(values.shape + (1,) * (like.ndim - 1))
 
 
-def fold_phase(
-    phase: FloatArray, p: IntArray, q: IntArray
-) -> tuple[FloatArray, NDArray[np.bool_]]:
+def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
 
     Shifting time by π/ω2 flips u and mirrors x.
@@ -181,7 +177,7 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     order = max(protocol.p, protocol.q)
     # The offset keeps nodes off the zeros of symmetric protocols.
     step = 2.0 * np.pi / (24 * order)
-    grid = step * np.arange(24 * order + 2) + 0.0123 / order
+    grid = np.asarray(step * np.arange(24 * order + 2) + 0.0123 / order, dtype=np.float64)
     nodes = np.broadcast_to(grid, (len(protocol), grid.size))
     rates = protocol.displacement_rate(nodes) - sign * protocol.depth_rate(nodes)
 
@@ -204,9 +200,7 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
     line = protocol.take(row)
     p, q = protocol.p, protocol.q
 
-    def rate(
-        instant: FloatArray, active: NDArray[np.intp]
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def rate(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
         one = line.take(active)
         slope = -p * p * one.displacement(instant) + sign * q * q * (one.depth(instant) - 1.0)
         u_rate, depth_rate = one.displacement_rate(instant), one.depth_rate(instant)

@@ -55,7 +55,8 @@ def monotone_roots(
         going = np.abs(new - root) > tolerance
         if not np.any(going):
             break
-        active, root, low, high, rising = (v[going] for v in (active, new, low, high, rising))
+        active, rising = active[going], rising[going]
+        root, low, high = new[going], low[going], high[going]
     return result
 
 

@@ -74,8 +74,9 @@ def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol
         [points.normal_amplitude[index], points.tangential_amplitude[index], points.phase[index]], axis=1
     )
     distinct, load = np.unique(loads, axis=0, return_inverse=True)
-    first = index[0]
-    return Protocol(*distinct.T, int(points.p[first]), int(points.q[first])), load.reshape(-1)
+    normal, tangential, phase = distinct.T
+    p, q = int(points.p[index[0]]), int(points.q[index[0]])
+    return Protocol(normal, tangential, phase, p, q), load.reshape(-1)
 
 
 def _fold_angle(degrees: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -99,7 +99,7 @@ class SurfaceLine:
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         cycle, profile = self.cycle, self.profile
-        n, intervals, pieces = cycle.memory.start.shape
+        n, _, pieces = cycle.memory.start.shape
         depth = np.maximum(cycle.protocol.depth(nodes.instant), 0.0)
         displacement = cycle.protocol.displacement(nodes.instant)
         senses = cycle.forward, cycle.backward
@@ -144,10 +144,11 @@ class SurfaceLine:
         front_radius: FloatArray,
     ) -> None:
         """Add the part of a growth inside of the front, where the front cuts it."""
-        where = np.nonzero(grown)
-        row, column, _ = where
+        row, column, _ = where = np.nonzero(grown)
         index = self.growth_index.reshape(len(total[0]), -1)[row, place[where]]
-        total[:, *where] += self.growth.up_to(row, column, index, front_radius[where])
+        parts = self.growth.up_to(row, column, index, front_radius[where])
+        for component, part in zip(total, parts, strict=True):
+            component[where] += part
 
 
 def _distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
@@ -178,9 +179,8 @@ def stresses(
     nu, mu = (v.reshape(v.shape + (1,) * (history.pressure.ndim - 1)) for v in (poisson_ratio, friction))
     spread = 0.5 * (1.0 - 2.0 * nu) * history.mean_pressure
     pull = side * mu
-    sigma_xx = spread - history.pressure + pull * (
-        (1.0 + nu) * history.tangential_1 - nu * history.tangential_3
+    sigma_xx = (
+        spread - history.pressure + pull * ((1.0 + nu) * history.tangential_1 - nu * history.tangential_3)
     )
     sigma_yy = -spread - 2.0 * nu * history.pressure + pull * nu * history.tangential_3
     return sigma_xx, sigma_yy, -history.pressure, mu * history.traction
-

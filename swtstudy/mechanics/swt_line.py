@@ -115,7 +115,8 @@ class FirstLook:
             Shape (m,): index of the positions.
         """
         pieces = (v[point, column] for v in vars(self.history).values())
-        planes = scene.take(point).planes(History(*pieces), 1.0 - 2.0 * side[:, None])
+        x_sign = np.where(side == 0, 1.0, -1.0)[:, None]
+        planes = scene.take(point).planes(History(*pieces), x_sign)
         stress, strain = planes.on_plane(self.double_angle[point, side, column])
         hot = np.zeros(stress.shape, dtype=bool)
         for curve in (stress, strain, -strain):
@@ -190,9 +191,7 @@ def refine(
         best = _extremes(near, angle)
         if turn < resolution.zooms - 1:
             brackets = brackets.narrowed(np.stack(best, axis=-1))
-    tops = [
-        brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))
-    ]
+    tops = [brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))]
     return product(tops[0], tops[1], -tops[2]), angle
 
 

@@ -8,6 +8,7 @@ are walked in the angle α of their cosine-spaced nodes, in which the stress is 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ from swtstudy.mechanics.critical_plane import parabola
 from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import NO_STRETCH, Nodes
 from swtstudy.mechanics.points import FloatArray
+
+T = TypeVar("T", bound=np.generic)
 
 #: Steps into which each side of a bracket is divided.
 STEPS = 3
@@ -96,7 +99,7 @@ class TimeBrackets:
         c = np.clip(self.centre[..., None] + self.width * OFFSETS, -1.0, 1.0)
         right = c > 0.0
 
-        def side(values: NDArray) -> NDArray:  # type: ignore[type-arg]
+        def side(values: NDArray[T]) -> NDArray[T]:
             return np.where(right, values[..., 1:], values[..., :1])
 
         alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray
 
@@ -59,7 +60,7 @@ class Profile(ABC):
         return None
 
     @abstractmethod
-    def take(self, index: FloatArray) -> Profile:
+    def take(self, index: NDArray[np.intp]) -> Profile:
         """The profiles at ``index``."""
 
     @property

@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
@@ -28,7 +29,7 @@ class FlatFaced(Profile):
     def flat_radius(self) -> FloatArray:
         return self._flat_radius
 
-    def take(self, index: FloatArray) -> FlatFaced:
+    def take(self, index: NDArray[np.intp]) -> FlatFaced:
         return type(self)(self.largest_depth[index], self._flat_radius[index])
 
     def _face(self, like: FloatArray) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
@@ -31,7 +32,7 @@ class ParaboloidPrimitives(Primitives):
 class Paraboloid(Profile):
     """n paraboloids; they are all the same in a_H and δ0."""
 
-    def take(self, index: FloatArray) -> Paraboloid:
+    def take(self, index: NDArray[np.intp]) -> Paraboloid:
         return Paraboloid(self.largest_depth[index])
 
     def depth(self, radius: FloatArray) -> FloatArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
@@ -64,11 +65,11 @@ class WavyParaboloid(Profile):
         if wavelength >= limit:
             return None
         return (
-            f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays compact "
-            f"at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
+            f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays "
+            f"compact at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
         )
 
-    def take(self, index: FloatArray) -> WavyParaboloid:
+    def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
         return WavyParaboloid(
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
