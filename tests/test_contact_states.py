@@ -1,9 +1,9 @@
-"""The field on the surface line against the surface formulas: two ways from one memory diagram to the stress."""
+"""The field on the surface line against the surface formulas: two ways from the memory to the stress."""
 
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.contact import GROWTH, solve_cycle
 from swtstudy.mechanics.field import contact_states
 from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import make_profile
@@ -55,3 +55,10 @@ def test_surface_line(load, name):
     expected = [np.stack(stresses(history, ν, μ, side), axis=-1)[0] for side in (1.0, -1.0)]
     np.testing.assert_allclose(stress[..., [0, 1, 2, 4]], np.concatenate(expected), rtol=0, atol=1e-5)
     assert np.abs(stress[..., [3, 5]]).max() == 0.0
+
+
+def test_touch_down_leaves_no_ground_of_rounding():
+    """Where contact was made at δ = 1e-15, ground had grown with the displacement of an earlier instant."""
+    one = (np.array([v]) for v in (1.5, 0.1, 1.0088946151077967))
+    memory = solve_cycle(Protocol(*one, 1, 2)).memory
+    assert (memory.stop[np.isfinite(memory.start) & (memory.slope == GROWTH)] > 1e-3).all()

@@ -21,6 +21,8 @@ from swtstudy.mechanics.protocol import Protocol, stick_depth, turning_instants
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
+#: Depths up to this, in δ0, are no contact.
+_NO_DEPTH = 1e-13
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,9 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     backward = displacement_rate < -depth_rate
     growth = ~forward & ~backward & (depth_rate > 0.0)
     branch = 2.0 * np.pi * np.round((protocol.q * middle + protocol.phase[:, None]) / (2.0 * np.pi))
-    depth, displacement = np.maximum(protocol.depth(edges), 0.0), protocol.displacement(edges)
+    depth, displacement = protocol.depth(edges), protocol.displacement(edges)
+    # Where contact is made or lost δ is 0 but for rounding; what it leaves must not count as new ground.
+    depth = np.where(depth > _NO_DEPTH, depth, 0.0)
 
     intervals = middle.shape[1]
     shape = (n, 1, 2 * intervals + 3)
