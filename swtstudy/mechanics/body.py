@@ -49,17 +49,11 @@ class Body:
     @classmethod
     def of(cls, scene: Scene, nodes: TimeNodes, cells: int) -> Body:
         """The body at the given instants; ``cells`` as for `contact_states`."""
-        return cls(
-            scene, contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, cells)
-        )
+        return cls(scene, contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, cells))
 
     def stress(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """Stress history at points of shape S in a_H, shape S + (T, 6), in E* √(δ0/R)."""
-        return self.states.stress(
-            *(np.asarray(v, dtype=float) for v in (x, y, z)),
-            float(self.scene.friction[0]),
-            float(self.scene.poisson_ratio[0]),
-        )
+        return self.states.stress(x, y, z, float(self.scene.friction[0]), float(self.scene.poisson_ratio[0]))
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
         """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""

@@ -1,7 +1,7 @@
 """The maximum of swt over the whole body and all planes: the surface line's assumptions left out.
 
-Positions are (r, θ, z): x = r cos θ, y = r sin θ. The cusps of swt lie on circles r = const about the axis, and
-y → −y is a symmetry, so that 0 ≤ θ ≤ π holds every value.
+Positions are (r, θ, z): x = r cos θ, y = r sin θ. The cusps of swt lie on circles r = const about the axis,
+and y → −y is a symmetry, so that 0 ≤ θ ≤ π holds every value.
 """
 
 from __future__ import annotations
@@ -73,7 +73,9 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     starts = np.concatenate([own[None], _first_look(scene, largest), _vicinity(own, largest)])
     place = _climb(scene, starts, largest, sharp)
     both = np.stack([place, own])
-    final = Body.of(scene, together(scene, _closer(scene, own, looks=3), _closer(scene, place, looks=3)), 2 * _CELLS)
+    final = Body.of(
+        scene, together(scene, _closer(scene, own, looks=3), _closer(scene, place, looks=3)), 2 * _CELLS
+    )
     swt, normal = final.swt(*_cartesian(both))
     best = int(swt[1] >= swt[0])
     position = np.array(_cartesian(both[best]))

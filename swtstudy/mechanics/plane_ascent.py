@@ -101,7 +101,9 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     low *= -1.0
     same = np.zeros_like(top)
     forms = np.concatenate([top, same + top[:, :1], same + top[:, :1]], axis=1)
-    changes = 0.5 * np.concatenate([same + high[:, :1] - low[:, :1], high - low[:, :1], high[:, :1] - low], axis=1)
+    changes = 0.5 * np.concatenate(
+        [same + high[:, :1] - low[:, :1], high - low[:, :1], high[:, :1] - low], axis=1
+    )
     possible = (forms[..., 0] > 0.0) & (changes[..., 0] > 0.0)
     possible[:, :: top.shape[1]] = False
     forms[~possible] = changes[~possible] = 1.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
 from swtstudy.mechanics.field.slope_cells import SlopeCells, graded_radii, slope_cells
@@ -36,7 +36,7 @@ class ContactStates:
     tangential_slope: FloatArray
 
     def stress(
-        self, x: FloatArray, y: FloatArray, z: FloatArray, friction: float, poisson_ratio: float
+        self, x: ArrayLike, y: ArrayLike, z: ArrayLike, friction: float, poisson_ratio: float
     ) -> FloatArray:
         """Stress at points of shape S, shape S + (T, 6); see `superposition.stress_history`."""
         return stress_history(
@@ -61,7 +61,7 @@ def contact_states(
     """
     protocol = cycle.protocol
     depth = np.maximum(protocol.depth(instant[None]), 0.0)
-    memory = cycle.memory.take((0, interval))
+    memory = cycle.memory.take((np.zeros_like(interval), interval))
     front, sign, _ = slip_front(
         protocol,
         cycle.memory,
@@ -98,7 +98,9 @@ def contact_states(
 
     b = float(profile.flat_radius[0])
     tangential_slope = np.stack(shares, axis=1).astype(float)
-    return ContactStates(slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope)
+    return ContactStates(
+        slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope
+    )
 
 
 def _between(ranges: FloatArray, cells: int) -> FloatArray:
