@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.critical_plane_3d import (
     CriticalPlane,
     highest_coarse_swt,
@@ -16,11 +17,21 @@ from swtstudy.mechanics.critical_plane_3d import (
 from swtstudy.mechanics.field import ContactStates, contact_states
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.plane_ascent import normal_weights
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
 _SUBDIVISIONS = 6
+
+
+def scene_of(points: Points) -> Scene:
+    """The contact cycle, profile and material of a batch of one parameter point."""
+    load = points.normal_amplitude, points.tangential_amplitude, points.phase
+    cycle = solve_cycle(Protocol(*load, int(points.p[0]), int(points.q[0])))
+    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    return Scene(cycle, profile, points.poisson_ratio, points.friction)
 
 
 @dataclass(frozen=True)
