@@ -14,8 +14,8 @@ from swtstudy.study.definition import Study
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Told how many of how many points are done.
-Progress = Callable[[int, int], None]
+#: Told how many more points are done.
+Progress = Callable[[int], object]
 
 
 def audit(
@@ -34,7 +34,7 @@ def audit(
     workers
         Worker processes.
     progress
-        Called after each point with the number of finished points and of all.
+        Called with 1 after each point.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def audit(
         for finding in pool.map(audit_point, rows):
             findings.append(finding)
             if progress is not None:
-                progress(len(findings), len(rows))
+                progress(1)
     return findings_dataset(rows, findings)
 
 

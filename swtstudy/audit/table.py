@@ -80,9 +80,8 @@ def summary(dataset: xr.Dataset) -> list[str]:
     """What the audit found, in lines."""
     excess, verdict = dataset["excess"].values, dataset["verdict"].values
     count = len(excess)
-    lines = [
-        f"{count} points; the body's maximum exceeds s by more than {TOLERANCE:g} in {int((verdict > 0).sum())}"
-    ]
+    more = int((verdict > 0).sum())
+    lines = [f"{count} points; the body's maximum exceeds s by more than {TOLERANCE:g} in {more} of them"]
     for code, name in enumerate(VERDICTS):
         where = verdict == code
         if code and where.any():

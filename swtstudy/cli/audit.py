@@ -31,9 +31,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 
     for source, study in defined.items():
         with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
-            dataset = audit_study(
-                study, points, seed, workers, lambda done, _, bar=bar: bar.update(done - bar.pos)
-            )
+            dataset = audit_study(study, points, seed, workers, progress=bar.update)
         write_table(dataset, targets[source])
         click.echo(str(targets[source]))
         for line in summary(dataset):

@@ -94,7 +94,7 @@ def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
     # A spring that never touches sees neither edge nor front.
     depth = scene.profile.depth(r) if r.size else 2.0 + scene.cycle.protocol.normal_amplitude[:, None]
     nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, depth), count)
-    return _at(scene, nodes.instant[0])
+    return _sorted_nodes(scene, nodes.instant[0])
 
 
 def closer_nodes(
@@ -125,17 +125,20 @@ def closer_nodes(
         left = np.concatenate([extremes - 1, extremes])
         left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
         low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
-        nodes = _at(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
+        nodes = _sorted_nodes(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
     return nodes
 
 
 def together(scene: Scene, *several: TimeNodes) -> TimeNodes:
     """All instants of several sets."""
-    return _at(scene, np.concatenate([nodes.instant for nodes in several]))
+    return _sorted_nodes(scene, np.concatenate([nodes.instant for nodes in several]))
 
 
-def _at(scene: Scene, instant: FloatArray) -> TimeNodes:
-    """Distinct instants with their intervals; at the end of one the memory of the next is the same."""
-    distinct = np.unique(instant)
-    interval = (distinct[:, None] > scene.cycle.end[0]).sum(axis=1)
-    return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), distinct)
+def nodes_at(scene: Scene, instant: FloatArray) -> TimeNodes:
+    """Instants φ in [0, 2π], in any order, with their intervals; two that meet share their stress."""
+    interval = (instant[:, None] > scene.cycle.end[0]).sum(axis=1)
+    return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), instant)
+
+
+def _sorted_nodes(scene: Scene, instant: FloatArray) -> TimeNodes:
+    return nodes_at(scene, np.unique(instant))
