@@ -31,7 +31,9 @@ class Mistake:
     def __str__(self) -> str:
         place = ": ".join(part for part in (self.source, self.key) if part)
         message = f"found {self.found}; allowed: {self.allowed}"
-        return f"{place}: {message}" if place else message
+        line = f"{place}: {message}" if place else message
+        # One line whatever is in a name or a value.
+        return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
 class StudyError(ValueError):

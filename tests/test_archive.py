@@ -1,10 +1,13 @@
+import contextlib
+
+import netCDF4
 import numpy as np
 import pytest
 import stand_in
 import xarray as xr
 
 import swtstudy
-from swtstudy import open_results, run
+from swtstudy import Study, open_results, run
 from swtstudy.archive.files import check_writable, replacing
 from swtstudy.parameters import PARAMETERS
 
@@ -90,3 +93,29 @@ def test_other_netcdf_files_are_refused(tmp_path):
         open_results(tmp_path / "other.nc")
     with pytest.raises(FileNotFoundError, match="no such archive"):
         open_results(tmp_path / "absent.nc")
+
+
+def test_coordinates_have_no_fill_value(small, tmp_path):
+    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    with netCDF4.Dataset(tmp_path / "small.nc") as file:
+        for name in ("phase", "normal_amplitude", "friction"):
+            assert "_FillValue" not in file[name].ncattrs()
+        assert file["s"].filters()["zlib"]
+        assert file["s"].filters()["fletcher32"]
+
+
+def test_a_damaged_value_is_noticed(tmp_path):
+    text = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = {start = 0.1, stop = 1, num = 300}\n'
+    path = tmp_path / "small.nc"
+    dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    content = bytearray(path.read_bytes())
+    damaged = 0
+    for position in range(0, len(content), 97):
+        changed = content.copy()
+        changed[position] ^= 0xFF
+        path.write_bytes(changed)
+        with contextlib.suppress(ValueError):
+            np.testing.assert_array_equal(open_results(path).s, dataset.s)
+            continue
+        damaged += 1
+    assert damaged

@@ -45,9 +45,87 @@ def test_solve_prints_a_table():
     assert len(lines) == 3
 
 
+def test_plan_counts_and_writes_nothing(study, tmp_path):
+    result = call("plan", study, "--results", tmp_path / "results")
+    assert result.exit_code == 0, result.output
+    assert "distinct points    8 (10 saved by symmetry)" in result.output
+    assert "to be computed     8" in result.output
+    assert "points timed" in result.output
+    assert not (tmp_path / "results").exists()
+    call("run", study, "--results", tmp_path / "results")
+    assert "there already      8" in call("plan", study, "--results", tmp_path / "results").output
+
+
+def test_info_says_what_an_archive_is(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    result = call("info", tmp_path / "small.nc")
+    assert result.exit_code == 0, result.output
+    for words in (
+        "A small study",
+        "18 computed",
+        "rtol 0.001",
+        "solver version",
+        "normal_amplitude: 0.25, 8/9",
+    ):
+        assert words in result.output
+
+
+def test_merge_writes_one_archive(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    result = call("merge", tmp_path / "small.nc", tmp_path / "small.nc", "-o", tmp_path / "merged.nc")
+    assert result.exit_code == 0, result.output
+    assert swtstudy.open_results(tmp_path / "merged.nc").s.size == 18
+
+
+def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
+    from functools import partial
+
+    import stand_in
+
+    from swtstudy import mechanics
+
+    study.write_text(
+        study.read_text().replace("[axes]", "[axes]\nfriction = [0.2, 0.3]\n").split("[figure]")[0]
+    )
+    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 3
+    assert "8 points failed" in result.stderr
+    assert "an injected failure" in result.stderr
+    assert "friction=0.2" in result.stderr
+    monkeypatch.setattr(mechanics, "solve_points", stand_in.smooth)
+    assert call("run", study, "--results", tmp_path).exit_code == 3
+    assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
+
+
+def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
+    import stand_in
+
+    from swtstudy import mechanics
+
+    monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 130
+    assert "0 of 8 distinct points are saved" in result.stderr
+    assert "the same command goes on" in result.stderr
+
+
+def test_a_scheduler_that_is_not_there(study, tmp_path):
+    pytest.importorskip("distributed")
+    code = (
+        "from distributed import Client\nimport swtstudy.cli.run as r\n"
+        "from swtstudy.cli import main\nr.CONNECT_SECONDS = 0.2\n"
+        f"main(['run', {str(study)!r}, '--results', {str(tmp_path)!r}, '--scheduler', 'tcp://127.0.0.1:9'])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "Error: no dask scheduler at tcp://127.0.0.1:9" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_version_and_help():
     assert swtstudy.__version__ in call("--version").output
-    for command in ("run", "validate", "plot", "solve"):
+    for command in ("run", "plan", "validate", "plot", "info", "merge", "solve"):
         assert command in call("--help").output
         assert call(command, "--help").exit_code == 0
 
@@ -119,3 +197,41 @@ def test_help_imports_nothing_heavy():
 def test_python_m(tmp_path):
     done = subprocess.run([sys.executable, "-m", "swtstudy", "--version"], capture_output=True, text=True)
     assert swtstudy.__version__ in done.stdout
+
+
+@pytest.fixture
+def suite(small_text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "studies").mkdir()
+    for name in ("one", "two"):
+        (tmp_path / "studies" / f"{name}.toml").write_text(small_text)
+    return tmp_path
+
+
+def test_all_studies_in_one_go(suite):
+    result = call("run", "--all", "--workers", 1)
+    assert result.exit_code == 0, result.output
+    names = {path.name for path in (suite / "results").iterdir()}
+    assert names == {"one.nc", "one.png", "two.nc", "two.png"}
+    again = swtstudy.run_suite(formats=["svg"], workers=1)
+    assert list(again) == ["one", "two"]
+    assert (suite / "results" / "two.svg").is_file()
+
+
+def test_a_folder_stands_for_its_studies(suite):
+    result = call("validate", "studies")
+    assert result.exit_code == 0, result.output
+    assert [line.split(":")[0] for line in result.output.splitlines()] == [
+        "studies/one.toml",
+        "studies/two.toml",
+    ]
+    (suite / "empty").mkdir()
+    assert "a folder without studies" in call("validate", "empty").stderr
+
+
+def test_run_says_what_it_needs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for arguments, message in ((("run",), "or --all"), (("run", "--all"), "no folder studies here")):
+        result = call(*arguments)
+        assert result.exit_code == 2
+        assert message in result.stderr

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from oracles import profiles as oracle
 from scipy.special import struve
 
 from swtstudy.mechanics.profiles import PROFILES, Profile, check_shape, make_profile
 from swtstudy.mechanics.profiles.struve import safe_struve, struve_functions
 from swtstudy.parameters import PROFILE_SHAPES
-from tests.oracles import profiles as oracle
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ import xarray as xr
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.lock import LockedError, locked
-from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.archive.parts import parts_folder, points_saved, read_parts
 from swtstudy.runner import records, work
 from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
@@ -176,6 +176,27 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
     assert 0 < counting.points < 400
 
 
+def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
+    path = tmp_path / "line.nc"
+    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
+        "run(Study.from_text(sys.argv[2]), sys.argv[3], solver=stand_in.slow)"
+    )
+    command = [sys.executable, "-c", code, os.path.dirname(__file__), LINE, str(path)]
+    saved = 0
+    for _ in range(3):
+        with subprocess.Popen(command) as process:
+            deadline = time.monotonic() + 60
+            while points_saved(parts_folder(path)) <= saved and time.monotonic() < deadline:
+                time.sleep(0.02)
+            process.kill()
+        assert points_saved(parts_folder(path)) > saved
+        saved = points_saved(parts_folder(path))
+    assert not path.exists()
+    same(run(line, path, solver=stand_in.slow), undisturbed)
+
+
 def test_one_run_at_a_time(line, tmp_path):
     path = tmp_path / "line.nc"
     # The kernel's lock is per open file: another process, as a second run is, must be refused.
@@ -248,3 +269,18 @@ def test_partial_results_of_an_extension(tmp_path, line):
     assert 200 < int((both.status == records.COMPUTED).sum()) < 400
     shutil.rmtree(parts_folder(path))
     same(open_results(path, partial=True), old)
+
+
+def test_a_kill_while_parts_are_gathered_counts_no_point_twice(line, tmp_path):
+    path = tmp_path / "line.nc"
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(192), workers=1)
+    folder = parts_folder(path)
+    saved = points_saved(folder)
+    for part in list(folder.glob("*.npz")):
+        shutil.copy(part, folder / f"{int(part.stem) + 500:06d}.npz")
+    assert len(read_parts(folder)) == 2 * saved
+    assert points_saved(folder) == saved
+    rest = stand_in.Counting()
+    run(line, path, solver=rest, workers=1)
+    assert rest.points == 400 - saved

@@ -86,7 +86,7 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing():
     table = unique_points(study.grid).table
     chunk = Chunk.of(table, [np.arange(5), np.arange(5, 10)])
     results = []
-    with LocalWorkers(2) as engine:
+    with LocalWorkers(1) as engine:
         engine.solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append)
     assert sorted(row for result in results for row in result.rows) == list(range(10))
     failed = [result for result in results if result.failed.any()]

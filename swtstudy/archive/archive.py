@@ -15,6 +15,7 @@ import xarray as xr
 import swtstudy
 from swtstudy.grid.canonical import describe_point
 from swtstudy.labelled import arrays_of, label
+from swtstudy.runner.chunk import solution_at
 from swtstudy.runner.plan import UniquePoints
 from swtstudy.runner.records import FAILED, Records
 from swtstudy.study.definition import Study
@@ -52,7 +53,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     seconds
         Wall time of the run that ends with this.
     """
-    arrays = arrays_of(records.take(points.index).solution, points.mirrored)
+    arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
     dataset.s.attrs["ancillary_variables"] = "s_error regime status run"

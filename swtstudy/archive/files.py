@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,9 +59,11 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
 
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
-    """Write a Dataset as compressed netCDF-4, atomically; see `replacing` for `beside`."""
-    encoding = {
-        name: {"zlib": True, "complevel": 4, "shuffle": True}
+    """Write a Dataset as compressed netCDF-4 with checksums, atomically; see `replacing` for `beside`."""
+    # CF forbids a fill value for coordinates, which xarray would give them.
+    encoding: dict[Hashable, dict[str, Any]] = {name: {"_FillValue": None} for name in dataset.coords}
+    encoding |= {
+        name: {"zlib": True, "complevel": 4, "shuffle": True, "fletcher32": True}
         for name, variable in dataset.data_vars.items()
         if variable.ndim
     }

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy.archive.files import replacing
-from swtstudy.grid.canonical import COLUMNS, PROFILES
+from swtstudy.grid.canonical import COLUMNS, PROFILES, group_rows
 from swtstudy.mechanics.points import Solution
 from swtstudy.runner.records import Records, Run, join
 
@@ -95,6 +95,12 @@ def read_parts(folder: Path) -> Records:
         except FileNotFoundError:
             continue  # gathered between listing and reading
     return join([])
+
+
+def points_saved(folder: Path) -> int:
+    """Number of distinct points in the parts of a folder."""
+    # While parts are gathered, or if that was interrupted, points are in two of them.
+    return len(group_rows(read_parts(folder).table)[0])
 
 
 def clear_parts(folder: Path) -> None:

@@ -12,7 +12,7 @@ import click
 def info(archive: str) -> None:
     """Say what an ARCHIVE is: from which study and versions, how complete, how accurate."""
     from swtstudy.archive.describe import describe
-    from swtstudy.archive.parts import parts_folder, read_parts
+    from swtstudy.archive.parts import parts_folder, points_saved
     from swtstudy.archive.read import ArchiveError, open_results
 
     dataset = open_results(archive)
@@ -21,6 +21,6 @@ def info(archive: str) -> None:
             click.echo(line)
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise ArchiveError(f"{archive}: not a complete archive of swtstudy ({error!r})") from None
-    parts = read_parts(parts_folder(Path(archive)))
-    if len(parts):
-        click.echo(f"  unfinished     {len(parts)} distinct points are saved by a run that has not ended")
+    saved = points_saved(parts_folder(Path(archive)))
+    if saved:
+        click.echo(f"  unfinished     {saved} distinct points are saved by a run that has not ended")

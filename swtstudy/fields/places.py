@@ -70,8 +70,8 @@ def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNode
     scene
         A batch of one point.
     time
-        ω1 t in rad, a number or a one-dimensional sequence; by default `DEFAULT_INSTANTS` over one common period.
-        The cycle repeats itself with the period 2πq, where ω2/ω1 = p/q.
+        ω1 t in rad, a number or a one-dimensional sequence; by default `DEFAULT_INSTANTS` over one common
+        period. The cycle repeats itself with the period 2πq, where ω2/ω1 = p/q.
 
     Returns
     -------

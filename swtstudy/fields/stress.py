@@ -22,8 +22,8 @@ def stress_field(
     Parameters
     ----------
     x, y, z
-        Position in a_H = √(R δ0), z ≥ 0 into the body: numbers; one-dimensional sequences, which span a grid; or
-        DataArrays with dimensions of their own.
+        Position in a_H = √(R δ0), z ≥ 0 into the body: numbers; one-dimensional sequences, which span a
+        grid; or DataArrays with dimensions of their own.
     time
         ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
     **parameters
@@ -32,8 +32,8 @@ def stress_field(
     Returns
     -------
     xarray.Dataset
-        sigma_xx … sigma_xy in E* √(δ0/R), tension positive, over time and the dimensions of the positions; and
-        contact_radius in a_H over time. Shear traction acts on the half-space in +x where sigma_xz < 0.
+        sigma_xx … sigma_xy in E* √(δ0/R), tension positive, over time and the dimensions of the positions;
+        and contact_radius in a_H over time. Shear traction acts on the half-space in +x where sigma_xz < 0.
 
     Examples
     --------

@@ -21,8 +21,8 @@ from swtstudy.mechanics.protocol import Protocol, stick_depth, turning_instants
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
-#: Depths up to this, in δ0, are no contact.
-_NO_DEPTH = 1e-13
+#: Growth of the depth below which there is none, in δ0.
+NO_GROWTH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -131,9 +131,7 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     backward = displacement_rate < -depth_rate
     growth = ~forward & ~backward & (depth_rate > 0.0)
     branch = 2.0 * np.pi * np.round((protocol.q * middle + protocol.phase[:, None]) / (2.0 * np.pi))
-    depth, displacement = protocol.depth(edges), protocol.displacement(edges)
-    # Where contact is made or lost δ is 0 but for rounding; what it leaves must not count as new ground.
-    depth = np.where(depth > _NO_DEPTH, depth, 0.0)
+    depth, displacement = np.maximum(protocol.depth(edges), 0.0), protocol.displacement(edges)
 
     intervals = middle.shape[1]
     shape = (n, 1, 2 * intervals + 3)
@@ -145,7 +143,8 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     for period in range(2):
         for i in range(intervals):
             before, now, u = depth[:, i], depth[:, i + 1], displacement[:, i + 1]
-            sticks = growth[:, i] & (now > 0.0)
+            # Turning instants may come in pairs that differ by rounding: nothing grows in between.
+            sticks = growth[:, i] & (now - before > NO_GROWTH)
             grown = np.full(n, GROWTH)
             _push(stack, sticks, Memory(before, displacement[:, i], grown, branch[:, i], now))
             if period == 1:

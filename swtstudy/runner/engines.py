@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from types import TracebackType
 from typing import Any, Protocol
@@ -14,8 +15,9 @@ from swtstudy.runner.workers import start_workers
 #: Takes every result as soon as it is there.
 Deliver = Callable[[Result], None]
 
-#: Chunks a worker is given at once; the others wait at the end of such a wave for the last one.
-_WAVE = 16
+#: Chunks for each worker in the first and in each later wave in which dask is given its tasks. A wave
+#: ends with workers waiting for the last one; the first is short, to cut later chunks by their timing.
+_FIRST_WAVE, _LATER_WAVE = 1, 128
 
 LOST_WORKER = "the worker process died while it computed this point"
 
@@ -48,6 +50,14 @@ class Here:
             deliver(solve_chunk(chunk, rtol, solver))
 
 
+class _TwiceAsWide:
+    """A pool to which dask gives twice as many tasks as it has workers: none waits for the parent."""
+
+    def __init__(self, pool: ProcessPoolExecutor, count: int) -> None:
+        self._max_workers = 2 * count
+        self.submit = pool.submit
+
+
 class LocalWorkers:
     """Solves in worker processes of this machine, through dask.
 
@@ -70,7 +80,9 @@ class LocalWorkers:
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
         """See `Engine`; a lost worker is replaced, and what it had in hand is given out again."""
         waiting = iter(chunks)
-        while wave := list(itertools.islice(waiting, _WAVE * self.count)):
+        length = _FIRST_WAVE
+        while wave := list(itertools.islice(waiting, length * self.count)):
+            length = _LATER_WAVE
             lost = self._attempt(wave, rtol, solver, deliver)
             if lost:
                 lost = self._attempt(lost, rtol, solver, deliver)
@@ -90,23 +102,22 @@ class LocalWorkers:
 
     def _attempt(self, wave: list[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> list[Chunk]:
         """Solve chunks; those that were lost with a worker are returned."""
-        import dask
+        # The scheduler itself: dask.compute would import all of distributed, where that is installed.
         from dask.callbacks import Callback
+        from dask.multiprocessing import get
 
         missing = {chunk.name: chunk for chunk in wave}
-        task = dask.delayed(solve_chunk, pure=False, traverse=False)
-        tasks = [task(chunk, rtol, solver, dask_key_name=name) for name, chunk in missing.items()]
+        graph = {name: (solve_chunk, chunk, rtol, solver) for name, chunk in missing.items()}
 
         def done(key: str, result: Any, *_: object) -> None:
             if key in missing:
                 deliver(result)
                 del missing[key]
 
+        pool = _TwiceAsWide(self._pool, self.count)
         try:
             with Callback(posttask=done):
-                dask.compute(
-                    *tasks, scheduler="processes", pool=self._pool, chunksize=1, optimize_graph=False
-                )
+                get(graph, list(graph), pool=pool, chunksize=1, optimize_graph=False)
         except BrokenProcessPool:
             self._pool.shutdown(wait=False, cancel_futures=True)
             self._pool = start_workers(self.count)

@@ -25,6 +25,9 @@ _LOAD = slice(1, _PHASE + 1)
 #: Bounds of the points in a block. A block of 32 costs per point as little as a larger one.
 _SMALLEST_BLOCK, _LARGEST_BLOCK = 4, 32
 
+#: Grid points that are made canonical at once.
+_SLAB = 100_000
+
 
 @dataclass(frozen=True)
 class UniquePoints:
@@ -47,7 +50,12 @@ class UniquePoints:
 
 def unique_points(grid: Grid) -> UniquePoints:
     """The distinct canonical points of a grid, in the order in which they are best computed."""
-    rows, mirrored = grid.canonical()
+    rows = np.empty((grid.size, len(COLUMNS)))
+    mirrored = np.empty(grid.size, bool)
+    # In slabs: the working memory for a point is several times that of its row.
+    for start in range(0, grid.size, _SLAB):
+        stop = min(start + _SLAB, grid.size)
+        rows[start:stop], mirrored[start:stop] = grid.canonical(start, stop)
     first, index = group_rows(rows)
     return UniquePoints(rows[first], index, mirrored)
 

@@ -170,6 +170,8 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     then the latest.
     """
     index = np.flatnonzero(candidates)
+    if not len(index):
+        return np.full(len(table), -1)
     tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
     order = np.lexsort((-index, tolerance, records.status[index]))
     index = index[order]

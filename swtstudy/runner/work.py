@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.version import SOLVER_VERSION
 from swtstudy.runner.plan import UniquePoints, unique_points
 from swtstudy.runner.records import MISSING, Records, look_up
@@ -51,11 +52,18 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     found = look_up(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     records = Records.missing(points.table)
     records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
-    # Why the others cannot be used.
+    outdated, coarse = _unusable(points.table, known, found, study.rtol)
+    return Work(points, known, records, outdated, coarse)
+
+
+def _unusable(table: FloatArray, known: Records, found: IntArray, rtol: float) -> tuple[int, int]:
+    """Number of points that are known, but from another version of the solver, or with less accuracy."""
+    if not len(known):
+        return 0, 0
+    lacking = table[found < 0]
     there = known.status != MISSING
-    lacking = points.table[found < 0]
     versions = np.array([*(run.solver_version == SOLVER_VERSION for run in known.runs), True])[known.run]
     tolerance = np.array([*(run.rtol for run in known.runs), 0.0])[known.run]
-    outdated = int((look_up(lacking, known, there & ~versions) >= 0).sum())
-    coarse = int((look_up(lacking, known, there & versions & (tolerance > study.rtol)) >= 0).sum())
-    return Work(points, known, records, outdated, coarse)
+    outdated = look_up(lacking, known, there & ~versions) >= 0
+    coarse = look_up(lacking, known, there & versions & (tolerance > rtol)) >= 0
+    return int(outdated.sum()), int(coarse.sum())

@@ -36,7 +36,9 @@ def read_structure(raw: Mapping[str, Any], source: str) -> tuple[StudyTable | No
 
 
 def _mistake(detail: Any, source: str) -> Mistake:
-    path = [part for part in detail["loc"] if part not in ("list", "range", "list[str]", "str")]
+    path = list(detail["loc"])
+    if path[0] == "axes" and path[2:3] in (["list"], ["range"]):
+        del path[2]  # pydantic's tag, not a key
     if path[:2] == ["figure", "y"]:
         path = path[:2]  # both arms of the union complain: one mistake is enough
     key = ".".join(map(str, path))

@@ -1,0 +1,92 @@
+"""Runs on dask.distributed: a worker killed half way; a scheduler and workers started on their own.
+
+python checks/cluster.py > results/cluster.txt
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import xarray as xr
+
+from swtstudy import Study, open_results, run
+
+STUDY = """
+title = "2,000 points"
+rtol = 1e-4
+[axes]
+phase = {start = 0, stop = 3, num = 100}
+friction = {start = "0.05", stop = 1, num = 20}
+"""
+
+
+def same(one: xr.Dataset, other: xr.Dataset) -> None:
+    """Everything but the provenance is the same, to the last bit."""
+    xr.testing.assert_equal(one.drop_attrs().drop_vars("run"), other.drop_attrs().drop_vars("run"))
+
+
+def killed_worker(folder: Path, expected: xr.Dataset, seconds: float) -> None:
+    """A LocalCluster of two workers, one of which is killed half way."""
+    from distributed import Client, LocalCluster
+
+    with (
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+    ):
+        victim = next(iter(client.run(os.getpid).values()))
+        timer = threading.Timer(seconds / 2, os.kill, (victim, signal.SIGKILL))
+        timer.start()
+        begin = time.perf_counter()
+        found = run(Study.from_text(STUDY), folder / "local-cluster.nc", client=client)
+        print(f"LocalCluster, worker {victim} killed half way: {time.perf_counter() - begin:.1f} s")
+        assert timer.finished.is_set()
+    same(found, expected)
+    print("  the very values of the undisturbed run")
+
+
+def separate_processes(folder: Path, expected: xr.Dataset) -> None:
+    """`dask scheduler`, two `dask worker`, and `swtstudy run --scheduler`, each its own process."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    address = f"tcp://127.0.0.1:{port}"
+    (folder / "study.toml").write_text(STUDY)
+    dask = [sys.executable, "-m", "dask"]
+    options = {"cwd": folder, "stderr": subprocess.DEVNULL, "env": {**os.environ, "PYTHONPATH": os.getcwd()}}
+    scheduler = [*dask, "scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
+    worker = [*dask, "worker", address, "--nthreads", "1", "--no-dashboard"]
+    processes = [subprocess.Popen(command, **options) for command in (scheduler, worker, worker)]
+    try:
+        time.sleep(5)
+        command = [sys.executable, "-m", "swtstudy", "run", "study.toml", "--scheduler", address]
+        done = subprocess.run(command, **{**options, "stderr": None}, stdout=subprocess.PIPE, text=True)
+        print(f"swtstudy run study.toml --scheduler {address}: exit code {done.returncode}")
+        print("  " + done.stdout.strip())
+        same(open_results(folder / "results" / "study.nc"), expected)
+        print("  the very values of the undisturbed run")
+    finally:
+        for process in reversed(processes):
+            process.terminate()
+            process.wait()
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as name:
+        begin = time.perf_counter()
+        expected = run(Study.from_text(STUDY), Path(name) / "local.nc")
+        seconds = time.perf_counter() - begin
+        print(f"2 local workers, undisturbed: {expected.s.size} points in {seconds:.1f} s")
+        killed_worker(Path(name), expected, seconds)
+        separate_processes(Path(name), expected)
+
+
+if __name__ == "__main__":
+    main()

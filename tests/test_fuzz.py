@@ -1,0 +1,143 @@
+"""Whatever is in a file: a clear message or success, never another exception, never a damaged file."""
+
+from __future__ import annotations
+
+import functools
+import tempfile
+import tomllib
+from pathlib import Path
+
+import pytest
+import stand_in
+from click.testing import CliRunner
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from swtstudy import Study, StudyError, open_results, run
+from swtstudy.cli import main
+from swtstudy.study.definition import _study_from
+
+NAMES = ["title", "rtol", "fixed", "axes", "figure", "x", "hue", "panels", "y", "start", "stop", "num"]
+NAMES += [
+    "friction",
+    "phase",
+    "profile",
+    "frequency_ratio",
+    "flat_radius",
+    "waviness_amplitude",
+    "wavelength",
+]
+TEXTS = ["phase", "friction", "wavy_paraboloid", "rounded_punch", "3/2", "pi", "3/0", "s", "s/s(phase=0)"]
+
+scalars = (
+    st.sampled_from(TEXTS) | st.text(max_size=8) | st.integers() | st.floats() | st.booleans() | st.dates()
+)
+values = st.recursive(
+    scalars,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.sampled_from(NAMES) | st.text(max_size=5), inner, max_size=5)
+    ),
+    max_leaves=12,
+)
+tables = st.dictionaries(st.sampled_from(NAMES) | st.text(max_size=5), values, max_size=6)
+studies = st.fixed_dictionaries(
+    {"title": st.just("t")},
+    optional={"fixed": tables, "axes": tables, "figure": tables, "rtol": scalars, "other": values},
+)
+
+
+@given(studies | tables)
+@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+def test_any_tables_are_a_study_or_a_study_error(raw):
+    try:
+        study = _study_from(raw, "", "fuzz")
+    except StudyError as error:
+        assert error.mistakes
+        assert all(
+            str(mistake).startswith("fuzz: ") and "\n" not in str(mistake) for mistake in error.mistakes
+        )
+    else:
+        assert study.grid.size >= 1
+
+
+@given(st.binary(max_size=200) | st.text(max_size=200).map(str.encode))
+@settings(max_examples=100, deadline=None)
+def test_any_bytes_are_a_study_or_a_study_error(content):
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "fuzz.toml"
+        path.write_bytes(content)
+        result = CliRunner().invoke(main, ["validate", str(path)])
+        assert result.exit_code in (0, 2)
+        assert result.exception is None or isinstance(result.exception, SystemExit)
+
+
+STUDY = (Path(__file__).parent.parent / "studies" / "figure4.toml").read_text()
+
+
+@given(st.integers(0, len(STUDY) - 1), st.integers(0, 20), st.text(max_size=4))
+@settings(max_examples=200, deadline=None)
+def test_a_mangled_study_is_a_study_or_a_study_error(position, removed, inserted):
+    text = STUDY[:position] + inserted + STUDY[position + removed :]
+    try:
+        Study.from_text(text)
+    except StudyError as error:
+        assert error.mistakes
+    else:
+        assert tomllib.loads(text)
+
+
+SMALL = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\nphase = [0, 1]\n'
+
+
+@functools.cache
+def archive() -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        run(Study.from_text(SMALL), Path(folder) / "small.nc", solver=stand_in.smooth)
+        return (Path(folder) / "small.nc").read_bytes()
+
+
+def survives(content: bytes) -> None:
+    """`info`, `run`, `plot`, `merge` and `open_results` deal with a file of this content."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "small.nc"
+        path.write_bytes(content)
+        (Path(folder) / "small.toml").write_text(SMALL)
+        try:
+            readable = open_results(path) is not None
+        except ValueError as error:
+            readable = False
+            assert str(path) in str(error)
+        for arguments in (
+            ["info", str(path)],
+            ["plan", str(Path(folder) / "small.toml"), "--results", folder],
+            ["merge", str(path), str(path), "-o", str(Path(folder) / "merged.nc")],
+        ):
+            result = CliRunner().invoke(main, arguments)
+            assert result.exit_code in (0, 2), (arguments, result.exception)
+            assert result.exception is None or isinstance(result.exception, SystemExit)
+        assert path.read_bytes() == content
+        try:
+            run(Study.from_text(SMALL), path, solver=stand_in.smooth)
+        except ValueError as error:
+            assert "move it away" in str(error)
+            assert path.read_bytes() == content
+        else:
+            assert readable
+        assert not Path(f"{path}.parts").exists()
+
+
+# HDF5 may take a mangled file to be one of an enormous size; netCDF4 then warns or fails in its own ways.
+@pytest.mark.filterwarnings("ignore")
+@given(st.floats(0, 1, exclude_max=True))
+@settings(max_examples=15, deadline=None)
+def test_truncated_archives(part):
+    survives(archive()[: int(part * len(archive()))])
+
+
+@pytest.mark.filterwarnings("ignore")
+@given(st.floats(0, 1, exclude_max=True), st.binary(min_size=1, max_size=8))
+@settings(max_examples=25, deadline=None)
+def test_mangled_archives(part, noise):
+    position = int(part * len(archive()))
+    survives(archive()[:position] + noise + archive()[position + len(noise) :])

@@ -1,0 +1,96 @@
+from functools import partial
+
+import numpy as np
+import pytest
+import stand_in
+import xarray as xr
+
+from swtstudy import Study, open_results, run
+from swtstudy.archive.files import save
+from swtstudy.archive.merge import ConflictError, merge
+from swtstudy.archive.recall import grid_of, records_of
+from swtstudy.runner import records
+
+FIGURE = '[figure]\nx = "phase"\nhue = "friction"\n'
+
+
+def made(tmp_path, name, frictions, phases, more="", rtol=1e-3, solver=stand_in.smooth):
+    text = (
+        f'title = "{name}"\nrtol = {rtol}\n{more}[axes]\nfriction = {frictions}\nphase = {phases}\n{FIGURE}'
+    )
+    path = tmp_path / f"{name}.nc"
+    run(Study.from_text(text), path, solver=solver)
+    return path
+
+
+def test_two_halves_are_the_whole(tmp_path):
+    one = made(tmp_path, "one", [0.1, 0.3], [0, 1, 4])
+    other = made(tmp_path, "other", [0.2, 0.1 + 0.2], [0, 1, 4])
+    whole = open_results(made(tmp_path, "whole", [0.1, 0.2, 0.3], [0, 1, 4]))
+    merged = merge([one, other])
+    for name in ("s", "critical_x", "critical_angle", "regime", "status"):
+        np.testing.assert_allclose(merged[name], whole[name], rtol=1e-11)
+    # What was merged is a study too: running it computes nothing.
+    save(merged, tmp_path / "merged.nc")
+    counting = stand_in.Counting()
+    again = run(Study.from_text(merged.attrs["study"]), tmp_path / "merged.nc", solver=counting)
+    assert counting.points == 0
+    assert Study.from_text(merged.attrs["study"]).figure is not None
+    xr.testing.assert_equal(again, merged)
+
+
+def test_what_neither_has_is_missing_and_a_fixed_value_becomes_an_axis(tmp_path):
+    one = made(tmp_path, "one", [0.1], [0, 1], '[fixed]\nfrequency_ratio = "1/2"\n')
+    other = made(tmp_path, "other", [0.2], [0, 1], "[fixed]\nfrequency_ratio = 1\n")
+    merged = merge([one, other])
+    assert merged.sizes == {"friction": 2, "phase": 2, "frequency_ratio": 2}
+    assert int((merged.status == records.MISSING).sum()) == 4
+    assert int(np.isnan(merged.s).sum()) == 4
+
+
+def test_conflicts_are_refused(tmp_path):
+    one = made(tmp_path, "one", [0.1, 0.2], [0, 1])
+    dataset = open_results(one)
+    dataset["s"] = dataset.s * 1.01
+    save(dataset, tmp_path / "other.nc")
+    with pytest.raises(ConflictError, match=r"conflicting values .* at profile=paraboloid.*; 3 more"):
+        merge([one, tmp_path / "other.nc"])
+
+
+def test_the_more_accurate_of_two_consistent_values_is_kept(tmp_path):
+    coarse = made(tmp_path, "coarse", [0.1, 0.2], [0, 1], rtol=1e-2)
+    fine = made(tmp_path, "fine", [0.2, 0.3], [0, 1], rtol=1e-4)
+    for order in ([coarse, fine], [fine, coarse]):
+        merged = merge(order)
+        relative = (merged.s_error / merged.s).isel(phase=0).values
+        np.testing.assert_allclose(relative, [1e-2, 1e-4, 1e-4])
+
+
+def test_a_computed_value_replaces_a_failure(tmp_path):
+    failed = made(tmp_path, "failed", [0.1, 0.2], [0, 1], solver=partial(stand_in.fail_at, 0.2))
+    good = made(tmp_path, "good", [0.2, 0.3], [0, 1])
+    merged = merge([failed, good])
+    assert np.isfinite(merged.s).all()
+    assert merged.status.attrs["failures"] == "[]"
+
+
+def test_other_solver_versions_are_refused(tmp_path, monkeypatch):
+    one = made(tmp_path, "one", [0.1], [0, 1])
+    dataset = open_results(one)
+    dataset.attrs["runs"] = dataset.attrs["runs"].replace('"solver_version": "', '"solver_version": "0.')
+    save(dataset, tmp_path / "other.nc")
+    with pytest.raises(ConflictError, match="different solver versions"):
+        merge([one, tmp_path / "other.nc"])
+
+
+def test_records_come_back_from_an_archive(small, tmp_path):
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    assert grid_of(dataset).axes.keys() == small.grid.axes.keys()
+    found = records_of(dataset)
+    assert len(found) == 8
+    from swtstudy.grid.canonical import points_from
+
+    alone = stand_in.smooth(points_from(found.table), small.rtol)
+    np.testing.assert_allclose(found.solution.s, alone.s, rtol=1e-10)
+    np.testing.assert_array_equal(found.solution.critical_x, alone.critical_x)
+    np.testing.assert_array_equal(found.solution.critical_angle, alone.critical_angle)
