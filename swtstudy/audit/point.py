@@ -12,8 +12,9 @@ from swtstudy.mechanics.body import scene_of
 from swtstudy.mechanics.body_maximum import body_maximum
 from swtstudy.mechanics.points import FloatArray
 
-#: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values.
-VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface")
+#: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
+#: the last one for points to which the solver gives no finite s.
+VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
 
 #: Relative excess of the body's maximum that counts; s itself is asked for to a tenth of this.
 TOLERANCE = 1e-3
@@ -47,11 +48,13 @@ class Finding:
     @property
     def excess(self) -> float:
         """By how much the body's maximum exceeds s, relative."""
-        return self.s_body / self.s - 1.0 if self.s > 0.0 else float(self.s_body > 0.0)
+        return self.s_body / self.s - 1.0 if self.s != 0.0 else float(self.s_body > 0.0)
 
     @property
     def verdict(self) -> str:
         """The first of the solver's assumptions that the body's maximum breaks."""
+        if not np.isfinite(self.s):
+            return "not_finite"
         _, y, z = self.position
         if self.excess <= TOLERANCE:
             return "none"
@@ -67,6 +70,8 @@ def audit_point(row: FloatArray) -> Finding:
     points = points_from(row[None])
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
+    if not np.isfinite(s):
+        return Finding(s, x, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)

@@ -80,10 +80,14 @@ def summary(dataset: xr.Dataset) -> list[str]:
     """What the audit found, in lines."""
     excess, verdict = dataset["excess"].values, dataset["verdict"].values
     count = len(excess)
-    more = int((verdict > 0).sum())
-    lines = [f"{count} points; the body's maximum exceeds s by more than {TOLERANCE:g} in {more} of them"]
+    finite = np.isfinite(excess)
+    exceeded = finite & (verdict > 0)
+    lines = [
+        f"{count} points, {int((~finite).sum())} of them without a finite s; the body's maximum exceeds s by "
+        f"more than {TOLERANCE:g} in {int(exceeded.sum())}"
+    ]
     for code, name in enumerate(VERDICTS):
-        where = verdict == code
+        where = finite & (verdict == code)
         if code and where.any():
             lines.append(f"  {name}: {int(where.sum())}, by up to {100 * excess[where].max():.2g} %")
     away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)
@@ -94,7 +98,7 @@ def summary(dataset: xr.Dataset) -> list[str]:
         if 1 < len(distinct) <= 12:
             shares = (
                 f"{value if isinstance(value, str) else format(value, 'g')}: "
-                f"{int((verdict[values == value] > 0).sum())}/{int((values == value).sum())}"
+                f"{int(exceeded[values == value].sum())}/{int((values == value).sum())}"
                 for value in distinct
             )
             lines.append(f"  exceeded by {name}: {', '.join(shares)}")
