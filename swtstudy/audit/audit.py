@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Progress = Callable[[int], object]
 
 
-def audit(
+def audit_study(
     study: Study, points: int = 1000, seed: int = 0, workers: int = 2, progress: Progress | None = None
 ) -> xr.Dataset:
     """Solve random points of a study without the surface line's assumptions.

@@ -26,7 +26,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.audit.audit import audit as audit_study
+    from swtstudy.audit.audit import audit_study
     from swtstudy.audit.table import summary, write_table
 
     for source, study in defined.items():

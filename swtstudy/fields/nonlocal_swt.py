@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
@@ -12,7 +14,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.solve import solve
 
-_CELLS, _STEPS = 60, 6
+_CELLS, _STEPS = 60, 10
 DIRECTIONS = ("depth", "critical_plane")
 _MEANINGS = {
     "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
@@ -21,7 +23,7 @@ _MEANINGS = {
 }
 
 
-def nonlocal_swt(critical_distance: object, **parameters: object) -> xr.Dataset:
+def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     """s and its nonlocal counterparts, which tend to s with the critical distance.
 
     Parameters

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
@@ -55,7 +57,9 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         "flag_values": np.arange(len(STATES), dtype=np.int8),
         "flag_meanings": " ".join(STATES),
     }
-    variables = {"state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)}
+    variables: dict[str, Any] = {
+        "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
+    }
     for name, values in (("slip_radius", front), ("contact_radius", depth)):
         there = np.where(depth > 0.0, profile.radius(values), 0.0).reshape(instants.shape)
         meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}

@@ -1,4 +1,4 @@
-"""swt taken not at a point but over a critical distance ℓ: volume average and the theory of critical distances.
+"""swt not at a point but over a critical distance ℓ: volume average and the theory of critical distances.
 
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
 about the critical point, or taken at the depth ℓ/2 (point method) or as the mean over the depths 0 … 2ℓ (line
@@ -13,7 +13,7 @@ from swtstudy.mechanics.body import Body
 from swtstudy.mechanics.points import FloatArray
 
 #: Gauss points over the radius, the polar angle and the azimuth of the half sphere, and over a line.
-_RADIAL, _POLAR, _AZIMUTH, _LINE = 6, 6, 10, 12
+_RADIAL, _POLAR, _AZIMUTH, _LINE = 8, 8, 12, 24
 
 
 def volume_mean(body: Body, x: float, distance: FloatArray) -> FloatArray:
