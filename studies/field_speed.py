@@ -142,8 +142,8 @@ def planes():
     low = 100 * (1.0 - coarse[high] / found.swt[high]).max()
     return [
         "",
-        f"swt over all plane orientations, {INSTANTS} instants: 256 planes take {1e6 * first / len(x):.0f} µs a "
-        f"point (up to {low:.1f} % low where swt is above a tenth of its maximum), refined to rounding "
+        f"swt over all plane orientations, {INSTANTS} instants: 256 planes take "
+        f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of its maximum), refined to rounding "
         f"{1e6 * full / len(x):.0f} µs a point.",
     ]
 
