@@ -143,8 +143,8 @@ def planes():
     return [
         "",
         f"swt over all plane orientations, {INSTANTS} instants: 256 planes take "
-        f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of its maximum), refined to rounding "
-        f"{1e6 * full / len(x):.0f} µs a point.",
+        f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of "
+        f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point.",
     ]
 
 
