@@ -11,9 +11,10 @@ if TYPE_CHECKING:
     from swtstudy.runner.run import run
     from swtstudy.solve import solve
     from swtstudy.study.definition import Study
+    from swtstudy.suite import run_suite
 
 __version__ = "0.1.0"
-__all__ = ["Study", "StudyError", "__version__", "open_results", "run", "solve"]
+__all__ = ["Study", "StudyError", "__version__", "open_results", "run", "run_suite", "solve"]
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
@@ -21,6 +22,7 @@ _HOMES = {
     "StudyError": "swtstudy.mistakes",
     "open_results": "swtstudy.archive.read",
     "run": "swtstudy.runner.run",
+    "run_suite": "swtstudy.suite",
     "solve": "swtstudy.solve",
 }
 

@@ -197,3 +197,41 @@ def test_help_imports_nothing_heavy():
 def test_python_m(tmp_path):
     done = subprocess.run([sys.executable, "-m", "swtstudy", "--version"], capture_output=True, text=True)
     assert swtstudy.__version__ in done.stdout
+
+
+@pytest.fixture
+def suite(small_text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "studies").mkdir()
+    for name in ("one", "two"):
+        (tmp_path / "studies" / f"{name}.toml").write_text(small_text)
+    return tmp_path
+
+
+def test_all_studies_in_one_go(suite):
+    result = call("run", "--all", "--workers", 1)
+    assert result.exit_code == 0, result.output
+    names = {path.name for path in (suite / "results").iterdir()}
+    assert names == {"one.nc", "one.png", "two.nc", "two.png"}
+    again = swtstudy.run_suite(formats=["svg"], workers=1)
+    assert list(again) == ["one", "two"]
+    assert (suite / "results" / "two.svg").is_file()
+
+
+def test_a_folder_stands_for_its_studies(suite):
+    result = call("validate", "studies")
+    assert result.exit_code == 0, result.output
+    assert [line.split(":")[0] for line in result.output.splitlines()] == [
+        "studies/one.toml",
+        "studies/two.toml",
+    ]
+    (suite / "empty").mkdir()
+    assert "a folder without studies" in call("validate", "empty").stderr
+
+
+def test_run_says_what_it_needs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for arguments, message in ((("run",), "or --all"), (("run", "--all"), "no folder studies here")):
+        result = call(*arguments)
+        assert result.exit_code == 2
+        assert message in result.stderr

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from memory import front_at, protocol, tangential_force
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
+from oracles.springs import bimodal, spring_forces
 
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.protocol import Protocol
-from tests.memory import front_at, protocol, tangential_force
-from tests.oracles.springs import bimodal, spring_forces
 
 Array = NDArray[np.float64]
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (5, 4)]
@@ -47,9 +47,6 @@ def test_no_spring_exceeds_coulombs_limit_and_the_edge_is_free(p: int, q: int) -
     assert np.all(np.abs(force) <= w + 1e-14)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="ties of the front with a slip line left by itself count as gross slip"
-)
 def test_the_whole_contact_slides_where_the_slip_lines_cross() -> None:
     rng = np.random.default_rng(1)
     fine = np.linspace(0.0, 2.0 * np.pi, 20001)

@@ -233,3 +233,24 @@ def test_a_file_that_cannot_be_read_is_one_message(tmp_path, name, content, mess
 def test_a_folder_is_no_study(tmp_path):
     with pytest.raises(StudyError, match="directory"):
         Study.from_toml(tmp_path)
+
+
+def test_a_range_in_equal_ratios():
+    axis = '{ start = "1/100", stop = 1, num = 5, spacing = "log" }'
+    values = Study.from_text(MINIMAL + "[axes]\nfriction = " + axis).grid.axes["friction"]
+    assert values == pytest.approx([0.01, 10**-1.5, 0.1, 10**-0.5, 1], rel=1e-12)
+    assert (values[0], values[-1]) == (0.01, 1)
+
+
+@pytest.mark.parametrize(
+    ("axis", "key", "allowed"),
+    [
+        ('{ start = 0, stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
+        ('{ start = 1, stop = 2, num = 5, spacing = "cubic" }', "axes.friction.spacing", '"linear" or "log"'),
+        ("{ start = 1, stop = 2, num = 5, spacing = [1] }", "axes.friction.spacing", '"linear" or "log"'),
+    ],
+)
+def test_bad_spacings_are_named(axis, key, allowed):
+    mistakes = mistakes_of(MINIMAL + "[axes]\nfriction = " + axis)
+    assert list(mistakes) == [key]
+    assert mistakes[key].endswith(allowed)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import memory
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from oracles import profiles as oracle
+from oracles.hamilton import hamilton
 
 from swtstudy.mechanics.contact import Cycle, solve_cycle
 from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import Profile, make_profile
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
-from tests import memory
-from tests.oracles import profiles as oracle
-from tests.oracles.hamilton import hamilton
 
 Array = NDArray[np.float64]
 GROWTH_NODES = 56

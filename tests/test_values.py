@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scenes import PROFILE_NAMES, points, random_points, take
 
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.textbook import textbook_s
-from tests.scenes import PROFILE_NAMES, points, random_points, take
 
 #: Parameters off Table 1, the known s, and how well it is known, absolutely: to its last digit unless said.
 KNOWN: dict[str, tuple[dict[str, Any], float, float]] = {
@@ -79,12 +79,7 @@ def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     np.testing.assert_allclose(coarse, fine, rtol=1e-4)
 
 
-WAVY_BATCH = pytest.mark.xfail(
-    strict=True, reason="the nodes of the wavy profile's tables are chosen per batch"
-)
-
-
-@pytest.mark.parametrize("profile", [*PROFILE_NAMES[:3], pytest.param(PROFILE_NAMES[3], marks=WAVY_BATCH)])
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
 def test_a_point_does_not_depend_on_its_batch(profile: str) -> None:
     batch = random_points(2, 6, profile, largest_term=2)
     together, backwards = solve_points(batch), solve_points(take(batch, np.arange(6)[::-1]))

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 import swtstudy
+from swtstudy.cli.check import check
 from swtstudy.cli.info import info
 from swtstudy.cli.merge import merge
 from swtstudy.cli.plan import plan
@@ -54,5 +55,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, info, merge, solve):
+for _command in (run, plan, validate, plot, check, info, merge, solve):
     main.add_command(_command)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from swtstudy.suite import SUITE, run_and_draw
+
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
@@ -23,7 +25,8 @@ _NAMED = 5
 
 
 @click.command()
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+@click.argument("studies", nargs=-1, metavar="STUDY...")
+@click.option("--all", "suite", is_flag=True, help=f"Every study of the paper: those in the folder {SUITE}.")
 @click.option("--results", default="results", show_default=True, help="Folder for archives and figures.")
 @click.option(
     "--format",
@@ -39,13 +42,14 @@ _NAMED = 5
 @click.option("--retry-failed", is_flag=True, help="Compute anew what failed before.")
 def run(
     studies: tuple[str, ...],
+    suite: bool,
     results: str,
     formats: tuple[str, ...],
     workers: int,
     scheduler: str | None,
     retry_failed: bool,
 ) -> None:
-    """Compute each STUDY (a TOML file), and leave its archive and its figure.
+    """Compute each STUDY (a TOML file, or a folder of them), and leave its archive and its figure.
 
     What is there already is not computed again: a run that was stopped goes on, a study that has grown is
     extended. The exit code is 3 if points failed.
@@ -53,26 +57,25 @@ def run(
     from swtstudy.archive.files import check_writable
     from swtstudy.study.several import read_studies
 
-    defined = read_studies(studies)
+    if not studies and not suite:
+        raise click.UsageError("Missing argument 'STUDY...', or --all.")
+    if suite and not Path(SUITE).is_dir():
+        raise click.UsageError(f"--all: no folder {SUITE} here; it is in the root of the project's source.")
+    defined = read_studies([*studies, SUITE] if suite else studies)
     targets = {source: Path(results) / f"{Path(source).stem}.nc" for source in defined}
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.runner.run import run as run_study
-
     client = _connect(scheduler) if scheduler else None
     failed = False
     for source, study in defined.items():
-        dataset = run_study(study, targets[source], workers=workers, client=client, retry_failed=retry_failed)
-        failed |= _summarize(dataset, targets[source])
-        if study.figure is not None:
-            from swtstudy.figures.draw import draw
-            from swtstudy.figures.save import save_figure
-
-            figure = draw(dataset)
-            for ending in formats:
-                save_figure(figure, targets[source].with_suffix(f".{ending}"))
-                click.echo(str(targets[source].with_suffix(f".{ending}")))
+        target = targets[source]
+        dataset = run_and_draw(
+            study, target, formats, workers=workers, client=client, retry_failed=retry_failed
+        )
+        failed |= _summarize(dataset, target)
+        for ending in formats if study.figure is not None else ():
+            click.echo(str(target.with_suffix(f".{ending}")))
     if failed:
         sys.exit(POINTS_FAILED)
 

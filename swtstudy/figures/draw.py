@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.words import parameter_words, pi_words, value_words
+from swtstudy.figures.words import axis_words, parameter_words, pi_words, value_words
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import FigureLayout, reference
 
@@ -22,7 +22,7 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E
 #: As many as colours have in common no factor with, so that no pair repeats early.
 STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
 
-_PANEL_WIDTH, _PANEL_HEIGHT, _LEGEND_WIDTH = 4.0, 3.4, 1.4
+_PANEL_WIDTH, _PANEL_HEIGHT, _LEGEND_WIDTH = 4.0, 3.2, 1.5
 
 
 def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
@@ -57,7 +57,7 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
     rows = len(layout.y)
     width = _PANEL_WIDTH * len(columns) + (_LEGEND_WIDTH if layout.hue else 0)
     figure = Figure(
-        figsize=(width, _PANEL_HEIGHT * rows), layout=ConstrainedLayoutEngine(w_pad=0.1, h_pad=0.06)
+        figsize=(width, _PANEL_HEIGHT * rows), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
     )
     axes = figure.subplots(rows, len(columns), sharex=True, sharey="row", squeeze=False)
     for row, y in enumerate(layout.y):
@@ -66,7 +66,7 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
             _head_panel(axes[row, column], panel, layout, row * len(columns) + column, rows * len(columns))
         axes[row, 0].set_ylabel(_quantity_words(y))
     for bottom in axes[-1]:
-        bottom.set_xlabel(parameter_words(layout.x))
+        bottom.set_xlabel(axis_words(layout.x))
     if layout.hue:
         handles, labels = axes[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside right upper", frameon=False)
@@ -138,7 +138,7 @@ def _short_name(name: str) -> str:
 def _quantity_words(y: str) -> str:
     place = reference(y)
     if place is None:
-        return "$s$"
+        return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
     name, value = place
     words = value_words(name, value if isinstance(value, str) else float(value))
     return f"$s$ / $s$({_short_name(name)}{words})"

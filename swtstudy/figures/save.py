@@ -29,4 +29,4 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     if suffix not in FORMATS:
         raise ValueError(f"{path}: a figure's name ends in one of {', '.join(FORMATS)}")
     with replacing(path) as temporary:
-        figure.savefig(temporary, format=suffix[1:], dpi=200, metadata=_NO_DATE.get(suffix))
+        figure.savefig(temporary, format=suffix[1:], dpi=150, metadata=_NO_DATE.get(suffix))

@@ -23,6 +23,18 @@ def parameter_words(name: str) -> str:
     return f"${PARAMETERS[name].symbol}$"
 
 
+def axis_words(name: str) -> str:
+    """Symbol of a parameter with its unit, if it has one.
+
+    Examples
+    --------
+    >>> axis_words("phase"), axis_words("friction")
+    ('$\\\\psi$ (rad)', '$\\\\mu$')
+    """
+    units = PARAMETERS[name].units
+    return parameter_words(name) + ("" if units == "1" else f" ({units})")
+
+
 def value_words(name: str, value: float | str) -> str:
     """A value as people write it: 0.25, 8/9, √20, π/2.
 

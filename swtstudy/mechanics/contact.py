@@ -21,6 +21,8 @@ from swtstudy.mechanics.protocol import Protocol, stick_depth, turning_instants
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
+#: Growth of the depth below which there is none, in δ0.
+NO_GROWTH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,8 @@ def solve_cycle(protocol: Protocol) -> Cycle:
     for period in range(2):
         for i in range(intervals):
             before, now, u = depth[:, i], depth[:, i + 1], displacement[:, i + 1]
-            sticks = growth[:, i] & (now > 0.0)
+            # Turning instants may come in pairs that differ by rounding: nothing grows in between.
+            sticks = growth[:, i] & (now - before > NO_GROWTH)
             grown = np.full(n, GROWTH)
             _push(stack, sticks, Memory(before, displacement[:, i], grown, branch[:, i], now))
             if period == 1:

@@ -7,6 +7,8 @@ integral is exact to rounding.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,7 +33,8 @@ class GrowthIntegrals:
     """
 
     def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
-        count += profile.extra_nodes
+        # u may oscillate several times while δ rises once.
+        count += profile.extra_nodes + math.ceil(1.6 * cycle.protocol.p / cycle.protocol.q)
         memory = cycle.memory
         n = len(memory.start)
         grown = (memory.slope == GROWTH) & np.isfinite(memory.start)

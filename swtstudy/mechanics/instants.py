@@ -17,8 +17,8 @@ from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import filled_rows
 
-#: Stretches shorter than this, in rad of the cycle, count as none.
-NO_STRETCH = 1e-12
+#: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet.
+NO_STRETCH, GAP = 1e-12, 1e-10
 
 
 def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
@@ -119,7 +119,7 @@ def _meets_next(low: FloatArray, high: FloatArray, real: NDArray[np.bool_]) -> N
     number = np.arange(total)
     following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
     after = np.append(following[..., 1:], np.full((*low.shape[:-1], 1), total), axis=-1)
-    return (after < total) & (gather(low, np.minimum(after, total - 1)) == high)
+    return (after < total) & (gather(low, np.minimum(after, total - 1)) - high <= GAP)
 
 
 def _edge_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:

@@ -27,7 +27,7 @@ LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
 #: Share of the last round's change that the next one would make at most.
 CHANGE_SHARE = 0.1
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
-SETTLED, LEAST_ERROR = 0.3, 0.05
+SETTLED, LEAST_ERROR = 0.3, 0.1
 #: Values closer than this are equal, relative.
 TIE = 1e-12
 
@@ -55,9 +55,14 @@ class Accuracy:
         """The least effort that keeps the error below ``rtol``."""
         digits = -np.log10(rtol)
         # A zoom gains a factor of 30.
-        zooms = max(int(np.ceil(0.5 * digits)), 1)
+        zooms = max(int(np.ceil(0.5 * digits)) + int(digits > 5.0), 1)
         growth = int(np.ceil(max(4.0 * digits - 2.0, 6.0 * digits - 10.0)))
         return cls(Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 8), rtol)
+
+    def finer(self) -> Accuracy:
+        """The same with twice the instants."""
+        search, check = (replace(r, nodes=2 * r.nodes) for r in (self.search, self.check))
+        return replace(self, search=search, check=check)
 
 
 @dataclass(frozen=True)
@@ -119,7 +124,11 @@ class _Climb:
     @classmethod
     def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
         """From the first look at the scene, for its finer division."""
-        peak = local_maxima(look.swt)
+        swt = look.swt
+        if scene.cycle.protocol.q % 2 == 0:
+            # Half a common period later δ is the same and u has changed sign: both sides are alike.
+            swt = swt * np.array([1.0, 0.0])[:, None]
+        peak = local_maxima(swt)
         point, side, column = peak
         hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
         centre, top, change = np.zeros((3, len(point)))
@@ -136,7 +145,26 @@ class _Climb:
 
 
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
-    """Largest swt on the surface line of each of the n points of the scene."""
+    """Largest swt on the surface line of each of the n points of the scene.
+
+    Points that miss the tolerance are searched once more with twice the instants.
+    """
+    found = _search(scene, accuracy)
+    doubtful = np.flatnonzero(found.error > accuracy.tolerance * found.swt)
+    if doubtful.size:
+        again = _search(scene.take(doubtful), accuracy.finer())
+        # What was found is there: the larger value stands, and the smaller error.
+        better = (again.error < found.error[doubtful]) & (
+            again.swt >= found.swt[doubtful] - found.error[doubtful]
+        )
+        rows = doubtful[better]
+        for old, new in zip(vars(found).values(), vars(again).values(), strict=True):
+            old[rows] = new[better]
+    return found
+
+
+def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
+    """First look, local search and check."""
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     positions = positions_of_first_look(split.cycle, scene.profile)
     climb = _Climb.start(split, first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES), scene)
@@ -178,7 +206,8 @@ def _step(
     centre, top = _vertex(c, values, best, brackets.is_corner)
     change = np.abs(top - now.top)
     # A maximum next to a corner shows only once the search is narrow.
-    flat = top - pick(values, best) <= accuracy.tolerance * top
+    rise = top - pick(values, best)
+    flat = rise <= CHANGE_SHARE * accuracy.tolerance * top
     stays = brackets.is_corner & (found == 0.0) & (flat | (now.rounds < LEAST_ROUND_COUNT))
     centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
@@ -192,8 +221,9 @@ def _step(
     narrower = now.width * np.where(outermost, WALKING, SHRINKING)
     climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
     climb.rounds[active] += ~outermost
-    small = CHANGE_SHARE * change <= SETTLED * accuracy.tolerance * top
-    climb.settled[active] = ~outermost & small & (now.rounds + 1 >= LEAST_ROUND_COUNT)
+    small = np.maximum(CHANGE_SHARE * change, rise) <= SETTLED * accuracy.tolerance * top
+    enough = now.rounds + 1 >= LEAST_ROUND_COUNT
+    climb.settled[active] = ~outermost & small & enough & (flat | ~stays)
 
 
 def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:

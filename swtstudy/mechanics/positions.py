@@ -23,6 +23,8 @@ SPREAD, SPREAD_PER_WAVE = 16, 8
 INNERMOST = 0.02
 #: Depths of cusps nearer than this are one.
 SAME_DEPTH = 1e-9
+#: Share of the range below which a stretch between cusps is none.
+NO_STRETCH = 1e-7
 
 
 @dataclass(frozen=True)
@@ -60,8 +62,13 @@ def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
     new[:, -1] = True
     radius = profile.radius(packed(new, depth)[0])
     largest = radius.max(axis=1, keepdims=True)
+    approach = profile.singular_approach
     innermost = profile.flat_radius[:, None] + INNERMOST * (largest - profile.flat_radius[:, None])
-    return np.sort(np.maximum(np.append(radius, innermost, axis=1), innermost), axis=1)
+    if approach.shape[1]:
+        nearest = approach.min(axis=1, keepdims=True)
+        innermost = np.where(nearest > profile.flat_radius[:, None], nearest, innermost)
+    ends = np.concatenate([radius, innermost, approach], axis=1)
+    return np.sort(np.maximum(ends, innermost), axis=1)
 
 
 def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
@@ -81,7 +88,7 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
     most = int(steps.max())
     number = np.arange(most + 1)
-    real = length > 0.0
+    real = length > NO_STRETCH * total
     keep = real[:, :, None] & (number < steps[:, :, None])
     stretch = np.broadcast_to(np.arange(count - 1)[:, None], keep.shape)
     place = np.broadcast_to(number, keep.shape)

@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.maximum import Accuracy, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import make_profile, roughness
+from swtstudy.mechanics.profiles import Profile, make_profile, roughness
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
 BATCH_SIZE = 1600
+#: Distance from a singular edge, in a tenth of the contact's width, at which a maximum is given up.
+NEAR_SINGULARITY = 1e-5
 
 
 def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
@@ -50,6 +52,11 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")
         state = np.where(cycle.lift_off, "lift_off", state)
         state = np.where(cycle.protocol.tangential_amplitude == 0.0, "stick", state)
+        # Next to a singular edge swt has no maximum, or one too near to it for numbers.
+        lost = _at_singularity(profile, found.position)
+        state = np.where(lost, "not_finite", state)
+        for values in (s, error, position, angle):
+            values[index[lost]] = np.nan
         regime[index] = [REGIMES.index(name) for name in state]
     return Solution(s, error, position, angle, regime)
 
@@ -77,6 +84,16 @@ def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol
     normal, tangential, phase = distinct.T
     p, q = int(points.p[index[0]]), int(points.q[index[0]])
     return Protocol(normal, tangential, phase, p, q), load.reshape(-1)
+
+
+def _at_singularity(profile: Profile, position: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether the critical point was followed to the end of the profile's singular approach."""
+    approach = profile.singular_approach
+    if not approach.shape[1]:
+        return np.zeros(len(position), dtype=bool)
+    flat = profile.flat_radius
+    gap, range_ = np.abs(position) - flat, approach.max(axis=1) - flat
+    return np.asarray((flat > 0.0) & (gap < NEAR_SINGULARITY * range_))
 
 
 def _fold_angle(degrees: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -25,7 +25,9 @@ ANGLE_ROUNDS = 2
 #: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
 HOT = 0.35
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
-STARTS = np.array([0.0, -0.25, 0.25])
+STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
+#: Planes nearer than this in 2θ, rad, are one.
+SAME_PLANE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -176,14 +178,30 @@ def refine(
     swt, double_angle
         Shape (n, X).
     """
+    swt, angle, other = _refine_from(scene, position, side, double_angle + STARTS, resolution)
+    # Two planes that the nodes cannot tell apart are both followed.
+    rows = np.flatnonzero((np.abs(other - angle) > SAME_PLANE).any(axis=1))
+    if rows.size:
+        start = other[rows][None]
+        more, at, _ = _refine_from(scene.take(rows), position[rows], side[rows], start, resolution)
+        better = more > swt[rows]
+        swt[rows] = np.where(better, more, swt[rows])
+        angle[rows] = np.where(better, at, angle[rows])
+    return swt, angle
+
+
+def _refine_from(
+    scene: Scene, position: FloatArray, side: FloatArray, starts: FloatArray, resolution: Resolution
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """`refine` from several starts of 2θ, shape (s, n, X); also the plane that may be better still."""
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
     nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)
     planes = scene.planes(line.history(nodes), side)
     inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
-    angle, at = _best_plane(planes, inside, double_angle)
-    node = gather(number, np.stack(at, axis=-1))
+    angle, other = _best_planes(planes, inside, starts)
+    node = gather(number, np.stack(_extremes([planes] * 3, angle), axis=-1))
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
         near = _parts(scene.planes(line.history(brackets.samples()), side))
@@ -192,24 +210,33 @@ def refine(
         if turn < resolution.zooms - 1:
             brackets = brackets.narrowed(np.stack(best, axis=-1))
     tops = [brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))]
-    return product(tops[0], tops[1], -tops[2]), angle
+    return product(tops[0], tops[1], -tops[2]), angle, other
 
 
-def _best_plane(
-    planes: PlaneHistory, inside: NDArray[np.bool_], double_angle: FloatArray
-) -> tuple[FloatArray, list[NDArray[np.intp]]]:
-    """The plane of largest swt, 2θ, from several starts, and the instants of its three extremes.
+def _best_planes(
+    planes: PlaneHistory, inside: NDArray[np.bool_], angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The planes of largest swt, 2θ: by the values at the instants, and by interpolation between them.
 
-    ``inside``, shape (…, T), tells which instants are not at the end of their stretch.
+    Parameters
+    ----------
+    planes
+        At points (…) and T instants.
+    inside
+        Shape (…, T): which instants are not at the end of their stretch.
+    angle
+        Shape (s, …): starts, rad.
     """
     parts = [planes] * 3
-    angle = double_angle + STARTS.reshape(-1, *(1,) * double_angle.ndim)
     for _ in range(ANGLE_ROUNDS):
         angle = best_angle(*_active(parts, _extremes(parts, angle)), angle)
-    stress, high, low = (_peak(curve, inside) for curve in _curves(parts, angle))
-    best = np.moveaxis(product(stress, high, -low), 0, -1).argmax(axis=-1)
-    angle = pick(np.moveaxis(angle, 0, -1), best)
-    return angle, _extremes(parts, angle)
+    curves = _curves(parts, angle)
+    found = []
+    for peaks in ([c.max(axis=-1) for c in curves], [_peak(c, inside) for c in curves]):
+        swt = product(peaks[0], peaks[1], -peaks[2])
+        best = np.moveaxis(swt, 0, -1).argmax(axis=-1)
+        found.append(pick(np.moveaxis(angle, 0, -1), best))
+    return found[0], found[1]
 
 
 def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:

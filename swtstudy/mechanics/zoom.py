@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.critical_plane import parabola
 from swtstudy.mechanics.gather import gather, pick
-from swtstudy.mechanics.instants import NO_STRETCH, Nodes
+from swtstudy.mechanics.instants import GAP, NO_STRETCH, Nodes
 from swtstudy.mechanics.points import FloatArray
 
 T = TypeVar("T", bound=np.generic)
@@ -134,4 +134,5 @@ class TimeBrackets:
 
 def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
     """Whether one stretch ends where the other begins, in the periodic cycle."""
-    return np.asarray((end == begin) | ((begin == 0.0) & (end == 2.0 * np.pi)))
+    gap = np.abs(begin - end)
+    return np.asarray((gap <= GAP) | (2.0 * np.pi - gap <= GAP))

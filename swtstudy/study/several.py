@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from swtstudy.mistakes import Mistake, StudyError
@@ -10,7 +10,7 @@ from swtstudy.study.definition import Study
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
-    """The studies by path, each file once.
+    """The studies by path, each file once; a folder stands for all studies in it.
 
     Raises
     ------
@@ -20,7 +20,7 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
     mistakes: list[Mistake] = []
-    for path in dict.fromkeys(paths):
+    for path in dict.fromkeys(_files(paths, mistakes)):
         try:
             studies[path] = Study.from_toml(path)
         except StudyError as error:
@@ -31,3 +31,14 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     if mistakes:
         raise StudyError(mistakes)
     return studies
+
+
+def _files(paths: Iterable[str], mistakes: list[Mistake]) -> Iterator[str]:
+    for path in paths:
+        if not Path(path).is_dir():
+            yield path
+            continue
+        inside = sorted(map(str, Path(path).glob("*.toml")))
+        if not inside:
+            mistakes.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
+        yield from inside

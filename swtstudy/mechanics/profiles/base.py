@@ -69,6 +69,11 @@ class Profile(ABC):
         return np.zeros(len(self.largest_depth))
 
     @property
+    def singular_approach(self) -> FloatArray:
+        """Shape (n, k): radii that lead up to a singularity of the stress, in ever smaller steps."""
+        return np.zeros((len(self.largest_depth), 0))
+
+    @property
     def extra_nodes(self) -> int:
         """Nodes that running integrals of g′ need beyond those of a smooth profile."""
         return 0

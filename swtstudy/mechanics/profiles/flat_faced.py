@@ -98,6 +98,12 @@ class TruncatedParaboloid(FlatFaced):
         square = 2.0 * depth * depth / np.maximum(b2 + np.sqrt(b2 * b2 + 4.0 * depth * depth), 1e-300)
         return np.sqrt(b2 + square)
 
+    @property
+    def singular_approach(self) -> FloatArray:
+        b = self._flat_radius[:, None]
+        width = self.radius(self.largest_depth)[:, None] - b
+        return np.asarray(np.where(b > 0.0, b + width * 10.0 ** -np.arange(1.0, 10.0), b))
+
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         b = self._face(radius)
         return 2.0 * np.maximum(radius, b) ** 2 - b * b

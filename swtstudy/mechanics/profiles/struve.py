@@ -13,6 +13,8 @@ from swtstudy.mechanics.points import FloatArray
 #: Spacing of the table; the spline's error is h⁴/384 times the fourth derivative, about 3e-11.
 STEP = 0.01
 SMALLEST_RANGE = 64.0
+#: Distances of the neighbours that stand in where the library is NaN.
+STEPS = (1e-3, 2e-3)
 
 
 def struve_functions(z: FloatArray) -> FloatArray:
@@ -34,7 +36,8 @@ def safe_struve(order: int, z: FloatArray) -> FloatArray:
     broken = np.isnan(value)
     if np.any(broken):
         near = np.asarray(z)[broken]
-        step = 1e-6
+        # The neighbours lie outside of the broken zone; the cubic through them is good to 1e-12.
+        inner, outer = (0.5 * (struve(order, near - step) + struve(order, near + step)) for step in STEPS)
         value = np.array(value)
-        value[broken] = 0.5 * (struve(order, near - step) + struve(order, near + step))
+        value[broken] = (4.0 * inner - outer) / 3.0
     return value

@@ -1,0 +1,38 @@
+"""swtstudy check"""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import click
+
+
+@click.command()
+@click.option("--results", default="results", show_default=True, help="Folder with the archives.")
+@click.option("--output", "-o", help="Markdown file for the table; by default statements.md in that folder.")
+def check(results: str, output: str | None) -> None:
+    """Test what the paper says about its results on the archives of the suite.
+
+    Prints a table of statements with what was measured, and leaves it as a Markdown file. The exit code is
+    0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing or
+    have gaps.
+    """
+    from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.statements.check import check as check_statements
+    from swtstudy.statements.report import markdown, summary, terminal_table
+
+    target = Path(output) if output else Path(results) / "statements.md"
+    outcomes = check_statements(results)
+    checked = [outcome for outcome in outcomes if outcome.finding is not None]
+    click.echo(terminal_table(checked, shutil.get_terminal_size((120, 24)).columns))
+    click.echo(summary(outcomes))
+    problems = dict.fromkeys(
+        line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
+    )
+    if problems:
+        raise ValueError("\n".join([*problems, "all of them: swtstudy run --all"]))
+    check_writable(target)
+    with replacing(target) as temporary:
+        temporary.write_text(markdown(outcomes), encoding="utf-8")
+    click.echo(str(target))

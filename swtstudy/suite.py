@@ -1,0 +1,67 @@
+"""Many studies in one go, each with its archive and its figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.study.definition import Study
+
+#: The folder that is the suite of the paper: every study in it belongs to it.
+SUITE = "studies"
+
+
+def run_suite(
+    folder: str | PathLike[str] = SUITE,
+    results: str | PathLike[str] = "results",
+    formats: Iterable[str] = ("png",),
+    **options: Any,
+) -> dict[str, xr.Dataset]:
+    """Compute every study in a folder, and leave its archive and its figures.
+
+    Parameters
+    ----------
+    folder
+        Folder with study files (TOML).
+    results
+        Folder for archives and figures, each named after its study.
+    formats
+        Formats of the figures: "png", "pdf", "svg".
+    **options
+        Passed on to `swtstudy.run`.
+
+    Returns
+    -------
+    dict
+        The archives, loaded, by the name of the study.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in every study, before anything is computed.
+    """
+    from swtstudy.study.several import read_studies
+
+    studies = {Path(path).stem: study for path, study in read_studies([str(folder)]).items()}
+    targets = {name: Path(results) / f"{name}.nc" for name in studies}
+    return {name: run_and_draw(study, targets[name], formats, **options) for name, study in studies.items()}
+
+
+def run_and_draw(study: Study, path: Path, formats: Iterable[str], **options: Any) -> xr.Dataset:
+    """Run a study and draw its figure, if it has one, beside the archive; `options` go to `swtstudy.run`."""
+    from swtstudy.runner.run import run
+
+    dataset = run(study, path, **options)
+    if study.figure is not None:
+        from swtstudy.figures.draw import draw
+        from swtstudy.figures.save import save_figure
+
+        figure = draw(dataset)
+        for ending in formats:
+            save_figure(figure, path.with_suffix(f".{ending}"))
+    return dataset

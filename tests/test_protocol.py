@@ -1,0 +1,124 @@
+"""The load protocol: common period, turning instants, symmetry in the phase."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scenes import points
+
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.protocol import Protocol, fold_phase, turning_instants
+
+FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (4, 5)]
+every_frequency = pytest.mark.parametrize(("p", "q"), FREQUENCIES)
+
+
+def random_loads(count: int, p: int, q: int) -> Protocol:
+    rng = np.random.default_rng([p, q])
+    return Protocol(
+        rng.uniform(0.0, 1.3, count), rng.uniform(0.0, 2.0, count), rng.uniform(-10.0, 10.0, count), p, q
+    )
+
+
+@every_frequency
+def test_protocol_is_equations_7_and_8_over_the_common_period(p: int, q: int) -> None:
+    load = random_loads(4, p, q)
+    omega_1, omega_2 = 3.0, 3.0 * p / q
+    period = 2.0 * np.pi * q / omega_1
+    time = np.linspace(0.0, period, 50)
+    instants = np.broadcast_to(omega_1 * time / q, (4, 50))
+    d, u, psi = (v[:, None] for v in (load.normal_amplitude, load.tangential_amplitude, load.phase))
+    depth, displacement = 1.0 + d * np.sin(omega_1 * time + psi), u * np.sin(omega_2 * time)
+    np.testing.assert_allclose(load.depth(instants), depth, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(load.displacement(instants), displacement, rtol=0.0, atol=1e-13)
+    # It ends where it began, and not earlier.
+    for motion in (load.depth, load.displacement):
+        np.testing.assert_allclose(motion(instants)[:, 0], motion(instants)[:, -1], rtol=0.0, atol=1e-13)
+    fraction = np.linspace(0.0, 2.0 * np.pi, 721)[None]
+    for divisor in range(2, max(p, q) + 1):
+        shift = 2.0 * np.pi / divisor
+        same = [
+            np.allclose(motion(fraction + shift), motion(fraction), atol=1e-6)
+            for motion in (load.take(np.array([0])).depth, load.take(np.array([0])).displacement)
+        ]
+        assert not all(same)
+
+
+@every_frequency
+def test_rates_are_the_derivatives(p: int, q: int) -> None:
+    load, step = random_loads(4, p, q), 1e-6
+    instants = np.broadcast_to(np.linspace(0.0, 2.0 * np.pi, 40), (4, 40))
+    pairs = ((load.depth, load.depth_rate), (load.displacement, load.displacement_rate))
+    for motion, rate in pairs:
+        difference = (motion(instants + step) - motion(instants - step)) / (2.0 * step)
+        # Rounding of the quotient: 1e-16 · 3/1e-6.
+        np.testing.assert_allclose(rate(instants), difference, rtol=0.0, atol=5e-9)
+
+
+@every_frequency
+def test_every_turn_of_the_depth_and_of_the_slip_lines_is_found(p: int, q: int) -> None:
+    count = 30
+    load = random_loads(count, p, q)
+    found = turning_instants(load)
+    assert np.all(np.diff(found, axis=1) >= 0.0)
+    assert np.all((found >= 0.0) & (found <= 2.0 * np.pi))
+    samples = np.linspace(0.0, 2.0 * np.pi, 20001)
+    grid = np.broadcast_to(samples, (count, samples.size))
+    depth_rate, displacement_rate = load.depth_rate(grid), load.displacement_rate(grid)
+    contact = load.depth(grid)
+    for values in (depth_rate, displacement_rate - depth_rate, displacement_rate + depth_rate, contact):
+        row, cell = np.nonzero(values[:, 1:] * values[:, :-1] < 0.0)
+        inside = (found[row] >= samples[cell, None] - 1e-9) & (found[row] <= samples[cell + 1, None] + 1e-9)
+        assert np.all(inside.any(axis=1))
+
+
+@every_frequency
+def test_touch_down_is_the_rising_passage_of_a_depth(p: int, q: int) -> None:
+    load = random_loads(6, p, q)
+    share = np.linspace(-0.99, 0.99, 9)
+    depth = 1.0 + load.normal_amplitude[:, None] * share
+    for turn in range(q):
+        instant = load.touch_down(depth, np.full(1, 2.0 * np.pi * turn))
+        np.testing.assert_allclose(load.depth(instant), depth, rtol=0.0, atol=1e-13)
+        assert np.all(load.depth_rate(instant) >= 0.0)
+        angle = q * instant + load.phase[:, None] - 2.0 * np.pi * turn
+        assert np.all(np.abs(angle) <= 0.5 * np.pi + 1e-12)
+
+
+def folded(phases: np.ndarray, p: int, q: int) -> tuple[np.ndarray, np.ndarray]:
+    many = np.full(phases.shape, p), np.full(phases.shape, q)
+    return fold_phase(phases, *many)
+
+
+@pytest.mark.parametrize(
+    ("p", "q", "period"), [(1, 1, 1.0), (3, 1, 1 / 3), (2, 3, 0.5), (1, 2, 2.0), (3, 4, 2 / 3)]
+)
+def test_phases_are_folded_into_one_period_of_s(p: int, q: int, period: float) -> None:
+    phases = np.linspace(-15.0, 15.0, 301)
+    base, mirrored = folded(phases, p, q)
+    assert np.all((base >= 0.0) & (base < period * np.pi * (1.0 + 1e-12)))
+    turns = (phases - base) / (period * np.pi)
+    np.testing.assert_allclose(turns, np.round(turns), rtol=0.0, atol=1e-9)
+    np.testing.assert_array_equal(
+        mirrored, (np.round(turns) % 2 == 1) if q % 2 else np.zeros(301, dtype=bool)
+    )
+
+
+@pytest.mark.parametrize(("p", "q"), FREQUENCIES)
+def test_s_has_the_period_of_the_folded_phase_and_x_its_mirror(p: int, q: int) -> None:
+    phases = np.array([0.4, 2.1, 3.6, 5.5, -1.2])
+    base, mirrored = folded(phases, p, q)
+    as_given, as_folded = (
+        solve_points(points(normal_amplitude=0.6, tangential_amplitude=0.7, phase=psi, p=p, q=q), 1e-6)
+        for psi in (phases, base)
+    )
+    np.testing.assert_allclose(as_given.s, as_folded.s, rtol=2e-6)
+    np.testing.assert_array_equal(as_given.regime, as_folded.regime)
+    # Near a smooth maximum s knows x and the angle to the root of its own accuracy only.
+    sign = np.where(mirrored, -1.0, 1.0)
+    if q % 2 == 0:
+        # Half a common period flips u and leaves δ: x and −x are always alike.
+        sign = np.sign(as_given.critical_x * as_folded.critical_x)
+    np.testing.assert_allclose(as_given.critical_x, sign * as_folded.critical_x, rtol=3e-3)
+    np.testing.assert_allclose(as_given.critical_angle, sign * as_folded.critical_angle, atol=0.2)
+    assert mirrored.any() == (q % 2 == 1)
