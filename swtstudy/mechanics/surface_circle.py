@@ -1,7 +1,7 @@
 """swt on the circle through a point of the surface line: the line's assumption y = 0, tested cheaply.
 
-The stress at (r cos θ, r sin θ) on the surface is made of the same building blocks as on the line. By pressure
-it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
+The stress at (r cos θ, r sin θ) on the surface is made of the same building blocks as on the line. By
+pressure it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
 
     σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
 
