@@ -12,12 +12,9 @@ if TYPE_CHECKING:
 
     from swtstudy.study.definition import Study
 
-#: The folder that is the suite of the paper: every study in it belongs to it.
-SUITE = "studies"
-
 
 def run_suite(
-    folder: str | PathLike[str] = SUITE,
+    folder: str | PathLike[str] | None = None,
     results: str | PathLike[str] = "results",
     formats: Iterable[str] = ("png",),
     **options: Any,
@@ -27,7 +24,7 @@ def run_suite(
     Parameters
     ----------
     folder
-        Folder with study files (TOML).
+        Folder with study files (TOML); by default the studies of the paper, which come with the package.
     results
         Folder for archives and figures, each named after its study.
     formats
@@ -46,7 +43,9 @@ def run_suite(
         A ValueError with every mistake in every study, before anything is computed.
     """
     from swtstudy.study.several import read_studies
+    from swtstudy.study.shipped import shipped_folder
 
+    folder = shipped_folder() if folder is None else folder
     studies = {Path(path).stem: study for path, study in read_studies([str(folder)]).items()}
     targets = {name: Path(results) / f"{name}.nc" for name in studies}
     return {name: run_and_draw(study, targets[name], formats, **options) for name, study in studies.items()}

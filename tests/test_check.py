@@ -19,7 +19,7 @@ def test_missing_archives_are_named_with_the_command_that_makes_them(tmp_path):
     assert result.exit_code == 2
     assert f"{len(STATEMENTS)} not checked" in result.stdout
     for name in STUDIES:
-        assert f"{tmp_path / name}.nc is missing; made by: swtstudy run studies/{name}.toml" in result.stderr
+        assert f"{tmp_path / name}.nc is missing; made by: swtstudy run {name}" in result.stderr
     assert "swtstudy run --all" in result.stderr
     assert not list(tmp_path.iterdir())
 
@@ -30,7 +30,7 @@ def test_an_archive_with_gaps_is_not_checked(tmp_path):
     result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
     assert result.exit_code == 2
     assert "friction.nc has no value at 4 of 384 points" in result.stderr
-    assert "swtstudy run studies/friction.toml --retry-failed" in result.stderr
+    assert "swtstudy run friction --retry-failed" in result.stderr
 
 
 def test_all_archives_make_a_table(tmp_path):

@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 import swtstudy
+import swtstudy.parameters
 from swtstudy.cli import main
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
@@ -125,9 +126,9 @@ def test_a_scheduler_that_is_not_there(study, tmp_path):
 
 def test_version_and_help():
     assert swtstudy.__version__ in call("--version").output
-    for command in ("run", "plan", "validate", "plot", "info", "merge", "solve"):
-        assert command in call("--help").output
-        assert call(command, "--help").exit_code == 0
+    for name, command in main.commands.items():
+        assert name in call("--help").output
+        assert command.epilog is None or "  Examples:\n    swtstudy " in call(name, "--help").output
 
 
 @pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
@@ -202,6 +203,7 @@ def test_python_m(tmp_path):
 @pytest.fixture
 def suite(small_text, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("swtstudy.study.shipped.shipped_folder", lambda: tmp_path / "studies")
     (tmp_path / "studies").mkdir()
     for name in ("one", "two"):
         (tmp_path / "studies" / f"{name}.toml").write_text(small_text)
@@ -229,9 +231,74 @@ def test_a_folder_stands_for_its_studies(suite):
     assert "a folder without studies" in call("validate", "empty").stderr
 
 
+def test_a_study_of_the_paper_has_a_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    listed = call("list").output
+    for name in ("figure3", "figure8"):
+        assert name in listed
+        assert "valid" in call("validate", name).output
+    result = call("validate", "figur3")
+    assert result.exit_code == 2
+    assert "did you mean figure3?" in result.stderr
+    # What is here comes first.
+    (tmp_path / "figure3").mkdir()
+    assert "a folder without studies" in call("validate", "figure3").stderr
+
+
+def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert call("new", "my_first").exit_code == 0
+    study = swtstudy.Study.from_toml("my_first.toml")
+    assert study.title == "my first"
+    assert study.figure is not None
+    assert (tmp_path / "study.schema.json").is_file()
+    (tmp_path / "my_first.toml").write_text("mine")
+    result = call("new", "my_first.toml")
+    assert result.exit_code == 2
+    assert "is there already" in result.stderr
+    assert (tmp_path / "my_first.toml").read_text() == "mine"
+
+
+def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    call("new", "full")
+    text = Path("full.toml").read_text().replace('"paraboloid"\n#', '"wavy_paraboloid"\n#', 1)
+    for name, parameter in swtstudy.parameters.PARAMETERS.items():
+        value = parameter.default or {"wavelength": 7}.get(name, 0.01)
+        lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
+        assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
+        for line in lines:
+            text = text.replace(line, f"{name} = {value}")
+    study = swtstudy.Study.from_text(text)
+    assert set(study.grid.fixed) | set(study.grid.axes) == set(swtstudy.parameters.PARAMETERS)
+
+
+@pytest.mark.parametrize(
+    ("words", "typed", "offered"),
+    [
+        ("swtstudy run", "fig", {"plain,figure3", "plain,figure8"}),
+        ("swtstudy validate", "mi", {"plain,mine.toml"}),
+        ("swtstudy info", "", {"plain,results/mine.nc"}),
+        ("swtstudy plan", "elsewhere/", {"file,elsewhere/"}),
+        ("swtstudy", "me", {"plain,merge"}),
+    ],
+)
+def test_the_shell_completes(tmp_path, monkeypatch, words, typed, offered):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").mkdir()
+    for name in ("mine.toml", "results/mine.nc"):
+        (tmp_path / name).write_text("")
+    variables = {
+        "_SWTSTUDY_COMPLETE": "bash_complete",
+        "COMP_WORDS": f"{words} {typed}",
+        "COMP_CWORD": str(len(words.split())),
+    }
+    result = CliRunner().invoke(main, env=variables, prog_name="swtstudy")
+    assert offered <= set(result.output.split())
+
+
 def test_run_says_what_it_needs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for arguments, message in ((("run",), "or --all"), (("run", "--all"), "no folder studies here")):
-        result = call(*arguments)
-        assert result.exit_code == 2
-        assert message in result.stderr
+    result = call("run")
+    assert result.exit_code == 2
+    assert "or --all" in result.stderr

@@ -254,3 +254,16 @@ def test_bad_spacings_are_named(axis, key, allowed):
     mistakes = mistakes_of(MINIMAL + "[axes]\nfriction = " + axis)
     assert list(mistakes) == [key]
     assert mistakes[key].endswith(allowed)
+
+
+def test_a_study_shows_what_it_is(small):
+    assert repr(small) == "<Study 'A small study': 18 points = 2 normal_amplitude × 9 phase, rtol 0.001>"
+    html = small._repr_html_()
+    for words in ("A small study", "18 points", "0.25, 0.888889", "(9 values)", "figure: hue", "of one core"):
+        assert words in html
+
+
+def test_a_study_of_one_point_shows_itself_without_markup():
+    study = Study.from_text('title = "<b>"\n')
+    assert repr(study) == "<Study '<b>': 1 point, rtol 0.0001>"
+    assert "<b>&lt;b&gt;</b>" in study._repr_html_()

@@ -12,11 +12,15 @@ import click
 import swtstudy
 from swtstudy.cli.audit import audit
 from swtstudy.cli.check import check
+from swtstudy.cli.examples import examples
 from swtstudy.cli.info import info
+from swtstudy.cli.list import list_studies
 from swtstudy.cli.merge import merge
+from swtstudy.cli.new import new
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
+from swtstudy.cli.schema import schema
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
 
@@ -52,11 +56,22 @@ def _log_to_terminal() -> None:
     logger.setLevel(logging.INFO)
 
 
-@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    cls=_Commands,
+    epilog=examples(
+        "swtstudy run figure3      # a study of the paper: archive and figure",
+        "swtstudy new mine         # a study to begin with",
+        "swtstudy run --help",
+        "",
+        'Shell completion: eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)" in ~/.bashrc',
+        "(zsh_source in ~/.zshrc; fish_source for fish).",
+    ),
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(swtstudy.__version__, prog_name="swtstudy")
 def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, check, info, merge, solve, audit):
+for _command in (run, plan, validate, plot, check, info, merge, solve, audit, list_studies, new, schema):
     main.add_command(_command)

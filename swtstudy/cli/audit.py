@@ -6,9 +6,12 @@ from pathlib import Path
 
 import click
 
+from swtstudy.cli.completion import study_completion
+from swtstudy.cli.examples import examples
 
-@click.command()
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+
+@click.command(epilog=examples("swtstudy audit figure3 --points 100"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
 @click.option("--seed", default=0, show_default=True, help="Of the random numbers.")
 @click.option("--results", default="results", show_default=True, help="Folder for the tables.")

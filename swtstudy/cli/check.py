@@ -7,12 +7,14 @@ from pathlib import Path
 
 import click
 
+from swtstudy.cli.examples import examples
 
-@click.command()
+
+@click.command(epilog=examples("swtstudy run --all && swtstudy check"))
 @click.option("--results", default="results", show_default=True, help="Folder with the archives.")
 @click.option("--output", "-o", help="Markdown file for the table; by default statements.md in that folder.")
 def check(results: str, output: str | None) -> None:
-    """Test what the paper says about its results on the archives of the suite.
+    """Test what the paper says on the archives of its studies.
 
     Prints a table of statements with what was measured, and leaves it as a Markdown file. The exit code is
     0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing or

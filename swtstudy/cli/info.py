@@ -6,11 +6,17 @@ from pathlib import Path
 
 import click
 
+from swtstudy.cli.completion import archive_completion
+from swtstudy.cli.examples import examples
 
-@click.command()
-@click.argument("archive")
+
+@click.command(epilog=examples("swtstudy info results/figure3.nc"))
+@click.argument("archive", shell_complete=archive_completion)
 def info(archive: str) -> None:
-    """Say what an ARCHIVE is: from which study and versions, how complete, how accurate."""
+    """Say what an ARCHIVE is.
+
+    From which study and versions, how complete, how accurate.
+    """
     from swtstudy.archive.describe import describe
     from swtstudy.archive.parts import parts_folder, points_saved
     from swtstudy.archive.read import ArchiveError, open_results

@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING
 
 import click
 
+from swtstudy.cli.completion import study_completion
+from swtstudy.cli.examples import examples
+
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
 
 
-@click.command()
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+@click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
-    """Say what running each STUDY would compute, and how long that would take.
+    """Say what a run of each STUDY would compute, and how long.
 
     A few points are computed to see how long they take, and nothing is written.
     """

@@ -6,9 +6,14 @@ from pathlib import Path
 
 import click
 
+from swtstudy.cli.completion import archive_completion
+from swtstudy.cli.examples import examples
 
-@click.command()
-@click.argument("archive")
+
+@click.command(
+    epilog=examples("swtstudy plot results/figure3.nc", "swtstudy plot results/figure3.nc -o figure3.pdf")
+)
+@click.argument("archive", shell_complete=archive_completion)
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
 def plot(archive: str, output: str | None) -> None:
     """Draw the figure of an ARCHIVE, from the archive alone."""

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.suite import SUITE, run_and_draw
+from swtstudy.cli.completion import study_completion
+from swtstudy.cli.examples import examples
+from swtstudy.suite import run_and_draw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,9 +26,16 @@ CONNECT_SECONDS = 10.0
 _NAMED = 5
 
 
-@click.command()
-@click.argument("studies", nargs=-1, metavar="STUDY...")
-@click.option("--all", "suite", is_flag=True, help=f"Every study of the paper: those in the folder {SUITE}.")
+@click.command(
+    epilog=examples(
+        "swtstudy run figure3",
+        "swtstudy run mine.toml --workers 8 --format pdf",
+        "swtstudy run mine.toml --scheduler tcp://host:8786",
+        "swtstudy run --all",
+    )
+)
+@click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=study_completion)
+@click.option("--all", "suite", is_flag=True, help="Every study of the paper; see swtstudy list.")
 @click.option("--results", default="results", show_default=True, help="Folder for archives and figures.")
 @click.option(
     "--format",
@@ -49,19 +58,20 @@ def run(
     scheduler: str | None,
     retry_failed: bool,
 ) -> None:
-    """Compute each STUDY (a TOML file, or a folder of them), and leave its archive and its figure.
+    """Compute each STUDY, and leave its archive and its figure.
+
+    STUDY is a TOML file, a folder of them, or the name of a study of the paper (see swtstudy list).
 
     What is there already is not computed again: a run that was stopped goes on, a study that has grown is
     extended. The exit code is 3 if points failed.
     """
     from swtstudy.archive.files import check_writable
     from swtstudy.study.several import read_studies
+    from swtstudy.study.shipped import shipped_folder
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
-    if suite and not Path(SUITE).is_dir():
-        raise click.UsageError(f"--all: no folder {SUITE} here; it is in the root of the project's source.")
-    defined = read_studies([*studies, SUITE] if suite else studies)
+    defined = read_studies([*studies, str(shipped_folder())] if suite else studies)
     targets = {source: Path(results) / f"{Path(source).stem}.nc" for source in defined}
     for target in targets.values():
         check_writable(target)

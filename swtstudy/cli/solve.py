@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from swtstudy.accuracy import DEFAULT_RTOL
+from swtstudy.cli.examples import examples
 from swtstudy.parameters import PARAMETERS
 
 
@@ -25,7 +26,12 @@ def _with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
-@click.command()
+@click.command(
+    epilog=examples(
+        "swtstudy solve --phase 0,pi/2",
+        "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
+    )
+)
 @_with_parameters
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 def solve(rtol: float, **texts: str | None) -> None:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import click
 
+from swtstudy.cli.completion import study_completion
+from swtstudy.cli.examples import examples
 
-@click.command()
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...")
+
+@click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything."""
     from swtstudy.study.several import read_studies

@@ -19,7 +19,6 @@ from swtstudy.statements import (
 )
 from swtstudy.statements.select import NotInArchiveError
 from swtstudy.statements.statement import Finding, Statement
-from swtstudy.suite import SUITE
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -83,7 +82,7 @@ def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
     """Read an archive into the others; what is wrong if it cannot be used."""
     from swtstudy.archive.read import open_results
 
-    command = f"swtstudy run {Path(SUITE) / name}.toml"
+    command = f"swtstudy run {name}"
     if not path.is_file():
         return f"{path} is missing; made by: {command}"
     dataset = open_results(path)

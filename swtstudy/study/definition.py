@@ -15,7 +15,7 @@ from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.study.figure import FigureLayout, check_figure
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Study:
     """A study: what is computed, how accurately, and what is drawn.
 
@@ -38,6 +38,16 @@ class Study:
     rtol: float
     figure: FigureLayout | None
     text: str
+
+    def __repr__(self) -> str:
+        from swtstudy.study.overview import in_one_line
+
+        return in_one_line(self)
+
+    def _repr_html_(self) -> str:
+        from swtstudy.study.overview import as_html
+
+        return as_html(self)
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Study:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.mistakes import Mistake, StudyError, nearest
 from swtstudy.study.definition import Study
+from swtstudy.study.shipped import shipped_studies
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
-    """The studies by path, each file once; a folder stands for all studies in it.
+    """The studies by path, each file once.
+
+    A folder stands for all studies in it, the name of a study of the paper, such as "figure3", for that.
 
     Raises
     ------
@@ -34,9 +37,16 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
 
 
 def _files(paths: Iterable[str], mistakes: list[Mistake]) -> Iterator[str]:
+    shipped = shipped_studies()
     for path in paths:
         if not Path(path).is_dir():
-            yield path
+            if Path(path).exists() or Path(path).suffix:
+                yield path
+            elif path in shipped:
+                yield str(shipped[path])
+            else:
+                allowed = f"a study file (TOML), or a study of the paper: {nearest(path, shipped)}"
+                mistakes.append(Mistake("", "no such file", allowed, path))
             continue
         inside = sorted(map(str, Path(path).glob("*.toml")))
         if not inside:

@@ -26,22 +26,23 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     frequency_ratio = ["3/2"]
     <BLANKLINE>
     """
-    lines = [f"title = {_string(title)}", f"rtol = {rtol!r}"]
+    lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
     lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
     if figure is not None:
-        lines += ["", "[figure]", *(f"{role} = {_string(name)}" for role, name in figure.roles())]
-        lines.append(f"y = [{', '.join(map(_string, figure.y))}]")
+        lines += ["", "[figure]", *(f"{role} = {quoted(name)}" for role, name in figure.roles())]
+        lines.append(f"y = [{', '.join(map(quoted, figure.y))}]")
         if figure.title:
-            lines.append(f"title = {_string(figure.title)}")
+            lines.append(f"title = {quoted(figure.title)}")
     return "\n".join(lines) + "\n"
 
 
 def _literal(value: Value) -> str:
-    return _string(str(value)) if isinstance(value, str | Fraction) else repr(value)
+    return quoted(str(value)) if isinstance(value, str | Fraction) else repr(value)
 
 
-def _string(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text as a TOML string."""
     # A JSON string is a TOML string but for DEL, which TOML wants escaped.
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,23 @@
+"""swtstudy list"""
+
+from __future__ import annotations
+
+import click
+
+from swtstudy.cli.examples import examples
+
+
+@click.command("list", epilog=examples("swtstudy list", "swtstudy run figure3"))
+def list_studies() -> None:
+    """List the studies of the paper.
+
+    They come with the package; each name can be the STUDY of other commands.
+    """
+    from swtstudy.study.definition import Study
+    from swtstudy.study.shipped import shipped_folder, shipped_studies
+
+    studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
+    width = max(map(len, studies), default=0)
+    for name, study in studies.items():
+        click.echo(f"{name:<{width}}  {study.grid.size:6d} points  {study.title}")
+    click.echo(f"files: {shipped_folder()}")

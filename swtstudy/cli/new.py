@@ -1,0 +1,35 @@
+"""swtstudy new"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from swtstudy.cli.examples import examples
+
+
+@click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
+@click.argument("name")
+def new(name: str) -> None:
+    """Write NAME.toml, a small commented study to begin with.
+
+    Beside it goes the schema by which editors complete and check studies. An existing study is never
+    replaced.
+    """
+    from swtstudy.archive.files import check_writable
+    from swtstudy.study.schema import SCHEMA_FILE, schema_text
+    from swtstudy.study.template import template
+
+    target = Path(name if name.endswith(".toml") else f"{name}.toml")
+    check_writable(target)
+    try:
+        with open(target, "x", encoding="utf-8") as file:
+            file.write(template(target.stem.replace("_", " ")))
+    except FileExistsError:
+        raise FileExistsError(f"{target} is there already; choose another name") from None
+    click.echo(str(target))
+    schema = target.with_name(SCHEMA_FILE)
+    if not schema.exists():
+        schema.write_text(schema_text(), encoding="utf-8")
+        click.echo(str(schema))

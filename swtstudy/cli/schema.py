@@ -1,0 +1,27 @@
+"""swtstudy schema"""
+
+from __future__ import annotations
+
+import click
+
+from swtstudy.cli.examples import examples
+
+
+@click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))
+@click.option("--output", "-o", help="File for the schema; by default it is printed.")
+def schema(output: str | None) -> None:
+    """Write the JSON schema of study files.
+
+    Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
+    a study whose first line is "#:schema study.schema.json".
+    """
+    from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.study.schema import schema_text
+
+    if output is None:
+        click.echo(schema_text(), nl=False)
+        return
+    check_writable(output)
+    with replacing(output) as temporary:
+        temporary.write_text(schema_text(), encoding="utf-8")
+    click.echo(output)

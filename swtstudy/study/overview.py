@@ -1,0 +1,70 @@
+"""A study in words, for a look at it before anything is computed."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+from swtstudy.grid.values import Value
+from swtstudy.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from swtstudy.study.definition import Study
+
+#: Values of an axis that are shown one by one.
+_SHOWN = 6
+
+
+def in_one_line(study: Study) -> str:
+    """Title, points and accuracy."""
+    return f"<Study {study.title!r}: {_size(study)}, rtol {study.rtol:g}>"
+
+
+def as_html(study: Study) -> str:
+    """A table for a notebook: axes, fixed parameters, points, cost, and the places in the figure."""
+    roles = {name: role for role, name in study.figure.roles()} if study.figure else {}
+    rows = [
+        ("axis", name, _values(values), _meaning(name, roles.get(name)))
+        for name, values in study.grid.axes.items()
+    ]
+    rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
+    body = "".join(
+        f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
+        f"<td>{escape(meaning)}</td></tr>"
+        for kind, name, values, meaning in rows
+    )
+    return (
+        f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
+        f"{escape(_cost(study))}<table>{body}</table></div>"
+    )
+
+
+def _size(study: Study) -> str:
+    axes = " × ".join(f"{len(values)} {name}" for name, values in study.grid.axes.items())
+    points = f"{study.grid.size} point{'s' * (study.grid.size != 1)}"
+    return f"{points} = {axes}" if axes else points
+
+
+def _cost(study: Study) -> str:
+    """From the number of points and the lengths of their cycles alone; symmetry can only make it less."""
+    from swtstudy.runner.pace import SECONDS_PER_WEIGHT
+    from swtstudy.runner.progress import duration
+
+    ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
+    weight = sum(p + q for p, q in ratios) / len(ratios)
+    seconds = study.grid.size * weight * SECONDS_PER_WEIGHT
+    return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
+
+
+def _meaning(name: str, role: str | None = None) -> str:
+    return PARAMETERS[name].meaning + (f"; figure: {role}" if role else "")
+
+
+def _values(values: tuple[Value, ...]) -> str:
+    if len(values) <= _SHOWN:
+        return ", ".join(map(_value, values))
+    return f"{_value(values[0])}, {_value(values[1])} … {_value(values[-1])} ({len(values)} values)"
+
+
+def _value(value: Value) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

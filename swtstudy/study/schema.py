@@ -1,0 +1,117 @@
+"""The JSON schema of study files, by which editors complete, explain and check them."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, Parameter
+from swtstudy.study.tables import StudyTable
+
+#: Name of the schema's file beside studies; their first line points to it.
+SCHEMA_FILE = "study.schema.json"
+SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
+
+_DESCRIPTIONS = {
+    "title": "One line that says what the study is about.",
+    "rtol": "Relative accuracy asked of s.",
+    "fixed": "Parameters with a single value. What is not given has the value of the paper's Table 1.",
+    "axes": "Parameters with several values, in the order of the dimensions: a list, or a range.",
+    "figure": "What the figure puts where; every axis needs a place.",
+}
+_RANGE_DESCRIPTIONS = {
+    "start": 'First value; a number, or a text such as "2*pi".',
+    "stop": "Last value, included.",
+    "num": "How many values.",
+    "spacing": 'Equal steps ("linear") or equal ratios ("log").',
+}
+_FIGURE_DESCRIPTIONS = {
+    "kind": "Lines over x, or s as contours or as a heat map over x and vertical.",
+    "x": "Axis along the horizontal axis.",
+    "vertical": "Axis along the vertical axis of contours or a heat map.",
+    "hue": "Axis whose values are the lines.",
+    "panels": "Axis whose values are the panels side by side.",
+    "y": 'One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.',
+    "title": "Title over the figure.",
+}
+#: Keys of the figure whose values are names of axes.
+_ROLES = ("x", "vertical", "hue", "panels")
+
+_SHAPES = {name: profile for profile, names in PROFILE_SHAPES.items() for name in names}
+
+
+def study_schema() -> dict[str, Any]:
+    """The JSON schema of study files: their structure, and the table of parameters."""
+    schema = StudyTable.model_json_schema()
+    schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_without_titles(schema)}
+    parts, keys = schema["$defs"], schema["properties"]
+    for table, descriptions in (
+        (keys, _DESCRIPTIONS),
+        (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
+        (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
+    ):
+        for name, entry in table.items():
+            entry["description"] = descriptions[name]
+    for name in ("start", "stop"):
+        parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
+    for part, entry_of in (("fixed", _value), ("axes", _axis)):
+        # Pydantic's own schema of any keys, which changes with its version, gives way to the known names.
+        keys[part] = {
+            "description": keys[part]["description"],
+            "type": "object",
+            "properties": {name: entry_of(row) for name, row in PARAMETERS.items()},
+            "additionalProperties": False,
+        }
+    for role in _ROLES:
+        if role in parts["FigureTable"]["properties"]:
+            entry = parts["FigureTable"]["properties"][role]
+            parts["FigureTable"]["properties"][role] = {
+                "enum": list(PARAMETERS),
+                "description": entry["description"],
+            }
+    return schema
+
+
+def schema_text() -> str:
+    """The schema as the content of a file."""
+    return json.dumps(study_schema(), indent=1, ensure_ascii=False) + "\n"
+
+
+def _value(parameter: Parameter) -> dict[str, Any]:
+    """One value of a parameter: a number in its range, or a text that stands for one."""
+    entry: dict[str, Any] = {"description": _words(parameter)}
+    if parameter.default is not None:
+        entry["default"] = parameter.default
+    if parameter.kind == "profile":
+        return entry | {"enum": list(PROFILE_SHAPES)}
+    lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
+    return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
+
+
+def _axis(parameter: Parameter) -> dict[str, Any]:
+    """Several values: a list, or a range of numbers."""
+    value = _value(parameter)
+    words = value.pop("description")
+    value.pop("default", None)
+    values = {"type": "array", "items": value, "minItems": 1}
+    if parameter.kind == "profile":
+        return {"description": words, **values}
+    return {"description": words, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+
+
+def _words(parameter: Parameter) -> str:
+    owner = f"; of the {_SHAPES[parameter.name].replace('_', ' ')}" if parameter.name in _SHAPES else ""
+    return f"{parameter.meaning}: {parameter.allowed}{owner}"
+
+
+def _without_titles(part: Any) -> Any:
+    """Without the titles that pydantic makes from the names of fields: they say nothing."""
+    if isinstance(part, list):
+        return [_without_titles(each) for each in part]
+    if not isinstance(part, dict):
+        return part
+    return {
+        key: _without_titles(each)
+        for key, each in part.items()
+        if not (key == "title" and isinstance(each, str))
+    }

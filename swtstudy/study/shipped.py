@@ -1,0 +1,20 @@
+"""The studies of the paper, which come with the package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parent.parent
+
+#: Where they are in an installed package, and in the source tree.
+_PLACES = (_PACKAGE / "studies", _PACKAGE.parent / "studies")
+
+
+def shipped_folder() -> Path:
+    """The folder of the studies of the paper."""
+    return next((place for place in _PLACES if (place / "figure3.toml").is_file()), _PLACES[0])
+
+
+def shipped_studies() -> dict[str, Path]:
+    """The studies of the paper by name, such as "figure3"."""
+    return {path.stem: path for path in sorted(shipped_folder().glob("*.toml"))}

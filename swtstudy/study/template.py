@@ -1,0 +1,55 @@
+"""A study to begin with: small, valid, and commented."""
+
+from __future__ import annotations
+
+from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.study.schema import SCHEMA_LINE
+from swtstudy.study.writing import quoted
+
+_USED = ("normal_amplitude", "phase")
+
+
+def template(title: str) -> str:
+    """The text of a study of two axes, with every other parameter as a comment."""
+    return f"""\
+{SCHEMA_LINE.strip()}
+# Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this.
+#   swtstudy validate FILE    every mistake at once
+#   swtstudy plan FILE        how many points, how long
+#   swtstudy run FILE         archive and figure, in the folder results
+title = {quoted(title)}
+rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
+
+# One value each. What is not here has the value of the paper's Table 1, as in these comments.
+# Numbers may also be texts: "8/9", "pi/2", "sqrt(20)".
+[fixed]
+{_fixed()}
+
+# Several values each, in the order of the dimensions: a list, or both ends and how many.
+# Any parameter from above may be an axis instead.
+[axes]
+normal_amplitude = [0.25, 0.5, 0.75]
+phase = {{ start = 0, stop = "2*pi", num = 49 }}  # spacing = "log" makes equal ratios
+
+# Every axis needs a place. Without this table there is an archive, but no figure.
+[figure]
+x = "phase"
+hue = "normal_amplitude"
+# panels = "friction"          # one panel for each of its values
+# y = "s/s(phase=0)"           # s over its value there, instead of "s"
+"""
+
+
+def _fixed() -> str:
+    lines = ['profile = "paraboloid"']
+    for profile, names in PROFILE_SHAPES.items():
+        needs = f", needs {' and '.join(names)}" if names else ""
+        lines.append(f"#   {quoted(profile)}{needs}")
+    for name, parameter in PARAMETERS.items():
+        if name == "profile" or name in _USED:
+            continue
+        lines.append(f"# {parameter.meaning}: {parameter.allowed}")
+        value = "…" if parameter.default is None else f"{parameter.default:.6g}"
+        lines.append(f"# {name} = {value}")
+    return "\n".join(lines)
