@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from oracles.jaeger import JaegerContact
 from oracles.memory_diagram import MemoryDiagram
 from oracles.springs import bimodal, polygon, spring_forces
+from scipy.integrate import trapezoid
 
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.instants import Nodes
@@ -60,7 +61,7 @@ def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
         error = np.abs(traction_of_springs(radius, forces[k], POSITIONS) - expected)
         assert error.max() < np.sqrt(radius[1])
         assert error.mean() < radius[1]
-        total = np.trapezoid(2.0 * forces[k], radius)
+        total = trapezoid(2.0 * forces[k], radius)
         assert total == pytest.approx(jaeger.force(), abs=radius[1] ** 1.5)
 
 

@@ -20,6 +20,8 @@ from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
 
 LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 4, num = 400}\n'
+#: So many that a run of the slow stand-in does not end before it is stopped.
+LONG = LINE.replace("num = 400", "num = 3000")
 
 
 def square(frictions, phases, rtol=1e-3):
@@ -192,14 +194,14 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypat
     assert counting.points == 0
 
 
-def test_two_ctrl_c_end_a_run_cleanly(line, tmp_path):
+def test_two_ctrl_c_end_a_run_cleanly(tmp_path):
     path = tmp_path / "line.nc"
     code = (
         "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy.cli import main\n"
         "from swtstudy.runner import run\nrun.run.__kwdefaults__['solver'] = stand_in.slow\n"
         "main(['run', sys.argv[2], '--results', sys.argv[3]])"
     )
-    (tmp_path / "line.toml").write_text(LINE)
+    (tmp_path / "line.toml").write_text(LONG)
     command = [sys.executable, "-c", code, os.path.dirname(__file__), str(tmp_path / "line.toml")]
     with subprocess.Popen([*command, str(tmp_path)], stderr=subprocess.PIPE, text=True) as process:
         deadline = time.monotonic() + 60
@@ -212,18 +214,18 @@ def test_two_ctrl_c_end_a_run_cleanly(line, tmp_path):
             _, words = process.communicate(timeout=60)
         finally:
             process.kill()
-    assert "of 400 distinct points are saved" in words
+    assert "of 3000 distinct points are saved" in words
     assert "Traceback" not in words
 
 
-def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
-    path = tmp_path / "line.nc"
+def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(tmp_path):
+    path, line = tmp_path / "line.nc", Study.from_text(LONG)
     undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
     code = (
         "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
         "run(Study.from_text(sys.argv[2]), sys.argv[3], solver=stand_in.slow)"
     )
-    command = [sys.executable, "-c", code, os.path.dirname(__file__), LINE, str(path)]
+    command = [sys.executable, "-c", code, os.path.dirname(__file__), LONG, str(path)]
     saved = 0
     for _ in range(3):
         with subprocess.Popen(command) as process:
@@ -234,7 +236,7 @@ def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
         assert points_saved(parts_folder(path)) > saved
         saved = points_saved(parts_folder(path))
     assert not path.exists()
-    same(run(line, path, solver=stand_in.slow), undisturbed)
+    same(run(line, path, solver=stand_in.smooth, workers=1), undisturbed)
 
 
 def test_one_run_at_a_time(line, tmp_path):
