@@ -158,6 +158,8 @@ def test_no_plane_of_any_orientation_beats_the_critical_one(profile: str) -> Non
     directions = np.random.default_rng(0).normal(size=(400, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     for k in range(5):
+        if np.isnan(solution.s[k]):
+            continue  # no finite swt next to the truncated paraboloid's edge
         point = take(batch, k)
         instants = np.linspace(0.0, 2.0 * np.pi, 600, endpoint=False)
         sigma = stress_history(point, solution.critical_x[k], instants)

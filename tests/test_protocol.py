@@ -104,11 +104,7 @@ def test_phases_are_folded_into_one_period_of_s(p: int, q: int, period: float) -
     )
 
 
-MISSED = pytest.mark.xfail(strict=True, reason="a local maximum is dropped at ψ = 2π − 1.2")
-TWO_LOADS = [pytest.param(p, q, marks=MISSED if (p, q) == (1, 2) else ()) for p, q in FREQUENCIES]
-
-
-@pytest.mark.parametrize(("p", "q"), TWO_LOADS)
+@pytest.mark.parametrize(("p", "q"), FREQUENCIES)
 def test_s_has_the_period_of_the_folded_phase_and_x_its_mirror(p: int, q: int) -> None:
     phases = np.array([0.4, 2.1, 3.6, 5.5, -1.2])
     base, mirrored = folded(phases, p, q)
