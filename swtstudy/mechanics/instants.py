@@ -147,7 +147,9 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     row = np.arange(len(depth))[:, None, None]
     where = row, np.arange(piece.shape[2]), piece
     start, slope = memory.start[where], memory.slope[where]
-    held = memory.offset[where] + np.where(slope == GROWTH, 0.0, slope) * (at - start)
+    held = memory.offset[where] + np.where(slope == GROWTH, 0.0, slope) * np.where(
+        np.isfinite(start), at - start, 0.0
+    )
     grown = slope == GROWTH
     if np.any(grown):
         deep = np.broadcast_to(at, grown.shape)

@@ -14,7 +14,7 @@ from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_
 from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
 #: Planes that the first look tries.
-SCAN_PLANES = 8
+SCAN_PLANES = 12
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
 CANDIDATE_SHARES = np.array([0.9, 0.97, 0.995, 0.999])
@@ -206,7 +206,8 @@ def _step(
     centre, top = _vertex(c, values, best, brackets.is_corner)
     change = np.abs(top - now.top)
     # A maximum next to a corner shows only once the search is narrow.
-    flat = top - pick(values, best) <= CHANGE_SHARE * accuracy.tolerance * top
+    rise = top - pick(values, best)
+    flat = rise <= CHANGE_SHARE * accuracy.tolerance * top
     stays = brackets.is_corner & (found == 0.0) & (flat | (now.rounds < LEAST_ROUND_COUNT))
     centre = np.where(stays, 0.0, centre)
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
@@ -220,7 +221,7 @@ def _step(
     narrower = now.width * np.where(outermost, WALKING, SHRINKING)
     climb.width[active] = np.where(beyond, FIRST_WIDTH, narrower)
     climb.rounds[active] += ~outermost
-    small = CHANGE_SHARE * change <= SETTLED * accuracy.tolerance * top
+    small = np.maximum(CHANGE_SHARE * change, rise) <= SETTLED * accuracy.tolerance * top
     enough = now.rounds + 1 >= LEAST_ROUND_COUNT
     climb.settled[active] = ~outermost & small & enough & (flat | ~stays)
 

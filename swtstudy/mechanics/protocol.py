@@ -70,7 +70,8 @@ class Protocol:
         ``branch`` is 2πk for the branch −π/2 ≤ qφ + ψ − 2πk ≤ π/2.
         """
         d, psi = (_expand(v, depth) for v in (self.normal_amplitude, self.phase))
-        sine = np.divide(depth - 1.0, d, out=np.zeros_like(depth), where=d > 0.0)
+        # Amplitudes below this do not move δ at all.
+        sine = np.divide(depth - 1.0, d, out=np.zeros_like(depth), where=d > 1e-300)
         return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
 
     def slip_line_instant(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.maximum import Accuracy, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import Profile, make_profile, roughness
+from swtstudy.mechanics.profiles import Profile, make_profile, resolved_shape, roughness
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
@@ -36,6 +37,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         Arrays of shape (n,). The value of a point does not depend on the others.
     """
     n = len(points)
+    shape, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    points = replace(points, shape=shape)
     s, error, position, angle = (np.zeros(n) for _ in range(4))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
@@ -46,7 +49,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
         scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
         found = maximum(scene, accuracy)
-        s[index], error[index] = found.swt, found.error
+        s[index], error[index] = found.swt, found.error + left_out[index] * found.swt
         position[index] = found.position
         angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
         state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")

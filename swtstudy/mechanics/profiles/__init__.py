@@ -26,9 +26,16 @@ def roughness(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray
     return PROFILES[name].roughness(largest_depth, **shape)
 
 
+def resolved_shape(
+    name: str, shape: dict[str, FloatArray], largest_depth: FloatArray
+) -> tuple[dict[str, FloatArray], FloatArray]:
+    """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
+    return PROFILES[name].resolved(largest_depth, **shape)
+
+
 def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:
     """Why a profile cannot be used up to the depth 1 + ``normal_amplitude``, or None."""
     return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
 
 
-__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile", "roughness"]
+__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile", "resolved_shape", "roughness"]

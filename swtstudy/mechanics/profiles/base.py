@@ -55,6 +55,13 @@ class Profile(ABC):
         return np.zeros(len(largest_depth), dtype=np.int64)
 
     @classmethod
+    def resolved(
+        cls, largest_depth: FloatArray, **shape: FloatArray
+    ) -> tuple[dict[str, FloatArray], FloatArray]:
+        """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
+        return shape, np.zeros(len(largest_depth))
+
+    @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
         """Why the contact is not a full disc up to ``largest_depth``, or None."""
         return None

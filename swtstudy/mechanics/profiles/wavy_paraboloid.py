@@ -16,6 +16,8 @@ TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
 GUESSES = 64
 #: Step of kξ in rad between levels of roughness.
 ROUGHNESS_STEP = 8.0
+#: Level beyond which the waves are left out: h/δ0 of some 1e-5.
+ROUGHEST = 64
 
 
 class WavyParaboloid(Profile):
@@ -52,7 +54,21 @@ class WavyParaboloid(Profile):
         length = wavelength * np.sqrt(amplitude)
         wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
         reach = _upper_radius(largest_depth, amplitude, wave_number)
-        return np.ceil(wave_number * reach / ROUGHNESS_STEP).astype(np.int64)
+        level = np.minimum(wave_number * reach / ROUGHNESS_STEP, ROUGHEST + 1.0)
+        return np.ceil(level).astype(np.int64)
+
+    @classmethod
+    def resolved(
+        cls, largest_depth: FloatArray, **shape: FloatArray
+    ) -> tuple[dict[str, FloatArray], FloatArray]:
+        # Waves too short to follow are left out. They change the slope f′ by h k sin kx, and s, which is
+        # quadratic in the stress, by twice that; as much again for what they do to the contact.
+        amplitude = shape["waviness_amplitude"]
+        short = cls.roughness(largest_depth, **shape) > ROUGHEST
+        slope = 2.0 * np.pi * np.sqrt(amplitude) / shape["wavelength"]
+        return shape | {"waviness_amplitude": np.where(short, 0.0, amplitude)}, np.where(
+            short, 4.0 * slope, 0.0
+        )
 
     @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
