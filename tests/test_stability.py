@@ -37,10 +37,13 @@ def sound(batch: Points, rtol: float = RTOL) -> Solution:
     largest_depth = 1.0 + batch.normal_amplitude
     largest = make_profile(batch.profile, batch.shape, largest_depth).radius(largest_depth[:, None])[:, 0]
     finite = found.regime != REGIMES.index("not_finite")
+    may_be_infinite = batch.profile == "truncated_paraboloid"
+    assert may_be_infinite or np.all(finite)
+    assert np.all(np.isnan(found.s) == ~finite)
     assert np.all(np.isfinite(found.s[finite]) & (found.s[finite] >= 0.0))
     assert np.all(np.isfinite(found.s_error[finite]) & (found.s_error[finite] >= 0.0))
-    assert np.all(np.abs(found.critical_x) <= largest * (1.0 + 1e-12))
-    assert np.all((found.critical_angle > -90.0) & (found.critical_angle <= 90.0))
+    assert np.all((np.abs(found.critical_x) <= largest * (1.0 + 1e-12))[finite])
+    assert np.all(((found.critical_angle > -90.0) & (found.critical_angle <= 90.0))[finite])
     # The accuracy asked for, with a margin for the few points at which the estimate is a bit above it.
     assert np.all(found.s_error[finite] <= 3.0 * rtol * found.s[finite])
     return found
@@ -60,8 +63,13 @@ def close(first: ArrayLike, second: ArrayLike, rtol: float) -> None:
 @every_profile
 def test_normal_amplitude_to_lift_off_and_past_it(profile: str) -> None:
     amplitude = [0.0, 1e-12, 0.99, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.5, 10.0]
+    if profile == "truncated_paraboloid":
+        amplitude = amplitude[:3]
     found = sound(points(profile, normal_amplitude=amplitude, phase=0.7, **SHAPES[profile]))
+    assert np.all(np.isfinite(found.s))
     assert found.s[1] == pytest.approx(found.s[0], rel=1e-5)  # √δA = 1e-6
+    if profile == "truncated_paraboloid":
+        return
     # Lift-off starts where the contact is a point for an instant: nothing jumps.
     close(found.s[3:6], found.s[4], 3 * RTOL)
     assert regime_names(found)[5:] == ["lift_off"] * 3
@@ -172,7 +180,7 @@ def test_face_to_nothing_and_to_a_thin_annulus(profile: str) -> None:
 
 def test_waviness_to_nothing() -> None:
     # Shorter waves of the same steepness hold less: the slope goes like √h.
-    amplitude = np.array([0.0, 1e-6, 1e-4])
+    amplitude = np.array([0.0, 1e-5, 1e-3])
     found = sound(points("wavy_paraboloid", phase=0.7, waviness_amplitude=amplitude, wavelength=5.0))
     distance = np.abs(found.s / found.s[0] - 1.0)
     assert distance[1] < distance[2] < 0.3
@@ -193,19 +201,38 @@ def test_waviness_at_the_limit_of_a_compact_contact_and_far_above(amplitude: flo
 
 # The truncated paraboloid at r = b⁺: p and q are A ln(1/ε) there, σ_n ~ −(1 − μ sin 2θ) A ln(1/ε).
 
-UNFLAGGED = pytest.mark.xfail(strict=True, reason="the logarithmic singularity at r = b is not flagged")
 
-
-@UNFLAGGED
 @pytest.mark.parametrize("flat_radius", [0.5, 2.0])
-def test_friction_above_one_tears_at_the_edge_of_a_truncated_paraboloid(flat_radius: float) -> None:
-    # Gross slip, and partial slip whose permanent stick zone keeps the offset of a slip line.
+@pytest.mark.parametrize("friction", [1.05, 1.2, 3.0])
+def test_gross_slip_with_friction_above_one_tears_at_the_edge(flat_radius: float, friction: float) -> None:
     batch = points(
         "truncated_paraboloid",
-        friction=1.2,
-        tangential_amplitude=[2.0, 5 / 6],
-        phase=[0.7, 0.0],
+        friction=friction,
+        tangential_amplitude=2.0,
+        phase=[0.7, 2.0],
         flat_radius=flat_radius,
+    )
+    assert regime_names(solve_points(batch)) == ["not_finite"] * 2
+
+
+@pytest.mark.xfail(strict=True, reason="only gross slip is flagged")
+@pytest.mark.parametrize("flat_radius", [0.5, 2.0])
+def test_so_does_a_stick_zone_that_keeps_the_offset_of_a_slip_line(flat_radius: float) -> None:
+    # Table 1: min(u + δ) < 0, so that even the spring at the edge was at its limit, and stays so.
+    batch = points("truncated_paraboloid", friction=1.2, flat_radius=flat_radius)
+    assert regime_names(solve_points(batch)) == ["not_finite"]
+
+
+def test_sliding_through_lift_off_tears_at_the_edge_with_any_friction() -> None:
+    # While the contact grows past r the springs inside pull with a finite stress, and Δε_n ~ ln(1/ε).
+    batch = points(
+        "truncated_paraboloid",
+        0.0,
+        [0.2, 0.5],
+        [1.0, 1.1875],
+        tangential_amplitude=1.0,
+        phase=[1.0, 0.0],
+        flat_radius=1.0,
     )
     assert regime_names(solve_points(batch)) == ["not_finite"] * 2
 
@@ -254,7 +281,8 @@ def single_points(draw: st.DrawFn, names: tuple[str, ...] = PROFILE_NAMES) -> Po
         draw(between(0.0, 0.5)),
         # Above 0.9 the truncated paraboloid may not be finite.
         draw(between(0.0, 0.85 if profile == "truncated_paraboloid" else 1.0)),
-        draw(between(0.01, 1.2)),
+        # … nor may it after lift-off.
+        draw(between(0.0, 0.99 if profile == "truncated_paraboloid" else 1.2)),
         draw(between(0.0, 1.2)),
         draw(between(0.0, 6.3)),
         p,
