@@ -7,6 +7,12 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from swtstudy.archive.read import open_results
+    from swtstudy.audit.audit import audit_study
+    from swtstudy.fields.nonlocal_swt import nonlocal_swt
+    from swtstudy.fields.slip import slip_map
+    from swtstudy.fields.stress import stress_field
+    from swtstudy.fields.swt import swt_field
+    from swtstudy.mechanics.critical_plane_3d import swt_of_history
     from swtstudy.mistakes import StudyError
     from swtstudy.runner.run import run
     from swtstudy.solve import solve
@@ -14,16 +20,36 @@ if TYPE_CHECKING:
     from swtstudy.suite import run_suite
 
 __version__ = "0.1.0"
-__all__ = ["Study", "StudyError", "__version__", "open_results", "run", "run_suite", "solve"]
+__all__ = [
+    "Study",
+    "StudyError",
+    "__version__",
+    "audit_study",
+    "nonlocal_swt",
+    "open_results",
+    "run",
+    "run_suite",
+    "slip_map",
+    "solve",
+    "stress_field",
+    "swt_field",
+    "swt_of_history",
+]
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
+    "audit_study": "swtstudy.audit.audit",
+    "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.read",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
+    "slip_map": "swtstudy.fields.slip",
     "solve": "swtstudy.solve",
+    "stress_field": "swtstudy.fields.stress",
+    "swt_field": "swtstudy.fields.swt",
+    "swt_of_history": "swtstudy.mechanics.critical_plane_3d",
 }
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 import swtstudy
+from swtstudy.cli.audit import audit
 from swtstudy.cli.check import check
 from swtstudy.cli.info import info
 from swtstudy.cli.merge import merge
@@ -55,5 +56,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, check, info, merge, solve):
+for _command in (run, plan, validate, plot, check, info, merge, solve, audit):
     main.add_command(_command)

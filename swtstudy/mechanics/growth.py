@@ -73,7 +73,9 @@ class GrowthIntegrals:
         self.inner_span = inner_high - self.inner_low
         angle = self.inner_low[..., None] + self.inner_span[..., None] * share
         radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
-        density = profile.weighted_slope(radius) * slope(radius) * rate * self.inner_span[..., None]
+        # Under a flat face there are no springs inside r.
+        rate_inside = np.where(r > b, rate, 0.0) * self.inner_span[..., None]
+        density = profile.weighted_slope(radius) * slope(radius) * rate_inside
         first = density * 2.0 / r
         inner = np.stack([first, first * (radius / r) ** 2])
 

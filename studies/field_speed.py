@@ -1,0 +1,154 @@
+"""How fast and how accurate the field beneath the contact is, beside other ways to it.
+
+The stress of Table 1's cycle at ψ = 0 on the same points, in one process and one thread: this package;
+Hamilton's closed form (ContactMechanics), once for each slope of each instant; and the periodic half-space of
+tamaas (extra ``bench``), which solves a whole grid for each instant. The points are nodes of that grid.
+
+Run from the project's folder: OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python studies/field_speed.py
+"""
+
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from swtstudy.mechanics.body import Body, nodes_at, scene_of
+from swtstudy.mechanics.critical_plane_3d import highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.points import Points
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore", ImportWarning)
+    from ContactMechanics.ReferenceSolutions import Hertz
+
+FRICTION, POISSON = 0.3, 0.3
+P0 = 2 / np.pi
+INSTANTS, GRID, LAYERS, WIDTH, DEPTH = 64, 128, 32, 6.0, 1.5
+
+
+def timed(call, repeats=3):
+    """Result and shortest processor time of a call."""
+    best = np.inf
+    for _ in range(repeats):
+        begin = time.process_time()
+        result = call()
+        best = min(best, time.process_time() - begin)
+    return result, best
+
+
+def table_1(instant):
+    """Table 1 at the given instants; at ψ = 0 all slopes of the memory diagram are −1, 0 or 1."""
+    values = (np.array([v]) for v in (POISSON, FRICTION, 0.75))
+    ratio = np.array([1]), np.array([1])
+    scene = scene_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
+    return Body.of(scene, nodes_at(scene, instant), cells=200)
+
+
+def jumps(states, instant):
+    """Radii and slope jumps of the pressure and of the tangential load at an instant."""
+    for slope, factor, tangential in (
+        (states.touching[instant], 1.0, False),
+        (states.tangential_slope[instant, 0], -FRICTION, True),
+    ):
+        size = -np.diff(slope, append=0.0)
+        for a, jump in zip(states.cells.radius[1:][size != 0.0], size[size != 0.0], strict=True):
+            yield tangential, a, factor * jump
+
+
+def by_hamilton(states, x, y, z):
+    """Shape (points, instants, 6)."""
+    stress = np.zeros((len(states.touching), 6, x.size))
+    for instant in range(len(stress)):
+        for tangential, a, factor in jumps(states, instant):
+            solution = Hertz.stress_for_tangential_loading if tangential else Hertz.stress_Cartesian
+            stress[instant] += factor * a * P0 * np.array(solution(x / a, y / a, z / a, POISSON))
+    return np.moveaxis(stress, -1, 0)
+
+
+class Tamaas:
+    """A periodic half-space that is solved for one instant at a time."""
+
+    def __init__(self):
+        import tamaas
+
+        tamaas.set_log_level(tamaas.LogLevel.error)
+        size, shape = [DEPTH, WIDTH, WIDTH], [LAYERS, GRID, GRID]
+        self.model = tamaas.Model(tamaas.model_type.volume_2d, size, shape)
+        self.model.E, self.model.nu = 1.0 - POISSON**2, POISSON
+        tamaas.ModelFactory.registerVolumeOperators(self.model)
+        self.strain, self.stress = np.zeros([*shape, 6]), np.zeros([*shape, 6])
+        self.axis = (np.arange(GRID) - GRID // 2) * WIDTH / GRID
+        self.depth = np.linspace(0.0, DEPTH, LAYERS)
+
+    def solve(self, states, instant):
+        """Stress on the whole grid (z, x, y, 6), components as in this package."""
+        r2 = self.axis[:, None] ** 2 + self.axis**2
+        self.model.traction[...] = 0.0
+        for tangential, a, factor in jumps(states, instant):
+            traction = factor * P0 * np.sqrt(np.maximum(a * a - r2, 0.0))
+            self.model.traction[..., 0 if tangential else 2] += traction
+        self.model.operators["boussinesq_gradient"](self.model.traction, self.strain)
+        self.model.operators["hooke"](self.strain, self.stress)
+        # From xx, yy, zz and √2 times xy, xz, yz.
+        return self.stress[..., [0, 1, 2, 5, 4, 3]] / np.array([1, 1, 1, 2**0.5, 2**0.5, 2**0.5])
+
+
+def report():
+    """The table, as lines of Markdown."""
+    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
+    axis = (np.arange(GRID) - GRID // 2) * WIDTH / GRID
+    inside = np.flatnonzero(np.abs(axis) < 1.5)
+    layers = np.arange(1, LAYERS - 8, 3)
+    grid = np.meshgrid(np.linspace(0.0, DEPTH, LAYERS)[layers], axis[inside], axis[inside], indexing="ij")
+    z, x, y = (v.ravel() for v in grid)
+    ours, our_time = timed(lambda: body.stress(x, y, z))
+    hamilton, hamilton_time = timed(lambda: by_hamilton(body.states, x, y, z), repeats=1)
+    values = ours.size // 6
+    # Hamilton's formulas cancel next to the axis.
+    off_axis = np.hypot(x, y) > 0.1
+    lines = [
+        f"{len(x)} points × {INSTANTS} instants of one cycle, one thread; largest difference from the field "
+        "of this package in p0.",
+        "",
+        "| field | µs per point and instant | largest difference |",
+        "|---|---|---|",
+        f"| this package | {1e6 * our_time / values:.2f} | |",
+        f"| Hamilton's closed form (ContactMechanics) | {1e6 * hamilton_time / values:.2f} | "
+        f"{np.abs(hamilton - ours)[off_axis].max() / P0:.1e} |",
+    ]
+    try:
+        half_space = Tamaas()
+    except ImportError:
+        return [*lines, "", "tamaas is not installed (extra `bench`)."]
+    instant = INSTANTS // 4
+    stress, tamaas_time = timed(lambda: half_space.solve(body.states, instant))
+    away = np.abs(stress[np.ix_(layers, inside, inside)].reshape(-1, 6) - ours[:, instant]).max()
+    return [
+        *lines,
+        f"| tamaas, periodic, {GRID}² × {LAYERS}, {1e3 * tamaas_time:.0f} ms a grid | "
+        f"{1e6 * tamaas_time / stress[..., 0].size:.2f} | {away / P0:.1e} |",
+    ]
+
+
+def planes():
+    """Time of the search over all planes on the histories of the body, as lines of Markdown."""
+    rng = np.random.default_rng(0)
+    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
+    x, y, z = *rng.uniform(-1.5, 1.5, (2, 2000)), rng.uniform(0.0, 0.3, 2000)
+    stress = body.stress(x, y, z)
+    found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))
+    coarse, first = timed(lambda: highest_coarse_swt(stress, POISSON, 1.0 - POISSON**2))
+    high = found.swt > 0.1 * found.swt.max()
+    low = 100 * (1.0 - coarse[high] / found.swt[high]).max()
+    return [
+        "",
+        f"swt over all plane orientations, {INSTANTS} instants: 256 planes take "
+        f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of "
+        f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point.",
+    ]
+
+
+if __name__ == "__main__":
+    text = "\n".join([*report(), *planes()]) + "\n"
+    Path("results/field_speed.md").write_text(f"# The field beneath the contact\n\n{text}", encoding="utf-8")
+    print(text, end="")

@@ -1,0 +1,20 @@
+"""The stress over one cycle at the critical point of Table 1's parameters, and a tenth of a_H beneath it.
+
+Run from the project's folder: python studies/maps/stress_cycle.py
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import swtstudy
+from swtstudy.figures.maps import draw_stress_cycle
+from swtstudy.figures.save import save_figure
+
+x = float(swtstudy.solve().critical_x)
+time = np.linspace(0.0, 2.0 * np.pi, 721)
+
+figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+for axes, z in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.1), strict=True):
+    draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
+    axes.set_title(f"$x/a_H$ = {x:.3f}, $z/a_H$ = {z:g}", fontsize="medium")
+save_figure(figure, "results/stress_cycle.png")

@@ -1,0 +1,78 @@
+"""The audit of one parameter point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from swtstudy.grid.canonical import points_from
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body import scene_of
+from swtstudy.mechanics.body_maximum import body_maximum
+from swtstudy.mechanics.points import FloatArray
+
+#: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
+#: the last one for points to which the solver gives no finite s.
+VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
+
+#: Relative excess of the body's maximum that counts; s itself is asked for to a tenth of this.
+TOLERANCE = 1e-3
+#: Distances and direction cosines that count as 0.
+_ZERO = 1e-6
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One audited point.
+
+    Attributes
+    ----------
+    s, critical_x
+        The solver's: the surface line's maximum and where it is.
+    s_all_planes
+        swt at that place over all plane orientations, by the field of the body.
+    s_body
+        Largest swt of the body.
+    position, normal
+        Shape (3,): where, and on which plane.
+    """
+
+    s: float
+    critical_x: float
+    s_all_planes: float
+    s_body: float
+    position: FloatArray
+    normal: FloatArray
+
+    @property
+    def excess(self) -> float:
+        """By how much the body's maximum exceeds s, relative."""
+        return self.s_body / self.s - 1.0 if self.s != 0.0 else float(self.s_body > 0.0)
+
+    @property
+    def verdict(self) -> str:
+        """The first of the solver's assumptions that the body's maximum breaks."""
+        if not np.isfinite(self.s):
+            return "not_finite"
+        _, y, z = self.position
+        if self.excess <= TOLERANCE:
+            return "none"
+        if z > _ZERO:
+            return "surface"
+        if abs(y) > _ZERO:
+            return "symmetry_line"
+        return "plane_through_y" if abs(self.normal[1]) > _ZERO else "line_search"
+
+
+def audit_point(row: FloatArray) -> Finding:
+    """Audit one canonical row (`swtstudy.grid.canonical`)."""
+    points = points_from(row[None])
+    line = solve_points(points, TOLERANCE / 10.0)
+    s, x = float(line.s[0]), float(line.critical_x[0])
+    if not np.isfinite(s):
+        return Finding(s, x, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+    # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
+    with np.errstate(all="ignore"):
+        body, at_line = body_maximum(scene_of(points), x)
+    return Finding(s, x, float(at_line.swt), body.swt, body.position, body.normal)

@@ -1,0 +1,1 @@
+"""Labelled fields of one parameter point: stress, swt and slip over position and time."""

@@ -1,0 +1,55 @@
+"""One parameter point from keywords, as it stands: its phase is not folded, so that time keeps its origin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+import numpy as np
+
+from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.body import scene_of
+from swtstudy.mechanics.points import Points
+from swtstudy.mechanics.swt_line import Scene
+from swtstudy.mistakes import StudyError
+from swtstudy.parameters import PROFILE_SHAPES
+
+
+def read_point(parameters: Mapping[str, object]) -> Points:
+    """A batch of one point.
+
+    Parameters
+    ----------
+    parameters
+        Single values by name, as for `swtstudy.solve`; the others have the values of Table 1.
+
+    Raises
+    ------
+    StudyError
+        With every mistake in the parameters.
+    """
+    grid, mistakes = read_grid(dict(parameters), {})
+    if grid is None:
+        raise StudyError(mistakes)
+    profile = str(grid.fixed["profile"])
+    ratio = Fraction(grid.fixed["frequency_ratio"])
+
+    def number(name: str) -> np.ndarray:
+        return np.array([float(grid.fixed[name])])
+
+    return Points(
+        profile=profile,
+        p=np.array([ratio.numerator]),
+        q=np.array([ratio.denominator]),
+        shape={name: number(name) for name in PROFILE_SHAPES[profile]},
+        poisson_ratio=number("poisson_ratio"),
+        friction=number("friction"),
+        normal_amplitude=number("normal_amplitude"),
+        tangential_amplitude=number("tangential_amplitude"),
+        phase=number("phase"),
+    )
+
+
+def read_scene(parameters: Mapping[str, object]) -> Scene:
+    """The contact cycle of one point; see `read_point`."""
+    return scene_of(read_point(parameters))

@@ -1,0 +1,89 @@
+"""Positions and instants as labelled arrays."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.mechanics.body import TimeNodes, nodes_at
+from swtstudy.mechanics.swt_line import Scene
+
+_NAMES = {
+    "x": "position in the direction of sliding",
+    "y": "position across the direction of sliding",
+    "z": "depth",
+}
+
+#: Instants of a cycle unless others are asked for.
+DEFAULT_INSTANTS = 64
+
+
+def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Coordinates in a_H, broadcast against one another.
+
+    Parameters
+    ----------
+    x, y, z
+        Numbers; one-dimensional sequences, which span a grid of the dimensions x, y, z; or DataArrays, whose
+        dimensions are kept: three with one common dimension are points.
+
+    Raises
+    ------
+    ValueError
+        If a coordinate is not finite, or z is negative.
+    """
+    arrays = [_coordinate(name, values) for name, values in zip("xyz", (x, y, z), strict=True)]
+    if float(arrays[2].min()) < 0.0:
+        raise ValueError(f"z: found {float(arrays[2].min()):g}; allowed: depths z ≥ 0 into the body")
+    placed = xr.broadcast(*arrays)
+    return placed[0], placed[1], placed[2]
+
+
+def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.DataArray]:
+    """The coordinates x, y, z without the dimensions that broadcasting added."""
+    result = {}
+    for name, place, raw in zip("xyz", places, given, strict=True):
+        own = _coordinate(name, raw).dims
+        result[name] = place.isel({dim: 0 for dim in place.dims if dim not in own}, drop=True)
+    return result
+
+
+def _coordinate(name: str, values: object) -> xr.DataArray:
+    if not isinstance(values, xr.DataArray):
+        array = np.asarray(values, dtype=float)
+        if array.ndim > 1:
+            raise ValueError(
+                f"{name}: found {array.ndim} dimensions; allowed: a number, a sequence or a DataArray"
+            )
+        values = xr.DataArray(array, dims=(name,) * array.ndim)
+    if values.size == 0 or not bool(np.isfinite(values).all()):
+        raise ValueError(f"{name}: found no or not finite values; allowed: finite positions in a_H")
+    long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
+    return values.astype(float).assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
+
+
+def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNodes]:
+    """Instants of the stationary cycle.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    time
+        ω1 t in rad, a number or a one-dimensional sequence; by default `DEFAULT_INSTANTS` over one common
+        period. The cycle repeats itself with the period 2πq, where ω2/ω1 = p/q.
+
+    Returns
+    -------
+    time, nodes
+        ω1 t, and the same instants of the cycle in the order of time.
+    """
+    q = scene.cycle.protocol.q
+    if time is None:
+        time = 2.0 * np.pi * q * np.arange(DEFAULT_INSTANTS) / DEFAULT_INSTANTS
+    array = np.asarray(time, dtype=float)
+    if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
+        raise ValueError("time: allowed: a finite number or a sequence of them, ω1 t in rad")
+    nodes = nodes_at(scene, np.mod(array.ravel() / q, 2.0 * np.pi))
+    attributes = {"long_name": "omega1 t, in the stationary cycle", "units": "rad", "symbol": r"\omega_1 t"}
+    return xr.DataArray(array, dims=("time",) * array.ndim, attrs=attributes), nodes

@@ -1,0 +1,67 @@
+"""Where the contact sticks and slips over position and time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.places import read_time
+from swtstudy.mechanics.contact import slip_front
+
+#: In the order of the flag values.
+STATES = ("open", "stick", "forward_slip", "backward_slip")
+
+
+def slip_map(r: object, *, time: object | None = None, **parameters: object) -> xr.Dataset:
+    """State of the contact at distances from its centre over one stationary cycle.
+
+    Parameters
+    ----------
+    r
+        Distance from the axis in a_H, a one-dimensional sequence.
+    time
+        ω1 t in rad, as for `swtstudy.stress_field`.
+    **parameters
+        Names of `swtstudy.parameters.PARAMETERS`, a single value each.
+
+    Returns
+    -------
+    xarray.Dataset
+        state (a flag), over time and r, and slip_radius and contact_radius in a_H over time: from the one to
+        the other the contact slips. In forward slip the body under the indenter is dragged to +x.
+    """
+    scene = read_scene(parameters)
+    cycle, profile = scene.cycle, scene.profile
+    instants, nodes = read_time(scene, time)
+    radius = xr.DataArray(np.atleast_1d(np.asarray(r, dtype=float)), dims="r")
+    radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
+    depth = np.maximum(cycle.protocol.depth(nodes.instant[None]), 0.0)
+    displacement = cycle.protocol.displacement(nodes.instant[None])
+    front, sign, _ = slip_front(
+        cycle.protocol,
+        cycle.memory,
+        cycle.forward,
+        cycle.backward,
+        nodes.interval[None],
+        depth,
+        displacement,
+    )
+    at = profile.depth(radius.values[None])[0]
+    slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
+    state = np.where(at < front[0][:, None], 1, np.where(at < depth[0][:, None], slips, 0)).astype(np.int8)
+    flags = {
+        "long_name": "state of the contact",
+        "flag_values": np.arange(len(STATES), dtype=np.int8),
+        "flag_meanings": " ".join(STATES),
+    }
+    variables: dict[str, Any] = {
+        "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
+    }
+    for name, values in (("slip_radius", front), ("contact_radius", depth)):
+        there = np.where(depth > 0.0, profile.radius(values), 0.0).reshape(instants.shape)
+        meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
+        variables[name] = (instants.dims, there, meaning)
+    return xr.Dataset(variables, {"time": instants, "r": radius})

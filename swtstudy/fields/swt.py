@@ -1,0 +1,55 @@
+"""swt over the body: the field of which s is the maximum."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.places import as_given, read_places
+from swtstudy.mechanics.body import Body, time_nodes
+
+_CELLS = 60
+#: Steps on each stretch of the cycle.
+_STEPS = 4
+#: Distances from the axis whose points share the instants of all of them.
+_RADII = 12
+
+
+def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:
+    """swt at points of the half-space over all plane orientations (eq. 9).
+
+    Parameters
+    ----------
+    x, y, z
+        Position in a_H, as for `swtstudy.stress_field`.
+    **parameters
+        Names of `swtstudy.parameters.PARAMETERS`, a single value each.
+
+    Returns
+    -------
+    xarray.Dataset
+        swt over E* δ0/R, and the unit normals normal_x, normal_y, normal_z of the critical planes.
+
+    Notes
+    -----
+    At each point the instants are aligned with the events at its distance from the axis: otherwise swt on the
+    surface would be low by up to 20 %, in rings. Few distinct distances (a grid in polar coordinates) are
+    computed faster.
+    """
+    scene = read_scene(parameters)
+    places = read_places(x, y, z)
+    flat = np.stack([place.values.ravel() for place in places])
+    distance, group = np.unique(np.round(np.hypot(flat[0], flat[1]), 12), return_inverse=True)
+    swt, normal = np.empty(flat.shape[1]), np.empty((flat.shape[1], 3))
+    for first in range(0, distance.size, _RADII):
+        some = (group >= first) & (group < first + _RADII)
+        nodes = time_nodes(scene, _STEPS, distance[first : first + _RADII])
+        swt[some], normal[some] = Body.of(scene, nodes, _CELLS).swt(*flat[:, some])
+    dims, shape = places[0].dims, places[0].shape
+    meaning = {"long_name": "Smith-Watson-Topper parameter over E* delta0/R", "units": "1", "symbol": "swt"}
+    variables = {"swt": (dims, swt.reshape(shape), meaning)}
+    for axis, name in enumerate("xyz"):
+        meaning = {"long_name": "unit normal of the critical plane", "units": "1", "symbol": f"n_{name}"}
+        variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)
+    return xr.Dataset(variables, as_given(places, x, y, z))

@@ -1,0 +1,96 @@
+"""Maps of one parameter point: swt over a section, the stress cycle, slip over position and time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.figures.draw import COLOURS, STYLES
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
+
+#: Colours of open contact, stick, forward and backward slip.
+_STATE_COLOURS = ("#FFFFFF", "#999999", "#0072B2", "#D55E00")
+
+
+def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
+    """swt over the section that the dataset spans, depth downwards.
+
+    Parameters
+    ----------
+    axes
+        Where to draw.
+    dataset
+        From `swtstudy.swt_field`, with two of the dimensions x, y and z.
+    """
+    if len(dataset.swt.dims) != 2 or not set(dataset.swt.dims) <= set("xyz"):
+        raise ValueError(
+            f"a map of swt spans two of x, y and z; this one spans {', '.join(dataset.swt.dims)}"
+        )
+    across, along = sorted(map(str, dataset.swt.dims))
+    swt = dataset.swt.transpose(along, across)
+    mesh = axes.pcolormesh(swt[across], swt[along], swt, cmap="cividis", shading="gouraud", rasterized=True)
+    axes.figure.colorbar(mesh, ax=axes, label="swt")
+    axes.set_xlabel(f"${across}/a_H$")
+    axes.set_ylabel(f"${along}/a_H$")
+    if along == "z":
+        axes.invert_yaxis()
+
+
+def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
+    """The stress components that are not 0 over one cycle at one point.
+
+    Parameters
+    ----------
+    axes
+        Where to draw.
+    dataset
+        From `swtstudy.stress_field` with a time, at a single position.
+    """
+    names = [str(name) for name in dataset.data_vars if str(name).startswith("sigma_")]
+    largest = max(float(abs(dataset[name]).max()) for name in names)
+    shown = [name for name in names if float(abs(dataset[name]).max()) > 1e-9 * largest]
+    for index, name in enumerate(shown):
+        words = f"${dataset[name].attrs['symbol']}$"
+        axes.plot(dataset.time, dataset[name], color=COLOURS[index], linestyle=STYLES[0], label=words)
+    axes.set_xlabel(r"$\omega_1 t$ in rad")
+    axes.set_ylabel(r"stress over $E^* \sqrt{\delta_0/R}$")
+    axes.set_xlim(float(dataset.time.min()), float(dataset.time.max()))
+    axes.grid(color="0.9", linewidth=0.6)
+    axes.legend(frameon=False)
+
+
+def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
+    """Stick and slip over the distance from the axis and time.
+
+    Parameters
+    ----------
+    axes
+        Where to draw.
+    dataset
+        From `swtstudy.slip_map`.
+
+    Returns
+    -------
+    handles
+        For a legend of the states.
+    """
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    from matplotlib.patches import Patch
+
+    colours = ListedColormap(_STATE_COLOURS)
+    norm = BoundaryNorm(np.arange(len(_STATE_COLOURS) + 1) - 0.5, colours.N)
+    state = dataset.state.transpose("r", "time")
+    axes.pcolormesh(state.time, state.r, state, cmap=colours, norm=norm, shading="nearest", rasterized=True)
+    axes.plot(dataset.time, dataset.contact_radius, color="black", linewidth=1.2)
+    words = state.attrs["flag_meanings"].split()
+    axes.set_xlabel(r"$\omega_1 t$ in rad")
+    axes.set_ylabel("$r/a_H$")
+    return [
+        Patch(facecolor=colour, edgecolor="black", label=word.replace("_", " "))
+        for word, colour in zip(words, _STATE_COLOURS, strict=True)
+    ]

@@ -1,0 +1,144 @@
+"""swt at points of the body: one contact cycle, all plane orientations (eqs. 9, 15–18)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.critical_plane_3d import (
+    CriticalPlane,
+    highest_coarse_swt,
+    strain_history,
+    swt_of_history,
+)
+from swtstudy.mechanics.field import ContactStates, contact_states
+from swtstudy.mechanics.instants import cosine_nodes, stretches
+from swtstudy.mechanics.plane_ascent import normal_weights
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.swt_line import Scene
+
+#: Parts into which a gap between instants is divided beside an extreme over the cycle.
+_SUBDIVISIONS = 6
+
+
+def scene_of(points: Points) -> Scene:
+    """The contact cycle, profile and material of a batch of one parameter point."""
+    load = points.normal_amplitude, points.tangential_amplitude, points.phase
+    cycle = solve_cycle(Protocol(*load, int(points.p[0]), int(points.q[0])))
+    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    return Scene(cycle, profile, points.poisson_ratio, points.friction)
+
+
+@dataclass(frozen=True)
+class TimeNodes:
+    """Instants of a cycle, each with its interval, shape (T,)."""
+
+    interval: NDArray[np.intp]
+    instant: FloatArray
+
+
+@dataclass(frozen=True)
+class Body:
+    """The elastic half-space under one contact cycle.
+
+    Attributes
+    ----------
+    scene
+        A batch of one point: cycle, profile, ν and μ.
+    states
+        The contact at the instants of the cycle.
+    """
+
+    scene: Scene
+    states: ContactStates
+
+    @classmethod
+    def of(cls, scene: Scene, nodes: TimeNodes, cells: int) -> Body:
+        """The body at the given instants; ``cells`` as for `contact_states`."""
+        return cls(scene, contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, cells))
+
+    def stress(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
+        """Stress history at points of shape S in a_H, shape S + (T, 6), in E* √(δ0/R)."""
+        return self.states.stress(x, y, z, float(self.scene.friction[0]), float(self.scene.poisson_ratio[0]))
+
+    def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
+        """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
+        ν = float(self.scene.poisson_ratio[0])
+        return swt_of_history(self.stress(x, y, z), ν, 1.0 - ν**2)
+
+    def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
+        """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
+        ν = float(self.scene.poisson_ratio[0])
+        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2)
+
+
+def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
+    """Cosine-spaced instants of the cycle, aligned with the events at some radii.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    count
+        Steps on each stretch between two events.
+    radius
+        Shape (X,): distances from the axis in a_H at whose surface the stress has square-root cusps in time,
+        when the contact edge or a slip front passes. Without any, all events but these are nodes.
+    """
+    r = np.asarray(radius, dtype=float).reshape(1, -1)
+    # A spring that never touches sees neither edge nor front.
+    depth = scene.profile.depth(r) if r.size else 2.0 + scene.cycle.protocol.normal_amplitude[:, None]
+    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, depth), count)
+    return _sorted_nodes(scene, nodes.instant[0])
+
+
+def closer_nodes(
+    scene: Scene, nodes: TimeNodes, point: tuple[float, float, float], cells: int, looks: int = 3
+) -> TimeNodes:
+    """The same instants and others around those that make swt at one point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    nodes
+        Instants from which to start.
+    point
+        x, y, z in a_H.
+    cells
+        As for `contact_states`.
+    looks
+        How often the gaps beside the extremes over the cycle are divided.
+    """
+    share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
+    for _ in range(looks):
+        body = Body.of(scene, nodes, cells)
+        stress, normal = body.stress(*point), body.swt(*point).normal
+        strain = strain_history(stress, float(scene.poisson_ratio[0]))
+        on_plane = stress @ normal_weights(normal), strain @ normal_weights(normal)
+        extremes = np.array([on_plane[0].argmax(), on_plane[1].argmax(), on_plane[1].argmin()])
+        left = np.concatenate([extremes - 1, extremes])
+        left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
+        low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
+        nodes = _sorted_nodes(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
+    return nodes
+
+
+def together(scene: Scene, *several: TimeNodes) -> TimeNodes:
+    """All instants of several sets."""
+    return _sorted_nodes(scene, np.concatenate([nodes.instant for nodes in several]))
+
+
+def nodes_at(scene: Scene, instant: FloatArray) -> TimeNodes:
+    """Instants φ in [0, 2π], in any order, with their intervals; two that meet share their stress."""
+    interval = (instant[:, None] > scene.cycle.end[0]).sum(axis=1)
+    return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), instant)
+
+
+def _sorted_nodes(scene: Scene, instant: FloatArray) -> TimeNodes:
+    return nodes_at(scene, np.unique(instant))

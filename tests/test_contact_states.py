@@ -1,0 +1,64 @@
+"""The field on the surface line against the surface formulas: two ways from the memory to the stress."""
+
+import numpy as np
+import pytest
+
+from swtstudy.mechanics.contact import GROWTH, solve_cycle
+from swtstudy.mechanics.field import contact_states
+from swtstudy.mechanics.instants import Nodes
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+
+PROFILES = {
+    "paraboloid": {},
+    "rounded_punch": {"flat_radius": [0.5]},
+    "truncated_paraboloid": {"flat_radius": [0.5]},
+    "wavy_paraboloid": {"waviness_amplitude": [0.05], "wavelength": [20**0.5]},
+}
+# δA/δ0, p, q, uA, ψ: without growth in stick, with one growth, with several that begin at one depth, with
+# lift-off.
+LOADS = {
+    "slip": (0.75, 1, 1, 5 / 6, 0.0),
+    "growth": (0.75, 1, 1, 5 / 6, 1.0),
+    "growths": (0.75, 1, 4, 0.3, 0.5),
+    "lift-off": (1.5, 1, 2, 0.9, 2.0),
+    "constant": (0.0, 1, 1, 0.5, 0.0),
+}
+
+
+def contact(load, name):
+    amplitude, p, q, displacement, phase = LOADS[load]
+    one = (np.array([v]) for v in (amplitude, displacement, phase))
+    shape = {key: np.array(value) for key, value in PROFILES[name].items()}
+    return solve_cycle(Protocol(*one, p, q)), make_profile(name, shape, np.array([1.0 + amplitude]))
+
+
+@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("load", LOADS)
+def test_surface_line(load, name):
+    cycle, profile = contact(load, name)
+    rng = np.random.default_rng(1)
+    interval = rng.integers(0, cycle.begin.shape[1], 30)
+    low, high = cycle.begin[0, interval], cycle.end[0, interval]
+    instant = low + (high - low) * rng.uniform(size=30)
+    # Inside of a flat face, between, and out of contact; not at the ring where the pressure is infinite.
+    r = np.array([0.2, 0.45, 0.6, 0.85, 1.1, 1.4, 1.9])
+    friction, poisson_ratio = 0.4, 0.3
+    states = contact_states(cycle, profile, interval, instant, cells=100)
+    stress = states.stress(np.concatenate([r, -r]), 0.0, 0.0, friction, poisson_ratio)
+
+    line = SurfaceLine(cycle, profile, r[None], 40)
+    every = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
+    history = line.history(Nodes(interval[None], instant[None], every))
+    ν, μ = np.array([poisson_ratio]), np.array([friction])
+    expected = [np.stack(stresses(history, ν, μ, side), axis=-1)[0] for side in (1.0, -1.0)]
+    np.testing.assert_allclose(stress[..., [0, 1, 2, 4]], np.concatenate(expected), rtol=0, atol=1e-5)
+    assert np.abs(stress[..., [3, 5]]).max() == 0.0
+
+
+def test_touch_down_leaves_no_ground_of_rounding():
+    """Where contact was made at δ = 1e-15, ground had grown with the displacement of an earlier instant."""
+    one = (np.array([v]) for v in (1.5, 0.1, 1.0088946151077967))
+    memory = solve_cycle(Protocol(*one, 1, 2)).memory
+    assert (memory.stop[np.isfinite(memory.start) & (memory.slope == GROWTH)] > 1e-3).all()

@@ -1,0 +1,102 @@
+"""The search over all planes."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from swtstudy.mechanics.critical_plane_3d import swt_of_history, swt_on_planes
+from swtstudy.mechanics.hemisphere import hemisphere
+from swtstudy.mechanics.plane_ascent import symmetric_tensor
+
+POISSON = 0.3
+
+
+def smooth_histories(rng, n):
+    t = np.linspace(0, 2 * np.pi, 48, endpoint=False)[:, None]
+    mean, first, second = rng.normal(size=(3, n, 1, 6))
+    return mean + first * np.sin(t) + second * np.sin(2 * t + 1)
+
+
+def rough_histories(rng, n):
+    return rng.normal(size=(n, 48, 6))
+
+
+def compressed_histories(rng, n):
+    stress = smooth_histories(rng, n)
+    stress[..., :3] -= 1.5
+    return stress
+
+
+def rotated(stress, rotations):
+    tensor = np.einsum("nij,ntjk,nlk->ntil", rotations, symmetric_tensor(stress), rotations)
+    return tensor[..., [0, 1, 2, 1, 0, 0], [0, 1, 2, 2, 2, 1]]
+
+
+@pytest.mark.parametrize("histories", [smooth_histories, rough_histories, compressed_histories])
+def test_rotating_a_history_rotates_the_plane_only(histories):
+    stress = histories(np.random.default_rng(2), 300)
+    rotations = Rotation.random(300, random_state=3).as_matrix()
+    swt, normal = swt_of_history(stress, POISSON)
+    swt_rotated, normal_rotated = swt_of_history(rotated(stress, rotations), POISSON)
+    np.testing.assert_allclose(swt_rotated, swt, rtol=1e-11, atol=1e-14)
+    alignment = np.abs(np.einsum("ni,nij,nj->n", normal_rotated, rotations, normal))
+    np.testing.assert_allclose(alignment[swt > 0], 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("histories", [smooth_histories, rough_histories, compressed_histories])
+def test_no_plane_is_higher(histories):
+    stress = histories(np.random.default_rng(4), 60)
+    swt, normal = swt_of_history(stress, POISSON)
+    assert (swt_on_planes(stress, hemisphere(5000), POISSON).max(axis=1) <= swt * (1 + 1e-12)).all()
+    on_its_plane = [swt_on_planes(s, n[None], POISSON)[0] for s, n in zip(stress, normal, strict=True)]
+    np.testing.assert_allclose(on_its_plane, swt, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(np.linalg.norm(normal, axis=1), 1.0)
+
+
+def test_never_less_than_the_search_in_the_plane_of_sliding():
+    angle = np.linspace(-np.pi / 2, np.pi / 2, 2000)
+    in_plane = np.stack([np.cos(angle), 0 * angle, np.sin(angle)], axis=-1)
+    stress = smooth_histories(np.random.default_rng(5), 60)
+    swt, _ = swt_of_history(stress, POISSON)
+    assert (swt_on_planes(stress, in_plane, POISSON).max(axis=1) <= swt * (1 + 1e-12)).all()
+
+
+def test_closed_forms():
+    # Uniaxial, pulsating: the plane normal to the load. Pure compression: no plane opens.
+    pull = np.zeros((3, 6))
+    pull[1:, 1] = 2.0, 1.0
+    swt, normal = swt_of_history(pull, POISSON, youngs_modulus=10.0)
+    assert swt == pytest.approx(0.2)
+    np.testing.assert_allclose(normal, [0, 1, 0], atol=1e-9)
+    assert swt_of_history(-pull, POISSON).swt == 0.0
+    # Alternating shear τ: principal planes at 45°, σ_n = τ, ε_n = ±(1 + ν) τ/E.
+    shear = np.zeros((2, 6))
+    shear[:, 4] = 1.0, -1.0
+    swt, normal = swt_of_history(shear, POISSON)
+    assert swt == pytest.approx(1 + POISSON)
+    np.testing.assert_allclose(np.abs(normal), [np.sqrt(0.5), 0, np.sqrt(0.5)], atol=1e-9)
+
+
+def test_tension_in_a_narrow_cone():
+    """Hydrostatic pressure leaves tension within 2° of an axis that lies between the coarse planes."""
+    axis = Rotation.from_euler("xyz", [0.3, 0.2, 0.1]).as_matrix()[None]
+    stress = np.zeros((1, 2, 6))
+    stress[0, 0, :3] = 1.0 - np.cos(np.radians(2.0)) ** 2, -1.0, -1.0
+    stress[0, 0, 0] = np.sin(np.radians(2.0)) ** 2
+    stress[0, 0, 1:3] = -(np.cos(np.radians(2.0)) ** 2)
+    swt, normal = swt_of_history(rotated(stress, axis), POISSON)
+    assert swt[0] > 0
+    assert abs(normal[0] @ axis[0][:, 0]) > np.cos(np.radians(2.0))
+
+
+def test_batch_axes_are_kept():
+    stress = smooth_histories(np.random.default_rng(6), 6).reshape(2, 3, 48, 6)
+    swt, normal = swt_of_history(stress, POISSON)
+    assert swt.shape == (2, 3)
+    assert normal.shape == (2, 3, 3)
+
+
+def test_hemisphere_has_no_plane_twice():
+    normals = hemisphere(256)
+    closeness = np.abs(normals @ normals.T) - 2 * np.eye(256)
+    assert closeness.max() < np.cos(np.radians(4))

@@ -1,0 +1,121 @@
+"""Labelled fields of one parameter point against s and against one another."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from ContactMechanics.ReferenceSolutions import Hertz
+
+import swtstudy
+from swtstudy.mechanics.body import scene_of
+from swtstudy.mechanics.body_maximum import body_maximum
+from swtstudy.mechanics.points import Points
+
+
+def test_stress_field_has_the_dimensions_of_its_positions():
+    grid = swtstudy.stress_field(x=[-1.0, 0.0, 1.0], y=0.0, z=[0.0, 0.5], time=[0.0, 1.0])
+    assert grid.sigma_xx.dims == ("time", "x", "z")
+    assert grid.sigma_xx.shape == (2, 3, 2)
+    assert grid.y.ndim == 0
+    line = xr.DataArray(np.linspace(0, 1, 5), dims="point")
+    points = swtstudy.stress_field(line, 0.1, line, frequency_ratio="3/2")
+    assert points.sigma_xz.dims == ("time", "point")
+    assert points.time.values[-1] < 4 * np.pi
+    assert swtstudy.stress_field(0, 0, 1, time=0.3).sigma_zz.ndim == 0
+
+
+def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():
+    x, y, z = np.meshgrid([-1.2, 0.4], [0.3, 0.9], [0.1, 0.7], indexing="ij")
+    field = swtstudy.stress_field(
+        [-1.2, 0.4], [0.3, 0.9], [0.1, 0.7], time=1.0, normal_amplitude=0, tangential_amplitude=0
+    )
+    expected = np.array(Hertz.stress_Cartesian(x, y, z, 0.3)) * 2 / np.pi
+    for name, component in zip(("xx", "yy", "zz", "yz", "xz", "xy"), expected, strict=True):
+        np.testing.assert_allclose(field[f"sigma_{name}"], component, atol=1e-13)
+    assert float(field.contact_radius) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ({"z": -1}, "depths"),
+        ({"x": [[1]]}, "a sequence"),
+        ({"y": np.nan}, "finite"),
+        ({"time": []}, "time"),
+        ({"friction": [0.1, 0.2]}, "friction"),
+        ({"fricton": 0.1}, "friction"),
+    ],
+)
+def test_bad_input_is_named(place, words):
+    with pytest.raises(ValueError, match=words):
+        swtstudy.stress_field(**{"x": 0, "y": 0, "z": 0, **place})
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {},
+        {"phase": 1.0, "frequency_ratio": "3/2"},
+        {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 2.0},
+        {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5, "phase": 2.0},
+    ],
+)
+def test_swt_field_at_the_critical_point_is_s(parameters):
+    solved = swtstudy.solve(**parameters)
+    # The solver may mirror x by symmetry of the cycle, the field has the point as it stands.
+    field = swtstudy.swt_field(solved.critical_x.item(), 0.0, 0.0, **parameters)
+    assert float(field.swt) == pytest.approx(float(solved.s), rel=3e-3)
+    tilt = np.degrees(np.arctan(float(field.normal_z / field.normal_x)))
+    assert tilt == pytest.approx(float(solved.critical_angle), abs=1.5)
+
+
+def test_slip_map():
+    radius = np.linspace(0.0, 1.5, 40)
+    states = swtstudy.slip_map(radius, time=np.linspace(0.0, 6.0, 30), phase=0.5)
+    assert ((states.state == 0) == (states.r > states.contact_radius)).all()
+    assert ((states.state == 1) == (states.r < states.slip_radius)).all()
+    # In slip the traction is μ p, against the sense of the drag.
+    field = swtstudy.stress_field(radius[1:], 0.0, 0.0, time=states.time, phase=0.5)
+    for flag, sign in ((2, 1.0), (3, -1.0)):
+        slips = (states.state.values == flag)[:, 1:]
+        np.testing.assert_allclose(
+            field.sigma_xz.values[slips], 0.3 * sign * field.sigma_zz.values[slips], atol=1e-6
+        )
+
+
+def test_nonlocal_values_tend_to_s():
+    dataset = swtstudy.nonlocal_swt([1e-8, 0.02, 0.1], friction=[0.2, 0.4])
+    assert dataset.s_volume.dims == ("friction", "critical_distance")
+    assert dataset.s_line.dims == ("friction", "critical_distance", "direction")
+    for name in ("s_volume", "s_point", "s_line"):
+        values = dataset[name]
+        near = values.isel(critical_distance=0)
+        np.testing.assert_allclose(near, dataset.s.broadcast_like(near), rtol=1e-3)
+        assert (values.diff("critical_distance") < 0).all()
+    with pytest.raises(ValueError, match="critical_distance"):
+        swtstudy.nonlocal_swt(0.0)
+
+
+def one_point(**changes):
+    values = {
+        "poisson_ratio": 0.3,
+        "friction": 0.3,
+        "normal_amplitude": 0.5,
+        "tangential_amplitude": 0.1,
+        "phase": 0.6,
+    } | changes
+    arrays = {name: np.array([value]) for name, value in values.items()}
+    return Points("paraboloid", p=np.array([1]), q=np.array([1]), **arrays)
+
+
+def test_maximum_of_the_body():
+    """At Table 1's ν on the surface line; for an incompressible body off it, at the edge of the contact."""
+    for ν, off in ((0.3, False), (0.5, True)):
+        solved = swtstudy.solve(
+            poisson_ratio=ν, normal_amplitude=0.5, tangential_amplitude=0.1, phase=0.6, rtol=1e-5
+        )
+        scene = scene_of(one_point(poisson_ratio=ν))
+        found, at_line = body_maximum(scene, float(solved.critical_x))
+        assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-4)
+        assert found.position[2] == 0.0
+        assert (abs(found.position[1]) > 0.1) == off
+        assert (found.swt > 1.005 * float(solved.s)) == off
