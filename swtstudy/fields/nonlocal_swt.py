@@ -38,7 +38,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     xarray.Dataset
         That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
         s_line over these and direction: straight down, or along the critical plane into the body. Averages
-        are accurate to about 1e-3.
+        are accurate to about 5e-3.
     """
     distance = np.atleast_1d(np.asarray(critical_distance, dtype=float))
     if distance.ndim != 1 or not np.isfinite(distance).all() or (distance <= 0.0).any():

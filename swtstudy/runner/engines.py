@@ -74,8 +74,9 @@ class LocalWorkers:
         self._pool = start_workers(self.count)
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        self._pool.shutdown(wait=kind is None, cancel_futures=True)
+    def __exit__(self, *_: object) -> None:
+        # Workers end while the archive is written.
+        self._pool.shutdown(wait=False, cancel_futures=True)
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
         """See `Engine`; a lost worker is replaced, and what it had in hand is given out again."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from swtstudy.runner.chunk import Result
 
 #: Seconds of work in a chunk: long against what it costs to send one, short enough to lose.
-CHUNK_SECONDS = 0.4
+CHUNK_SECONDS = 0.7
 
 #: More than this in one chunk would make a part of the archive that takes long to write.
 _LARGEST_WEIGHT = 10_000
