@@ -66,6 +66,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
     """Indices of points with the same frequency ratio and roughness, neighbouring loads together."""
+    if not len(points):
+        return
     level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
     loads = points.phase, points.tangential_amplitude, points.normal_amplitude
     order = np.lexsort((*loads, level, points.p, points.q))
