@@ -20,7 +20,7 @@ from swtstudy.mechanics.swt_line import Scene
 
 #: Angles between the line and the y axis that are looked at.
 _ANGLES = np.linspace(0.0, 0.5 * np.pi, 25)
-_TIME_STEPS, _GROWTH_NODES = 4, 16
+_TIME_STEPS, _DIGITS = 4, 5.5
 
 
 def circle_gain(scene: Scene, position: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -40,7 +40,7 @@ def circle_gain(scene: Scene, position: FloatArray) -> tuple[FloatArray, FloatAr
         from the line; over all plane orientations.
     """
     r = np.abs(position)[:, None]
-    line = SurfaceLine(scene.cycle, scene.profile, r, _GROWTH_NODES)
+    line = SurfaceLine(scene.cycle, scene.profile, r, _DIGITS)
     nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, scene.profile.depth(r)), _TIME_STEPS)
     history = line.history(nodes)
     gain, angle = np.zeros(len(position)), np.zeros(len(position))
