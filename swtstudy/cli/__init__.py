@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import signal
 import sys
 from typing import Any
 
@@ -38,6 +39,7 @@ class _Commands(click.Group):
                 click.echo(f"Error: {line}", err=True)
             sys.exit(BAD_INPUT)
         except KeyboardInterrupt as error:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C while we are ending anyway
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
 
