@@ -83,7 +83,7 @@ def test_slip_map():
 
 
 def test_nonlocal_values_tend_to_s():
-    dataset = swtstudy.nonlocal_swt([1e-8, 0.02, 0.1], friction=[0.2, 0.4])
+    dataset = swtstudy.nonlocal_swt([1e-8, 0.05], friction=[0.4])
     assert dataset.s_volume.dims == ("friction", "critical_distance")
     assert dataset.s_line.dims == ("friction", "critical_distance", "direction")
     for name in ("s_volume", "s_point", "s_line"):
@@ -108,14 +108,13 @@ def one_point(**changes):
 
 
 def test_maximum_of_the_body():
-    """At Table 1's ν on the surface line; for an incompressible body off it, at the edge of the contact."""
-    for ν, off in ((0.3, False), (0.5, True)):
-        solved = swtstudy.solve(
-            poisson_ratio=ν, normal_amplitude=0.5, tangential_amplitude=0.1, phase=0.6, rtol=1e-5
-        )
-        scene = scene_of(one_point(poisson_ratio=ν))
-        found, at_line = body_maximum(scene, float(solved.critical_x))
-        assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-4)
-        assert found.position[2] == 0.0
-        assert (abs(found.position[1]) > 0.1) == off
-        assert (found.swt > 1.005 * float(solved.s)) == off
+    """For an incompressible body and a narrow slip zone it is off the line, at the edge of the contact."""
+    solved = swtstudy.solve(
+        poisson_ratio=0.5, normal_amplitude=0.5, tangential_amplitude=0.1, phase=0.6, rtol=1e-5
+    )
+    found, at_line = body_maximum(scene_of(one_point(poisson_ratio=0.5)), float(solved.critical_x))
+    assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-4)
+    assert found.position[2] == 0.0
+    assert np.hypot(*found.position[:2]) == pytest.approx(abs(float(solved.critical_x)), rel=1e-3)
+    assert abs(found.position[1]) > 0.1
+    assert found.swt > 1.005 * float(solved.s)
