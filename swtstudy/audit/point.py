@@ -29,8 +29,9 @@ class Finding:
 
     Attributes
     ----------
-    s, critical_x, regime
-        The solver's: the surface line's maximum, where it is, and the regime's name.
+    s, s_surface, critical_x, regime
+        The solver's: the surface line's maximum, that on the circle through the critical point, where the
+        former is, and the regime's name.
     s_all_planes
         swt at that place over all plane orientations, by the field of the body.
     s_body
@@ -40,6 +41,7 @@ class Finding:
     """
 
     s: float
+    s_surface: float
     critical_x: float
     regime: str
     s_all_planes: float
@@ -51,6 +53,11 @@ class Finding:
     def excess(self) -> float:
         """By how much the body's maximum exceeds s, relative."""
         return self.s_body / self.s - 1.0 if self.s != 0.0 else float(self.s_body > 0.0)
+
+    @property
+    def remainder(self) -> float:
+        """By how much it exceeds s_surface, relative."""
+        return self.s_body / self.s_surface - 1.0 if self.s_surface != 0.0 else float(self.s_body > 0.0)
 
     @property
     def verdict(self) -> str:
@@ -72,10 +79,10 @@ def audit_point(row: Sequence[float]) -> Finding:
     points = points_from(np.array([row]))
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
-    regime = REGIMES[int(line.regime[0])]
+    solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
     if not np.isfinite(s):
-        return Finding(s, x, regime, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+        return Finding(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)
-    return Finding(s, x, regime, float(at_line.swt), body.swt, body.position, body.normal)
+    return Finding(*solved, float(at_line.swt), body.swt, body.position, body.normal)

@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 _LENGTH = "in units of a_H = sqrt(R delta0)"
 _MEANINGS = {
     "s": "maximum of swt/SWT0 on the surface line, by the solver",
+    "s_surface": "maximum of swt/SWT0 on the circle through the critical point, by the solver",
     "critical_x": f"where that is, {_LENGTH}",
     "s_all_planes": "swt/SWT0 there over all plane orientations",
     "s_body": "maximum of swt/SWT0 in the body over all plane orientations",
     "excess": "s_body/s - 1",
+    "remainder": "s_body/s_surface - 1",
     **{f"body_{axis}": f"position of the body's maximum, {_LENGTH}" for axis in "xyz"},
     **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
 }
+_SCALARS = ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "excess", "remainder")
 
 
 def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Dataset:
@@ -47,7 +50,7 @@ def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Datase
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
     names = np.array([PROFILES[int(code)] for code in rows[:, COLUMNS.index("profile")]], dtype=object)
     coordinates["profile"] = ("sample", names)
-    columns = {name: np.array([getattr(f, name) for f in findings], float) for name in list(_MEANINGS)[:5]}
+    columns = {name: np.array([getattr(f, name) for f in findings], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
         values = np.array([getattr(f, group) for f in findings], float).reshape(-1, 3)
         columns |= {f"{prefix}_{label}": column for label, column in zip("xyz", values.T, strict=True)}
@@ -85,19 +88,22 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     return dataset
 
 
+def canonical_rows(dataset: xr.Dataset) -> FloatArray:
+    """The audited canonical points, shape (n, len(COLUMNS))."""
+    codes = [PROFILES.index(name) for name in dataset["profile"].values]
+    columns = [codes if name == "profile" else dataset[name].values for name in COLUMNS]
+    return np.stack(columns, axis=-1).astype(float)
+
+
 def read_findings(dataset: xr.Dataset) -> dict[tuple[float, ...], Finding]:
     """The findings of an audit by their canonical rows."""
-    values = {name: dataset[name].values for name in [*COLUMNS, *_MEANINGS]}
-    values["profile"] = np.array([PROFILES.index(name) for name in values["profile"]], float)
-    rows = np.stack([values[name] for name in COLUMNS], axis=-1)
+    values = {name: dataset[name].values for name in _MEANINGS}
     findings = {}
-    for i, row in enumerate(map(tuple, rows.tolist())):
+    for i, row in enumerate(map(tuple, canonical_rows(dataset).tolist())):
         position, normal = (
             np.array([values[f"{prefix}_{axis}"][i] for axis in "xyz"]) for prefix in ("body", "normal")
         )
-        s, x, s_all_planes, s_body = (
-            float(values[name][i]) for name in ("s", "critical_x", "s_all_planes", "s_body")
-        )
+        s, s_surface, x, s_all_planes, s_body = (float(values[name][i]) for name in _SCALARS[:5])
         regime = REGIMES[int(dataset["regime"].values[i])]
-        findings[row] = Finding(s, x, regime, s_all_planes, s_body, position, normal)
+        findings[row] = Finding(s, s_surface, x, regime, s_all_planes, s_body, position, normal)
     return findings

@@ -12,8 +12,8 @@ import numpy as np
 
 from swtstudy.mechanics.body import (
     Body,
-    TimeNodes,
     Spells,
+    TimeNodes,
     closer_nodes,
     decisive_spells,
     time_nodes,
@@ -37,7 +37,8 @@ _SUMMITS = 3
 #: share once their instants resolve the cycle, nor further below the third.
 _PROMISING, _WORTHY, _NEAR = 0.75, 0.9, 0.97
 _ROUNDS = 8
-#: The search keeps so far from the edge of a flat face, in the largest contact radius.
+#: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
+#: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
 _RING = 1e-3
 
 
@@ -60,6 +61,25 @@ class BodyMaximum:
     normal: FloatArray
 
 
+@dataclass(frozen=True)
+class _Search:
+    """Where the maximum is looked for.
+
+    Attributes
+    ----------
+    scene
+        A batch of one point.
+    largest
+        Largest contact radius of the cycle.
+    ring
+        Half the width of the ring around the edge of a flat face that is left out.
+    """
+
+    scene: Scene
+    largest: float
+    ring: float
+
+
 def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlane]:
     """Largest swt over the body, and swt over all planes at the surface line's critical point.
 
@@ -77,7 +97,9 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     """
     largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    place = _climb(scene, np.concatenate([own[None], _first_look(scene, own, largest)]), largest)
+    flat = float(scene.profile.flat_radius[0])
+    search = _Search(scene, largest, min(_RING * largest, 0.9 * abs(own[0] - flat)))
+    place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
     both = np.stack([place, own])
     distinct = both[: 1 + bool(np.any(place != own))]
     nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
@@ -95,12 +117,13 @@ def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spe
     return closer_nodes(scene, spells.of(nodes), point, _CELLS, looks), spells
 
 
-def _first_look(scene: Scene, own: FloatArray, largest: float) -> FloatArray:
+def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
+    scene, largest = search.scene, search.largest
     grid = np.stack(
         np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
     ).reshape(-1, 3)
-    grid = _off_ring(scene, grid, largest)
+    grid = _off_ring(search, grid)
     swt = Body.of(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= _PROMISING * swt.max())]:
@@ -124,12 +147,12 @@ def _radii(scene: Scene, largest: float) -> FloatArray:
     return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
 
-def _climb(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
+def _climb(search: _Search, places: FloatArray) -> FloatArray:
     """The highest of the summits to which a pattern search leads from each of the places, shape (3,)."""
-    resolved = [_closer(scene, place, looks=1) for place in places]
+    resolved = [_closer(search.scene, place, looks=1) for place in places]
     height = np.array(
         [
-            Body.of(scene, nodes, _CELLS).swt(*_cartesian(place)).swt
+            Body.of(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
             for (nodes, _), place in zip(resolved, places, strict=True)
         ]
     )
@@ -137,21 +160,23 @@ def _climb(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
     for start in np.argsort(-height):
         if height[start] < _WORTHY * highest:
             break
-        summit, swt = _climb_from(scene, places[start], largest, *resolved[start], highest)
+        nodes, spells = resolved[start]
+        summit, swt = _climb_from(search, places[start], nodes, spells, highest)
         if swt > highest * (1.0 + 1e-9):
             best, highest = summit, swt
     return best
 
 
 def _climb_from(
-    scene: Scene, place: FloatArray, largest: float, sharp: TimeNodes, spells: Spells, rival: float
+    search: _Search, place: FloatArray, sharp: TimeNodes, spells: Spells, rival: float
 ) -> tuple[FloatArray, float]:
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    steps = _FIRST_STEPS * np.array([largest, 1.0, largest])
+    scene = search.scene
+    steps = _FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
     height = 0.0
     for _ in range(_ROUNDS):
-        trial = _off_ring(scene, _folded(place + steps * stencil), largest)
+        trial = _off_ring(search, _folded(place + steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
         # The trials have three radii, at each of which the stress has its own cusps in time.
@@ -170,9 +195,9 @@ def _climb_from(
     return place, height
 
 
-def _off_ring(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
-    """Places moved away from the edge of a flat face, where a profile's slope can be infinite."""
-    b, near = float(scene.profile.flat_radius[0]), _RING * largest
+def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
+    """Places moved away from the edge of a flat face."""
+    b, near = float(search.scene.profile.flat_radius[0]), search.ring
     if b == 0.0:
         return places
     offset = places[..., 0] - b

@@ -13,6 +13,7 @@ make swt on the line make it on the circle.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.critical_plane_3d import strain_history
 from swtstudy.mechanics.gather import gather
@@ -31,7 +32,9 @@ _CLOSER = np.linspace(-1.0, 1.0, 9)[None] * _ANGLES[1]
 _TIME_STEPS, _GROWTH_NODES = 4, 16
 
 
-def circle_gain(scene: Scene, position: FloatArray, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+def circle_gain(
+    scene: Scene, position: FloatArray, double_angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """By how much swt on the circle through the line's maximum exceeds swt on the line.
 
     Parameters
@@ -56,7 +59,7 @@ def circle_gain(scene: Scene, position: FloatArray, double_angle: FloatArray) ->
         history, normal = _decisive_history(some, position[rows], double_angle[rows])
         swt = _on_circle(some, history, normal, np.broadcast_to(_ANGLES, (rows.size, _ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
-        off = np.flatnonzero(best)
+        off = np.flatnonzero((best > 0) & (base > 0.0))
         if off.size:
             near = _ANGLES[best[off], None] + _CLOSER
             found = _on_circle(some.take(off), _taken(history, off), normal[off], near)
@@ -140,5 +143,5 @@ def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatA
     return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)
 
 
-def _taken(history: History, rows: np.ndarray) -> History:
+def _taken(history: History, rows: NDArray[np.intp]) -> History:
     return History(**{name: values[rows] for name, values in vars(history).items()})
