@@ -20,10 +20,11 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     looked for. What is there already is not audited again.
     """
     from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.audit import AUDIT_PREFIX
     from swtstudy.study.several import read_studies
 
     defined = read_studies(studies)
-    targets = {source: Path(results) / f"audit_{Path(source).stem}.nc" for source in defined}
+    targets = {source: Path(results) / f"{AUDIT_PREFIX}{Path(source).stem}.nc" for source in defined}
     for target in targets.values():
         check_writable(target)
 
