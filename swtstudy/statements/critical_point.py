@@ -41,9 +41,9 @@ def on_the_line(audit: xr.Dataset) -> Finding:
     left = off | beneath | oblique
     share = 1.0 - float(left.mean())
     measured = (
-        f"at {share:.1%} of {len(verdict)} random points of all parameters the worst of all points and planes "
-        f"is on the line; beneath the surface {beneath.sum()}, on an oblique plane {oblique.sum()}, on the "
-        f"surface off the line {off.sum()}"
+        f"at {share:.1%} of {len(verdict)} random points of all parameters the worst of all points and "
+        f"planes is on the line; beneath the surface {beneath.sum()}, on an oblique plane {oblique.sum()}, "
+        f"on the surface off the line {off.sum()}"
     )
     if left.any():
         finite = audit.isel(sample=np.isfinite(audit.excess.values))
