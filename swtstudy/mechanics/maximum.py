@@ -25,7 +25,7 @@ FIRST_WIDTH, SHRINKING = 0.25, 0.2
 WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
 #: Share of the last round's change that the next one would make at most.
-CHANGE_SHARE = 0.1
+CHANGE_SHARE = 0.03
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
 SETTLED, LEAST_ERROR = 0.3, 0.1
 #: Values closer than this are equal, relative.
