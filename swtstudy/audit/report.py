@@ -82,18 +82,12 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
     for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_NAMED]:
         yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i])}"
     away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)[finite]
-    normal_y = np.abs(dataset["normal_y"].values[finite & ~exceeded])
     yield ""
     yield (
         "At the line's maximum the solver and the field beneath the contact, two ways to one value, differ "
         f"by {np.median(away):.0e} (median), {np.quantile(away, 0.99):.0e} (99 %), "
         f"{away.max():.0e} (largest)."
     )
-    if len(normal_y):
-        yield (
-            f"Where the line has the maximum, the normal of the worst of all planes has a y component of at "
-            f"most {normal_y.max():.0e}."
-        )
 
 
 def _shares(
