@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -52,10 +53,15 @@ _HOMES = {
     "swt_of_history": "swtstudy.mechanics.critical_plane_3d",
 }
 
+#: What gives Datasets of results, which then have the accessor ``swt``.
+_GIVE_RESULTS = ("open_results", "run", "run_suite", "solve")
+
 
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name in _GIVE_RESULTS:
+        importlib.import_module("swtstudy.accessor")
     value = getattr(importlib.import_module(_HOMES[name]), name)
     globals()[name] = value  # also replaces the submodule of the same name
     return value
@@ -63,3 +69,7 @@ def __getattr__(name: str) -> object:
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *_HOMES])
+
+
+if "xarray" in sys.modules:
+    importlib.import_module("swtstudy.accessor")  # costs nothing then

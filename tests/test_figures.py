@@ -6,9 +6,10 @@ import pytest
 import stand_in
 
 from swtstudy import Study, run
-from swtstudy.figures.draw import draw, quantity
+from swtstudy.figures.draw import draw
 from swtstudy.figures.save import save_figure
 from swtstudy.figures.words import value_words
+from swtstudy.results.normalise import normalised
 from swtstudy.study.figure import FigureLayout
 
 PANELS = """
@@ -77,12 +78,12 @@ def test_other_endings_are_refused(panels, tmp_path):
 def test_what_cannot_be_drawn_is_refused(panels):
     with pytest.raises(ValueError, match="not a dimension"):
         draw(panels, FigureLayout(x="friction"))
-    with pytest.raises(ValueError, match="has no figure"):
+    with pytest.raises(ValueError, match="no figure"):
         draw(panels.drop_attrs())
 
 
 def test_the_reference_of_a_normalised_quantity(panels):
-    ratio = quantity(panels, "s/s(flat_radius=0)")
+    ratio = normalised(panels, "s/s(flat_radius=0)")
     np.testing.assert_allclose(ratio * panels.s.isel(flat_radius=0), panels.s)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from swtstudy.figures.words import axis_words, parameter_words, pi_words, value_words
 from swtstudy.parameters import PARAMETERS
+from swtstudy.results.normalise import normalised
 from swtstudy.study.figure import FigureLayout, reference
 
 if TYPE_CHECKING:
@@ -50,9 +52,13 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
     layout = layout or layout_of(dataset)
-    for role, name in layout.roles():
+    roles = dict(layout.roles())
+    for role, name in roles.items():
         if name not in dataset.s.dims:
             raise ValueError(f"the figure's {role} is {name}, which is not a dimension of these results")
+    spare = [str(name) for name in dataset.s.dims if name not in roles.values()]
+    if spare:
+        raise ValueError(f"the figure has no place for {', '.join(spare)}: slice these results first")
     columns = _slices(dataset, layout.panels)
     rows = len(layout.y)
     width = _PANEL_WIDTH * len(columns) + (_LEGEND_WIDTH if layout.hue else 0)
@@ -76,21 +82,18 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
 
 
 def layout_of(dataset: xr.Dataset) -> FigureLayout:
-    """The layout of the figure that the study of these results asks for."""
+    """The layout of the figure that the study of these results asks for, without dimensions sliced away.
+
+    Raises
+    ------
+    ValueError
+        If the results come from no study, or from one without a figure.
+    """
     if "figure" not in dataset.attrs:
-        raise ValueError("the study of these results has no figure")
-    return FigureLayout.from_json(dataset.attrs["figure"])
-
-
-def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
-    """s, or s over its value at the place that `y` names, e.g. "s/s(flat_radius=0)"."""
-    place = reference(y)
-    if place is None:
-        return dataset.s
-    name, value = place
-    if isinstance(value, str):
-        return dataset.s / dataset.s.sel({name: value}, drop=True)
-    return dataset.s / dataset.s.sel({name: float(value)}, method="nearest", drop=True)
+        raise ValueError("these results have no figure of a study; allowed: a layout of your own")
+    layout = FigureLayout.from_json(dataset.attrs["figure"])
+    hue, panels = (None if name not in dataset.dims else name for name in (layout.hue, layout.panels))
+    return replace(layout, hue=hue, panels=panels)
 
 
 def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
@@ -98,7 +101,7 @@ def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
 
 
 def _draw_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> None:
-    curves = quantity(panel, y)
+    curves = normalised(panel, y)
     for index in range(curves.sizes[layout.hue] if layout.hue else 1):
         curve, words = curves, None
         if layout.hue:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import unicodedata
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
@@ -11,7 +12,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Report
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import literal, nearest
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import LETTERS, PARAMETERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -29,7 +30,8 @@ class FigureLayout:
     panels
         Dimension whose values are the panels side by side, or None for one panel.
     y
-        One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.
+        One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place; the paper's
+        letter may stand for the name.
     title
         Title over the figure, or None.
     """
@@ -70,6 +72,8 @@ def reference(y: str) -> tuple[str, Value] | None:
     --------
     >>> reference("s/s(flat_radius=0)")
     ('flat_radius', 0.0)
+    >>> reference("s/s(b=0)")
+    ('flat_radius', 0.0)
     """
     if y.strip() == "s":
         return None
@@ -77,6 +81,7 @@ def reference(y: str) -> tuple[str, Value] | None:
     if match is None:
         raise ValueError("not a quantity")
     name, raw = match.groups()
+    name = LETTERS.get(unicodedata.normalize("NFKC", name), name)  # a keyboard's µ is not the letter μ
     if name not in PARAMETERS:
         raise ValueError(f"unknown parameter {name}")
     return name, read_value(PARAMETERS[name], raw.strip())
