@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.figures.style import Style, styled
 from swtstudy.figures.words import axis_words, parameter_words, pi_words, value_words
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.normalise import normalised
@@ -19,15 +20,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Okabe and Ito's colours, told apart with any colour vision, darkest first; without the yellow.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00")
-#: As many as colours have in common no factor with, so that no pair repeats early.
-STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
+#: Markers, where a line has them, are so far apart, as a share of the panel's diagonal.
+_MARK_EVERY = 0.1
 
 _PANEL_WIDTH, _PANEL_HEIGHT, _LEGEND_WIDTH = 4.0, 3.2, 1.5
 
 
-def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
+def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style | None = None) -> Figure:
     """Draw the figure of an archive.
 
     Parameters
@@ -36,6 +35,9 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
         Results, as from `open_results`.
     layout
         What goes where; that of the archive if not given.
+    style
+        A matplotlib style of one's own: a name, a file or rcParams. Without one the look is that of
+        `swtstudy.figures.style`, but for rcParams that are not matplotlib's own any more.
 
     Returns
     -------
@@ -48,9 +50,6 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
     ValueError
         If the archive has no figure, or lacks a dimension of it.
     """
-    from matplotlib.figure import Figure
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
     layout = layout or layout_of(dataset)
     roles = dict(layout.roles())
     for role, name in roles.items():
@@ -59,6 +58,14 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
     spare = [str(name) for name in dataset.s.dims if name not in roles.values()]
     if spare:
         raise ValueError(f"the figure has no place for {', '.join(spare)}: slice these results first")
+    with styled(style):
+        return _draw_rows(dataset, layout)
+
+
+def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
     columns = _slices(dataset, layout.panels)
     rows = len(layout.y)
     width = _PANEL_WIDTH * len(columns) + (_LEGEND_WIDTH if layout.hue else 0)
@@ -112,16 +119,13 @@ def _draw_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> 
         axes.plot(
             curve[layout.x].values[order],
             curve.values[order],
-            color=COLOURS[index % len(COLOURS)],
-            linestyle=STYLES[index % len(STYLES)],
-            linewidth=1.6,
             label=words,
+            markevery=_MARK_EVERY,
         )
     x = panel[layout.x].values
     axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
-    axes.grid(color="0.9", linewidth=0.6)
     if PARAMETERS[layout.x].units == "rad":
-        _tick_in_pi(axes, float(x.min()), float(x.max()))
+        tick_in_pi(axes, float(x.min()), float(x.max()))
 
 
 def _head_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int, count: int) -> None:
@@ -147,7 +151,7 @@ def _quantity_words(y: str) -> str:
     return f"$s$ / $s$({_short_name(name)}{words})"
 
 
-def _tick_in_pi(axes: Axes, low: float, high: float) -> None:
+def tick_in_pi(axes: Axes, low: float, high: float) -> None:
     """Ticks at multiples of π/2, or coarser ones over a long range."""
     span = (high - low) / math.pi
     step = next((step for step in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / step <= 6), None)
