@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.figures.style import Style
+
 
 @xr.register_dataset_accessor("swt")
 class SwtAccessor:
@@ -33,14 +35,14 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
-    def figure(self) -> Figure:
+    def figure(self, style: Style | None = None) -> Figure:
         """The figure that the study asks for; see `swtstudy.figures.draw.draw`.
 
         A dimension that has been sliced away leaves its place in the layout.
         """
         from swtstudy.figures.draw import draw
 
-        return draw(self._dataset)
+        return draw(self._dataset, style=style)
 
     def panels(
         self,
@@ -49,13 +51,16 @@ class SwtAccessor:
         panels: str | None = None,
         y: str | list[str] = "s",
         title: str | None = None,
+        kind: str = "lines",
+        vertical: str | None = None,
+        style: Style | None = None,
     ) -> Figure:
         """A figure of one's own: the same keys as in a study's ``[figure]``."""
         from swtstudy.figures.draw import draw
         from swtstudy.study.figure import FigureLayout
 
         rows = (y,) if isinstance(y, str) else tuple(y)
-        return draw(self._dataset, FigureLayout(x, hue, panels, rows, title))
+        return draw(self._dataset, FigureLayout(x, hue, panels, rows, title, kind, vertical), style)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
         """The part at given values; see `swtstudy.results.select.slice_at`."""

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.fields.inspection import inspect_point
-from swtstudy.figures.draw import tick_in_pi
 from swtstudy.figures.maps import draw_slip_map
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.words import parameter_words, value_words
+from swtstudy.figures.words import place_words, tick_in_pi, value_words
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 
@@ -89,11 +88,7 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 def _headline(dataset: xr.Dataset) -> str:
     profile = str(dataset.profile.item())
     names = [*PROFILE_SHAPES[profile], *(n for n, p in PARAMETERS.items() if p.default is not None)]
-    values = [
-        f"{parameter_words(name)} = {value_words(name, dataset[name].item())}"
-        for name in names
-        if name != "profile"
-    ]
+    values = [place_words(name, dataset[name].item()) for name in names if name != "profile"]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if not math.isfinite(float(dataset.s)):
@@ -292,5 +287,5 @@ def _mark(axes: Axes, number: int, x: float, y: float, **options: Any) -> None:
 def _time_axis(axes: Axes, dataset: xr.Dataset) -> None:
     end = float(dataset.time[-1])
     axes.set_xlim(0.0, end)
-    tick_in_pi(axes, 0.0, end)
+    tick_in_pi(axes.xaxis, 0.0, end)
     axes.set_xlabel(r"$\omega_1 t$")
