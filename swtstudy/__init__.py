@@ -21,9 +21,12 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.suite import run_suite
+    from swtstudy.units.contact import physical
+    from swtstudy.units.life import FatigueConstants
 
 __version__ = "0.1.0"
 __all__ = [
+    "FatigueConstants",
     "Study",
     "StudyError",
     "__version__",
@@ -32,6 +35,7 @@ __all__ = [
     "inspect_point",
     "nonlocal_swt",
     "open_results",
+    "physical",
     "run",
     "run_suite",
     "slip_map",
@@ -43,6 +47,7 @@ __all__ = [
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
+    "FatigueConstants": "swtstudy.units.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "audit_study": "swtstudy.audit.audit",
@@ -50,6 +55,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.read",
+    "physical": "swtstudy.units.contact",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "slip_map": "swtstudy.fields.slip",
