@@ -53,8 +53,18 @@ def evaluate(series: FloatArray, y: FloatArray) -> FloatArray:
     y
         Abscissae in [−1, 1].
     """
+    if series.shape[-1] < 3:
+        return np.asarray(series[..., 0] + y * series[..., 1])
     twice = 2.0 * y
-    later, latest = series[..., -1], np.zeros(())
-    for k in range(series.shape[-1] - 2, 0, -1):
-        later, latest = series[..., k] + twice * later - latest, later
-    return np.asarray(series[..., 0] + y * later - latest)
+    latest = np.broadcast_to(series[..., -1], np.broadcast_shapes(series.shape[:-1], y.shape)).copy()
+    later = series[..., -2] + twice * latest
+    spare = np.empty_like(later)
+    for k in range(series.shape[-1] - 3, 0, -1):
+        np.multiply(twice, later, out=spare)
+        spare -= latest
+        spare += series[..., k]
+        latest, later, spare = later, spare, latest
+    np.multiply(y, later, out=spare)
+    spare -= latest
+    spare += series[..., 0]
+    return spare

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.contact import Cycle, solve_cycle
 from swtstudy.mechanics.maximum import Accuracy, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
 from swtstudy.mechanics.profiles import Profile, make_profile, resolved_shape, roughness
@@ -17,6 +17,8 @@ from swtstudy.mechanics.swt_line import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
 BATCH_SIZE = 1600
+#: So many batches may share the contact solutions that are held at a time.
+SHARING = 8
 #: Distance from a singular edge, in a tenth of the contact's width, at which a maximum is given up.
 NEAR_SINGULARITY = 1e-5
 
@@ -42,9 +44,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     s, error, position, angle = (np.zeros(n) for _ in range(4))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
-    for index in _batches(points):
-        protocol, load = _shared_protocols(points, index)
-        cycle = solve_cycle(protocol).take(load)
+    for index, cycle in _batches(points):
         shape = {name: values[index] for name, values in points.shape.items()}
         profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
         scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
@@ -64,18 +64,27 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     return Solution(s, error, position, angle, regime)
 
 
-def _batches(points: Points) -> Iterator[NDArray[np.intp]]:
-    """Indices of points with the same frequency ratio and roughness, neighbouring loads together."""
+def _batches(points: Points) -> Iterator[tuple[NDArray[np.intp], Cycle]]:
+    """Indices of points with the same frequency ratio and roughness, and their contact cycles."""
     level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
     loads = points.phase, points.tangential_amplitude, points.normal_amplitude
-    order = np.lexsort((*loads, level, points.p, points.q))
-    kind = np.stack([points.p, points.q, level])[:, order]
-    ends = np.flatnonzero((np.diff(kind, axis=1) != 0).any(axis=0)) + 1
-    for group in np.split(order, ends):
+    order = np.lexsort((*loads, points.p, points.q))
+    ratio = np.stack([points.p, points.q])[:, order]
+    for group in np.split(order, np.flatnonzero((np.diff(ratio, axis=1) != 0).any(axis=0)) + 1):
         turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
         size = max(BATCH_SIZE // turns, 1)
-        for begin in range(0, len(group), size):
-            yield group[begin : begin + size]
+        for sharing in _split(group, SHARING * size):
+            # One contact solution for all profiles.
+            protocol, load = _shared_protocols(points, sharing)
+            cycle = solve_cycle(protocol)
+            for alike in np.unique(level[sharing]):
+                for rows in _split(np.flatnonzero(level[sharing] == alike), size):
+                    yield sharing[rows], cycle.take(load[rows])
+
+
+def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
+    """The index in pieces of ``size`` at most, which are nearly equal."""
+    return np.array_split(index, -(-len(index) // size))
 
 
 def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol, NDArray[np.intp]]:

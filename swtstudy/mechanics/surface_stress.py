@@ -113,22 +113,24 @@ class SurfaceLine:
         front_radius, edge_radius = profile.radius(front), profile.radius(depth)
         half_load = profile.half_load(edge_radius)
 
-        shape = nodes.index.shape
-        flat = nodes.index.reshape(n, -1)
+        rows = np.arange(n)[:, None, None]
+        at = rows * nodes.instant.shape[1] + nodes.index
 
         def at_positions(values: NDArray[T]) -> NDArray[T]:
-            return gather(values, flat).reshape(shape)
+            return values.ravel().take(at)
 
         place, sign, slope = at_positions(place), at_positions(sign), at_positions(slope)
         edge = at_positions(edge_radius)
         at_front = self._full_slip(at_positions(front_radius))
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
-        total = np.empty(at_front.shape)
-        for result, base, front_part, edge_part in zip(
-            total, self.base, at_front, (*inner, outer[0]), strict=True
-        ):
-            np.subtract(gather(base, place), sign * edge_part, out=result)
-            result += (sign - slope) * front_part
+        columns, places = self.base.shape[2:]
+        of_base = (rows * columns + np.arange(columns)[:, None]) * places + place
+        bend = sign - slope
+        total = at_front
+        for result, base, edge_part in zip(total, self.base, (*inner, outer[0]), strict=True):
+            result *= bend
+            result += base.ravel().take(of_base)
+            result -= sign * edge_part
         if np.any(grown):
             self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
         total /= np.pi

@@ -26,8 +26,6 @@ ANGLE_ROUNDS = 2
 HOT = 0.35
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
-#: Planes nearer than this in 2θ, rad, are one.
-SAME_PLANE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -178,12 +176,12 @@ def refine(
     swt, double_angle
         Shape (n, X).
     """
-    swt, angle, other = _refine_from(scene, position, side, double_angle + STARTS, resolution)
+    swt, angle, other, apart = _refine_from(scene, position, side, double_angle + STARTS, resolution)
     # Two planes that the nodes cannot tell apart are both followed.
-    rows = np.flatnonzero((np.abs(other - angle) > SAME_PLANE).any(axis=1))
+    rows = np.flatnonzero(apart.any(axis=1))
     if rows.size:
         start = other[rows][None]
-        more, at, _ = _refine_from(scene.take(rows), position[rows], side[rows], start, resolution)
+        more, at, *_ = _refine_from(scene.take(rows), position[rows], side[rows], start, resolution)
         better = more > swt[rows]
         swt[rows] = np.where(better, more, swt[rows])
         angle[rows] = np.where(better, at, angle[rows])
@@ -192,8 +190,11 @@ def refine(
 
 def _refine_from(
     scene: Scene, position: FloatArray, side: FloatArray, starts: FloatArray, resolution: Resolution
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """`refine` from several starts of 2θ, shape (s, n, X); also the plane that may be better still."""
+) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.bool_]]:
+    """`refine` from several starts of 2θ, shape (s, n, X).
+
+    Also another plane that may be better still, and whether it has its extremes elsewhere in the cycle.
+    """
     line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
@@ -201,7 +202,10 @@ def _refine_from(
     planes = scene.planes(line.history(nodes), side)
     inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
     angle, other = _best_planes(planes, inside, starts)
-    node = gather(number, np.stack(_extremes([planes] * 3, angle), axis=-1))
+    found, elsewhere = (np.stack(_extremes([planes] * 3, at), axis=-1) for at in (angle, other))
+    # Neighbouring nodes have the same bracket.
+    apart = (np.abs(found - elsewhere) > 1).any(axis=-1)
+    node = gather(number, found)
     brackets = TimeBrackets.around(ends, resolution.nodes, node)
     for turn in range(resolution.zooms):
         near = _parts(scene.planes(line.history(brackets.samples()), side))
@@ -210,7 +214,7 @@ def _refine_from(
         if turn < resolution.zooms - 1:
             brackets = brackets.narrowed(np.stack(best, axis=-1))
     tops = [brackets.vertex(curve, k, best[k]) for k, curve in enumerate(_curves(near, angle))]
-    return product(tops[0], tops[1], -tops[2]), angle, other
+    return product(tops[0], tops[1], -tops[2]), angle, other, apart
 
 
 def _best_planes(

@@ -51,7 +51,7 @@ class Profile(ABC):
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
-        """How finely g′ must be resolved, in steps of 8 rad: points that differ are not batched together."""
+        """How finely g′ must be resolved, in whole steps: points that differ are not batched together."""
         return np.zeros(len(largest_depth), dtype=np.int64)
 
     @classmethod

@@ -15,9 +15,9 @@ TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
 #: Positions of the first guess of the contact radius of a smooth profile.
 GUESSES = 64
 #: Step of kξ in rad between levels of roughness.
-ROUGHNESS_STEP = 8.0
+ROUGHNESS_STEP = 16.0
 #: Level beyond which the waves are left out: h/δ0 of some 1e-5.
-ROUGHEST = 64
+ROUGHEST = 32
 
 
 class WavyParaboloid(Profile):
@@ -100,31 +100,32 @@ class WavyParaboloid(Profile):
             return 2.0 * np.pi / self.wave_number
 
     def depth(self, radius: FloatArray) -> FloatArray:
-        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
-        z = k * radius
-        return radius * radius + 0.5 * np.pi * h * z * struve_functions(z)[0]
+        return self._with_slope(radius)[0]
 
-    def _slope(self, radius: FloatArray) -> FloatArray:
-        """g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
+    def _with_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """g and g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
         zeroth, first = struve_functions(z)
-        return 2.0 * radius + 0.5 * np.pi * h * k * (zeroth + z * (2.0 / np.pi - first))
+        wave = (0.5 * np.pi) * h
+        slope = 2.0 * radius + wave * k * (zeroth + z * (2.0 / np.pi - first))
+        return radius * radius + wave * z * zeroth, slope
 
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
         guess, root = np.empty_like(depth), np.sqrt(depth)
         for row, (known, radius) in enumerate(zip(self._guess_root, self._guess_radius, strict=True)):
             guess[row] = np.interp(root[row], known, radius)
+        # To the last digit: at a turning point an error of r is an error of its root in time.
         for _ in range(2):
-            slope = self._slope(guess)
-            error = self.depth(guess) - depth
+            value, slope = self._with_slope(guess)
+            error = value - depth
             step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
             guess = np.maximum(guess - step, 0.0)
         return guess
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
-        return radius * self._slope(radius)
+        return radius * self._with_slope(radius)[1]
 
     def half_load(self, radius: FloatArray) -> FloatArray:
         # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
