@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.suite import run_suite
-    from swtstudy.units.contact import physical
     from swtstudy.units.life import FatigueConstants
+    from swtstudy.units.physical import physical
 
 __version__ = "0.1.0"
 __all__ = [
@@ -55,7 +55,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.read",
-    "physical": "swtstudy.units.contact",
+    "physical": "swtstudy.units.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "slip_map": "swtstudy.fields.slip",
