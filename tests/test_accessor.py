@@ -130,6 +130,18 @@ def test_a_tidy_table(dataset):
     assert len(dataset.isel(phase=0, frequency_ratio=0, flat_radius=0).swt.to_table()) == 1
 
 
+def test_tables_and_figures_after_xarrays_operations(dataset):
+    masked = dataset.where(dataset.s > dataset.s.median())
+    table = masked.swt.to_table()
+    assert table.regime.isna().sum() == masked.s.isnull().sum() > 0
+    joined = xr.concat([dataset.isel(phase=[0]), dataset.isel(phase=[1])], "phase")
+    for one in (masked, joined, dataset[["s"]], dataset.sortby("flat_radius", ascending=False), 2 * dataset):
+        figure = one.assign_attrs(dataset.attrs).swt.figure()
+        assert len(figure.axes[0].lines) == 3
+        assert one.swt.extrema("flat_radius").ratio.shape == (2, 3)
+        assert one.swt.slice(phase="pi").swt.normalised("b=0").shape == (3, 5)
+
+
 def test_figures(dataset):
     assert len(dataset.swt.figure().axes) == 4
     # What has been sliced away leaves the layout.

@@ -40,8 +40,10 @@ def normalised(dataset: xr.Dataset, y: str) -> xr.DataArray:
 
 
 def normalised_error(dataset: xr.Dataset, y: str) -> xr.DataArray:
-    """Estimated absolute error of `normalised`; 0 at the place itself."""
+    """Estimated absolute error of `normalised`; 0 at the place itself, and where no error is known."""
     place = reference(y)
+    if "s_error" not in dataset:
+        return 0.0 * normalised(dataset, y)
     if place is None:
         return dataset.s_error
     name, value = place

@@ -35,6 +35,8 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
         flat = np.broadcast_to(values.transpose(*dims).values, shape).ravel()
         meanings = dataset[name].attrs.get("flag_meanings")
         if meanings is not None:
-            flat = pd.Categorical.from_codes(flat.astype(int), meanings.split())
+            # xarray's own operations leave NaN where there is nothing.
+            codes = np.where(np.isfinite(flat), flat, -1).astype(int)
+            flat = pd.Categorical.from_codes(codes, meanings.split())
         columns[name] = flat
     return pd.DataFrame(columns)
