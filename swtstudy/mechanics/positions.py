@@ -56,8 +56,10 @@ class Positions:
 def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
     """Radii at which swt(r) may have a cusp, and the ends of the range, ascending, shape (n, k)."""
     n = len(cycle.begin)
-    starts = cycle.memory.start.reshape(n, -1)
-    edges = np.maximum(cycle.protocol.depth(cycle.begin), 0.0)
+    # Empty intervals, which fill up the rows of a batch, have nothing to say.
+    lasts = cycle.end > cycle.begin
+    starts = np.where(lasts[..., None], cycle.memory.start, np.inf).reshape(n, -1)
+    edges = np.where(lasts, np.maximum(cycle.protocol.depth(cycle.begin), 0.0), 0.0)
     largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
     depth = np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
     depth = np.sort(depth, axis=1)
