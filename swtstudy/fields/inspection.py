@@ -21,8 +21,8 @@ from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]
 
-#: Instants of each turn of δ besides the events, and steps between events.
-_UNIFORM, _STEPS = 360, 8
+#: Instants of each oscillation, at least, and of the first few; and steps between the events.
+_SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: Distances from the axis, and how far they reach, in the largest contact radius.
 _RADII, _REACH = 240, 1.3
 #: The same for stick and slip.
@@ -83,7 +83,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
         double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
-    count = _UNIFORM * protocol.q
+    oscillations = max(protocol.p, protocol.q)
+    count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
     uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
     nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
     time = protocol.q * nodes.instant
