@@ -17,6 +17,7 @@ from swtstudy.cli.merge import merge
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
+from swtstudy.cli.show import show
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
 
@@ -58,5 +59,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, check, info, merge, solve, audit):
+for _command in (run, plan, validate, plot, check, info, merge, solve, show, audit):
     main.add_command(_command)
