@@ -30,7 +30,7 @@ def _model(side: int, width: float, nu: float):
 
 
 def half_space_s(point: Points, side: int) -> float:
-    """s on the line y = 0 of the grid; the contact solution comes from this package and is not timed apart."""
+    """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
     nu, mu = point.poisson_ratio.item(), point.friction.item()
     profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
     largest = float(profile.radius(profile.largest_depth)[0])
