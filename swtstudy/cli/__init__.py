@@ -21,6 +21,7 @@ from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
 from swtstudy.cli.schema import schema
+from swtstudy.cli.show import show
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
 
@@ -73,5 +74,6 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, check, info, merge, solve, audit, list_studies, new, schema):
+_COMMANDS = (run, plan, validate, plot, check, info, merge, solve, show, audit, list_studies, new, schema)
+for _command in _COMMANDS:
     main.add_command(_command)

@@ -25,6 +25,9 @@ _LOAD = slice(1, _PHASE + 1)
 #: Bounds of the points in a block. A block of 32 costs per point as little as a larger one.
 _SMALLEST_BLOCK, _LARGEST_BLOCK = 4, 32
 
+#: More grid points than this do not fit into the memory of one machine (about 0.3 kB each).
+LARGEST_GRID = 10**9
+
 #: Grid points that are made canonical at once.
 _SLAB = 100_000
 
@@ -49,7 +52,16 @@ class UniquePoints:
 
 
 def unique_points(grid: Grid) -> UniquePoints:
-    """The distinct canonical points of a grid, in the order in which they are best computed."""
+    """The distinct canonical points of a grid, in the order in which they are best computed.
+
+    Raises
+    ------
+    ValueError
+        If it has more than `LARGEST_GRID` points.
+    """
+    if grid.size > LARGEST_GRID:
+        found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
+        raise ValueError(f"{found}; swtstudy audit samples them")
     rows = np.empty((grid.size, len(COLUMNS)))
     mirrored = np.empty(grid.size, bool)
     # In slabs: the working memory for a point is several times that of its row.

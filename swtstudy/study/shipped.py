@@ -16,5 +16,8 @@ def shipped_folder() -> Path:
 
 
 def shipped_studies() -> dict[str, Path]:
-    """The studies of the paper by name, such as "figure3"."""
-    return {path.stem: path for path in sorted(shipped_folder().glob("*.toml"))}
+    """The studies by name, such as "figure3": those of the paper, then those for the audit."""
+    folder = shipped_folder()
+    return {
+        path.stem: path for path in [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]
+    }

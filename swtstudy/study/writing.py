@@ -31,7 +31,8 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
     if figure is not None:
-        lines += ["", "[figure]", *(f"{role} = {quoted(name)}" for role, name in figure.roles())]
+        lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
+        lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())
         lines.append(f"y = [{', '.join(map(quoted, figure.y))}]")
         if figure.title:
             lines.append(f"title = {quoted(figure.title)}")
