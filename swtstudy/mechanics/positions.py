@@ -18,7 +18,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
 #: Positions that the first look spreads over the contact besides the cusps.
-SPREAD = 16
+SPREAD = 24
 #: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
 #: what sticks at touch-down keeps the oscillation.
 SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
