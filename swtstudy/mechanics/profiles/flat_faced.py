@@ -15,7 +15,7 @@ from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 from swtstudy.mechanics.profiles.tables import OuterTable
 
 #: Chebyshev nodes of the tables: their error is below 1e-9 of the largest stress (tests/test_profiles.py).
-OUTER_NODES = 40
+OUTER_NODES = 36
 #: Distance from the singular r = b up to which positions are looked at, over the face or the ring beside it.
 NEAREST = 1e-9
 #: A face smaller than this share of the contact is not looked at closely: its singularity has no weight.
