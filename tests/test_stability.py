@@ -64,6 +64,19 @@ def test_constant_depth_from_no_motion_to_gross_slip(profile: str) -> None:
     assert regime_names(found)[-2:] == ["gross_slip"] * 2
 
 
+def test_a_slip_zone_thinner_than_any_grid_at_constant_depth() -> None:
+    amplitude = 10.0 ** -np.arange(1.0, 13.0)
+    found = sound(points(normal_amplitude=0.0, tangential_amplitude=amplitude))
+    # Closed form at the contact edge, θ = arcsin √(1 − U).
+    nu = mu = 0.3
+    width = np.arcsin(np.sqrt(amplitude))
+    first = 0.5 * width + 0.25 * np.sin(2.0 * width)
+    third = width / 8.0 - np.sin(4.0 * width) / 32.0
+    pull, across = 2.0 * mu * (first + nu * third), 2.0 * nu * mu * (first - third)
+    stress = (1.0 - 2.0 * nu) / 3.0 + pull
+    close(found.s, 4.0 / np.pi**2 * stress * (pull - nu * across) / (1.0 - nu**2), RTOL)
+
+
 @every_profile
 def test_friction_to_nothing_and_to_ten(profile: str) -> None:
     friction = [0.0, TINY, 1e-300, 1e-12, 1e-6, 5.0, 10.0]

@@ -22,6 +22,11 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E
 #: As many as colours have in common no factor with, so that no pair repeats early.
 STYLES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
 
+#: What marks the point at which a regime begins; of "not_finite", the last point before it.
+MARKS = {"stick": "D", "partial_slip": "^", "gross_slip": "o", "lift_off": "s", "not_finite": "x"}
+#: A logarithmic axis pays from this ratio of its ends on.
+_LOG_RATIO = 100.0
+
 _PANEL_WIDTH, _PANEL_HEIGHT, _LEGEND_WIDTH = 4.0, 3.2, 1.5
 
 
@@ -60,15 +65,18 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None) -> Figure:
         figsize=(width, _PANEL_HEIGHT * rows), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06)
     )
     axes = figure.subplots(rows, len(columns), sharex=True, sharey="row", squeeze=False)
+    begun: set[str] = set()
     for row, y in enumerate(layout.y):
         for column, panel in enumerate(columns):
-            _draw_panel(axes[row, column], panel, layout, y)
+            begun |= _draw_panel(axes[row, column], panel, layout, y)
             _head_panel(axes[row, column], panel, layout, row * len(columns) + column, rows * len(columns))
         axes[row, 0].set_ylabel(_quantity_words(y))
     for bottom in axes[-1]:
         bottom.set_xlabel(axis_words(layout.x))
     if layout.hue:
         handles, labels = axes[0, 0].get_legend_handles_labels()
+        marks, names = _mark_legend(begun)
+        handles, labels = handles + marks, labels + names
         figure.legend(handles, labels, loc="outside right upper", frameon=False)
     if layout.title:
         figure.suptitle(layout.title)
@@ -97,8 +105,10 @@ def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
     return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
 
 
-def _draw_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> None:
+def _draw_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> set[str]:
+    """Draw the lines of a panel; the regimes whose begin is marked."""
     curves = quantity(panel, y)
+    begun: set[str] = set()
     for index in range(curves.sizes[layout.hue] if layout.hue else 1):
         curve, words = curves, None
         if layout.hue:
@@ -106,19 +116,62 @@ def _draw_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> 
             value = curve[layout.hue].item()
             words = f"{_short_name(layout.hue)}{value_words(layout.hue, value)}"
         order = np.argsort(curve[layout.x].values)
+        x, y_values = curve[layout.x].values[order], curve.values[order]
         axes.plot(
-            curve[layout.x].values[order],
-            curve.values[order],
+            x,
+            y_values,
             color=COLOURS[index % len(COLOURS)],
             linestyle=STYLES[index % len(STYLES)],
             linewidth=1.6,
             label=words,
         )
+        if layout.regimes:
+            regime = panel.regime.isel({layout.hue: index}) if layout.hue else panel.regime
+            names = panel.regime.attrs["flag_meanings"].split()
+            begun |= _mark_regimes(axes, x, y_values, [names[value] for value in regime.values[order]], index)
     x = panel[layout.x].values
     axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    if _in_equal_ratios(x):
+        axes.set_xscale("log")
+        s = curves.values[np.isfinite(curves.values) & (curves.values > 0.0)]
+        if s.size and s.max() > _LOG_RATIO * s.min():
+            axes.set_yscale("log")
     axes.grid(color="0.9", linewidth=0.6)
     if PARAMETERS[layout.x].units == "rad":
         _tick_in_pi(axes, float(x.min()), float(x.max()))
+    return begun
+
+
+def _mark_regimes(axes: Axes, x: np.ndarray, y: np.ndarray, names: list[str], index: int) -> set[str]:
+    """Mark where the regime of a line changes, and say to which ones."""
+    begun = set()
+    for place in range(1, len(names)):
+        if names[place] != names[place - 1]:
+            begun.add(names[place])
+            at = place - 1 if names[place] == "not_finite" else place
+            colour = COLOURS[index % len(COLOURS)]
+            axes.plot(x[at], y[at], MARKS[names[place]], color=colour, markersize=5, markerfacecolor="none")
+    return begun
+
+
+def _mark_legend(begun: set[str]) -> tuple[list[Any], list[str]]:
+    """Handles and words for the marks of the regimes."""
+    from matplotlib.lines import Line2D
+
+    names = [name for name in MARKS if name in begun]
+    style: dict[str, Any] = {"color": "0.3", "linestyle": "none", "markerfacecolor": "none"}
+    handles = [Line2D([], [], marker=MARKS[name], **style) for name in names]
+    words = [name.replace("_", " ") + (" from here on" if name == "not_finite" else "") for name in names]
+    return handles, words
+
+
+def _in_equal_ratios(x: np.ndarray) -> bool:
+    """Whether the values of an axis are spaced in equal ratios over a long range."""
+    x = np.sort(x)
+    if len(x) < 3 or x[0] <= 0.0 or x[-1] < _LOG_RATIO * x[0]:
+        return False
+    ratio = x[1:] / x[:-1]
+    return bool(np.ptp(ratio) <= 1e-6 * ratio[0])
 
 
 def _head_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int, count: int) -> None:

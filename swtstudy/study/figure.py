@@ -32,6 +32,8 @@ class FigureLayout:
         One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.
     title
         Title over the figure, or None.
+    regimes
+        Whether the lines are marked where a regime of the contact begins.
     """
 
     x: str
@@ -39,6 +41,7 @@ class FigureLayout:
     panels: str | None = None
     y: tuple[str, ...] = ("s",)
     title: str | None = None
+    regimes: bool = False
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""

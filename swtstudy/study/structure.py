@@ -17,12 +17,13 @@ _ALLOWED = {
     "rtol": ALLOWED_RTOL,
     "fixed": "a table of single values",
     "axes": "a table of axes",
-    "figure": "a table with x and, if wanted, hue, panels, y and title",
+    "figure": "a table with x and, if wanted, hue, panels, y, title and regimes",
     "figure.x": "the name of an axis",
     "figure.hue": "the name of an axis",
     "figure.panels": "the name of an axis",
     "figure.y": 'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
     "figure.title": "a text",
+    "figure.regimes": "true or false",
 }
 
 
