@@ -13,8 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
+from swtstudy.mechanics import solve_points, surface_circle
 from swtstudy.mechanics.body import Body, nodes_at, scene_of
 from swtstudy.mechanics.critical_plane_3d import highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.hemisphere import hemisphere
 from swtstudy.mechanics.points import Points
 
 with warnings.catch_warnings():
@@ -23,6 +25,7 @@ with warnings.catch_warnings():
 
 FRICTION, POISSON = 0.3, 0.3
 P0 = 2 / np.pi
+PLAIN_PLANES = 281
 INSTANTS, GRID, LAYERS, WIDTH, DEPTH = 64, 128, 32, 6.0, 1.5
 
 
@@ -130,6 +133,16 @@ def report():
     ]
 
 
+def plain_search(stress, normals):
+    """Largest swt over given planes: the straightforward way, E = 1 − ν²."""
+    x, y, z = normals.T
+    on_planes = stress @ np.stack([x * x, y * y, z * z, 2 * y * z, 2 * x * z, 2 * x * y])
+    trace = stress[..., :3].sum(axis=-1)[..., None]
+    strain = ((1.0 + POISSON) * on_planes - POISSON * trace) / (1.0 - POISSON**2)
+    tension = np.maximum(on_planes.max(axis=1), 0.0)
+    return (tension * 0.5 * (strain.max(axis=1) - strain.min(axis=1))).max(axis=1)
+
+
 def planes():
     """Time of the search over all planes on the histories of the body, as lines of Markdown."""
     rng = np.random.default_rng(0)
@@ -138,17 +151,39 @@ def planes():
     stress = body.stress(x, y, z)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))
     coarse, first = timed(lambda: highest_coarse_swt(stress, POISSON, 1.0 - POISSON**2))
+    normals = hemisphere(PLAIN_PLANES)
+    parts = np.array_split(stress, 20)
+    simple, plain = timed(lambda: np.concatenate([plain_search(part, normals) for part in parts]))
     high = found.swt > 0.1 * found.swt.max()
-    low = 100 * (1.0 - coarse[high] / found.swt[high]).max()
+    low, simply_low = (100 * (1.0 - swt[high] / found.swt[high]).max() for swt in (coarse, simple))
     return [
         "",
         f"swt over all plane orientations, {INSTANTS} instants: 256 planes take "
         f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of "
-        f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point.",
+        f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point. A plain vectorised search "
+        f"of {PLAIN_PLANES} planes takes {1e6 * plain / len(x):.0f} µs (up to {simply_low:.1f} % low).",
+    ]
+
+
+def circle():
+    """What the solver's look along the circle through the critical point costs, as lines of Markdown."""
+    phase = np.linspace(0.0, np.pi, 200)
+    one = np.ones(len(phase))
+    ratio = one.astype(int)
+    amplitudes = 0.75 * one, ratio, ratio, 5 / 6 * one
+    points = Points("paraboloid", 0.45 * one, FRICTION * one, *amplitudes, phase)
+    _, looking = timed(lambda: solve_points(points))
+    safe, surface_circle.SAFE_POISSON_RATIO = surface_circle.SAFE_POISSON_RATIO, 0.5
+    _, alone = timed(lambda: solve_points(points))
+    surface_circle.SAFE_POISSON_RATIO = safe
+    return [
+        "",
+        f"s at {len(phase)} phases and ν = 0.45: {1e3 * alone / len(phase):.2f} ms a value on the line, "
+        f"{1e3 * looking / len(phase):.2f} ms with s_surface.",
     ]
 
 
 if __name__ == "__main__":
-    text = "\n".join([*report(), *planes()]) + "\n"
+    text = "\n".join([*report(), *planes(), *circle()]) + "\n"
     Path("results/field_speed.md").write_text(f"# The field beneath the contact\n\n{text}", encoding="utf-8")
     print(text, end="")

@@ -21,10 +21,15 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "long_name": "normalized maximum Smith-Watson-Topper parameter SWT/SWT0",
         "units": "1",
         "symbol": r"s",
-        "ancillary_variables": "s_error regime",
+        "ancillary_variables": "s_error regime s_surface",
         "comment": "SWT0 = E* delta0 / R; one elastic half-space with E*, G* against a rigid indenter",
     },
     "s_error": {"long_name": "estimated absolute error of s", "units": "1", "symbol": r"\Delta s"},
+    "s_surface": {
+        "long_name": "s over the circle on the surface through the critical point and over all planes",
+        "units": "1",
+        "symbol": r"s_\mathrm{surface}",
+    },
     "critical_x": {
         "long_name": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
         "units": "1",
@@ -87,6 +92,7 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
         "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x),
         "critical_angle": np.where(angle <= -90, angle + 180, angle),
         "regime": solution.regime,
+        "s_surface": solution.s_surface,
     }
 
 

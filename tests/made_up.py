@@ -7,6 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
+from swtstudy.audit.point import Finding
+from swtstudy.audit.table import findings_dataset
+from swtstudy.grid.canonical import COLUMNS
+
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
 
@@ -23,3 +27,28 @@ def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset
     return xr.Dataset(
         {"s": s, "s_error": zero + 1e-6, "critical_x": zero + 1, "critical_angle": zero, "regime": zero + 1}
     )
+
+
+def made_up_finding(**changes: object) -> Finding:
+    """A finding on the surface line, but for the changes."""
+    line = {
+        "s": 1.0,
+        "s_surface": 1.0,
+        "critical_x": 1.0,
+        "regime": "partial_slip",
+        "s_all_planes": 1.0,
+        "s_body": 1.0,
+        "position": np.array([1.0, 0.0, 0.0]),
+        "normal": np.array([1.0, 0.0, 0.0]),
+    }
+    return Finding(**(line | changes))
+
+
+def made_up_audit(on_line: int = 3, off_line: int = 0) -> xr.Dataset:
+    """An audit with so many points whose maximum is on the line, at ν = 0.3, and off it, at ν = 0.45."""
+    off = {"s_body": 1.04, "s_surface": 1.04, "position": np.array([0.8, 0.6, 0.0])}
+    findings = [made_up_finding()] * on_line + [made_up_finding(**off)] * off_line
+    rows = np.zeros((len(findings), len(COLUMNS)))
+    rows[:, COLUMNS.index("phase")] = np.arange(len(findings))
+    rows[:, COLUMNS.index("poisson_ratio")] = [0.3] * on_line + [0.45] * off_line
+    return findings_dataset(rows, findings).assign_attrs(title="made up")

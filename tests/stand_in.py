@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,7 +20,7 @@ def smooth(points: Points, rtol: float) -> Solution:
         s = s + (index + 1) * shape
     s = s * (1 + 1e-13 * len(points))
     angle = 10 * np.sin(points.phase)
-    return Solution(s, rtol * s, 1 + points.phase, angle, np.ones(len(points), np.int8))
+    return Solution(s, rtol * s, 1 + points.phase, angle, np.ones(len(points), np.int8), s)
 
 
 def slow(points: Points, rtol: float) -> Solution:
@@ -38,6 +39,7 @@ def process(points: Points, rtol: float) -> Solution:
         np.full(len(points), float(os.getpid())),
         solution.critical_angle,
         solution.regime,
+        solution.s_surface,
     )
 
 
@@ -69,7 +71,7 @@ def lose_at(friction: float, points: Points, rtol: float) -> Solution:
     """Like `smooth`, but it finds no value at one value of the friction."""
     solution = smooth(points, rtol)
     s = np.where(np.isclose(points.friction, friction), np.nan, solution.s)
-    return Solution(s, solution.s_error, solution.critical_x, solution.critical_angle, solution.regime)
+    return replace(solution, s=s)
 
 
 class Counting:

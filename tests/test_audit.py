@@ -1,18 +1,22 @@
 """The audit of a study."""
 
-import csv
+from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from swtstudy.audit.audit import sample_rows
-from swtstudy.audit.point import VERDICTS, Finding, audit_point
-from swtstudy.audit.table import findings_dataset, summary, write_table
+from swtstudy.archive.files import save
+from swtstudy.audit.audit import audit_study, sample_rows
+from swtstudy.audit.point import VERDICTS
+from swtstudy.audit.report import report
+from swtstudy.audit.table import canonical_rows, findings_dataset, open_audit, read_findings
 from swtstudy.cli import main
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.study.definition import Study
+from tests.made_up import made_up_audit, made_up_finding
 
+PARAMETER_BOX = Path(__file__).parent.parent / "studies" / "audit" / "parameter_box.toml"
 STUDY = """
 title = "two points"
 [fixed]
@@ -29,6 +33,13 @@ def test_points_are_distinct():
     assert rows.shape == (2, len(COLUMNS))
 
 
+def test_a_larger_sample_extends_a_smaller_one():
+    grid = Study.from_toml(PARAMETER_BOX).grid
+    few, many = (sample_rows(grid, points, seed=0) for points in (5, 12))
+    assert many.shape == (12, len(COLUMNS))
+    np.testing.assert_array_equal(many[:5], few)
+
+
 @pytest.mark.parametrize(
     ("changes", "verdict"),
     [
@@ -41,39 +52,49 @@ def test_points_are_distinct():
     ],
 )
 def test_verdicts(changes, verdict):
-    line = {
-        "s": 1.0,
-        "critical_x": 1.0,
-        "s_all_planes": 1.0,
-        "s_body": 1.0,
-        "position": np.array([1.0, 0.0, 0.0]),
-        "normal": np.array([1.0, 0.0, 0.0]),
-    }
-    assert Finding(**(line | changes)).verdict == verdict
+    assert made_up_finding(**changes).verdict == verdict
 
 
-def test_table(tmp_path):
-    rows = sample_rows(Study.from_text(STUDY).grid, points=10, seed=1)
-    dataset = findings_dataset(rows, [audit_point(row) for row in rows])
-    verdicts = [VERDICTS[code] for code in dataset.verdict.values]
-    assert dict(zip(dataset.poisson_ratio.values, verdicts, strict=True)) == {
-        0.3: "none",
-        0.5: "symmetry_line",
-    }
-    np.testing.assert_allclose(dataset.s_all_planes, dataset.s, rtol=1e-3)
-    assert summary(dataset)[0].startswith("2 points, 0 of them without a finite s")
-    write_table(dataset, tmp_path / "audit.csv")
-    with open(tmp_path / "audit.csv", newline="", encoding="utf-8") as file:
-        table = list(csv.DictReader(file))
-    assert [line["verdict"] for line in table] == verdicts
-    assert float(table[0]["s"]) == pytest.approx(float(dataset.s[0]), rel=1e-8)
+def test_findings_are_read_as_they_were_written(tmp_path):
+    written = made_up_audit(on_line=2, off_line=1)
+    save(written, tmp_path / "audit.nc")
+    read = read_findings(open_audit(tmp_path / "audit.nc"))
+    again = findings_dataset(np.array(list(read)), list(read.values()))
+    for name in written.variables:
+        np.testing.assert_array_equal(again[name], written[name])
+    np.testing.assert_array_equal(list(read), canonical_rows(written))
 
 
-def test_command(tmp_path):
+def test_other_files_are_not_taken_for_an_audit(tmp_path):
+    save(made_up_audit().drop_vars("s_body"), tmp_path / "other.nc")
+    with pytest.raises(ValueError, match="not an audit"):
+        audit_study(Study.from_text(STUDY), tmp_path / "other.nc")
+
+
+def test_report():
+    text = report(made_up_audit(on_line=3, off_line=1))
+    assert "| on the surface, off the line | 1 | 4.0% | 0.45 |" in text
+    assert "| 0.4–0.45 | 1 | 1 | 4.00% | 0.00% |" in text
+    assert "at 1 points: 1 of the 1" in text
+
+
+def test_command_goes_on_where_it_was(tmp_path):
     study = tmp_path / "two.toml"
     study.write_text(STUDY)
-    arguments = ["audit", str(study), "--points", "1", "--workers", "1", "--results", str(tmp_path)]
-    outcome = CliRunner().invoke(main, arguments)
+    arguments = ["audit", str(study), "--workers", "1", "--results", str(tmp_path), "--points"]
+    assert CliRunner().invoke(main, [*arguments, "1"]).exit_code == 0
+    first = open_audit(tmp_path / "audit_two.nc")
+    # What is there already is taken as it is.
+    save(first.assign(s_body=first.s_body * 3.0), tmp_path / "audit_two.nc")
+    outcome = CliRunner().invoke(main, [*arguments, "2"])
     assert outcome.exit_code == 0, outcome.output
-    assert (tmp_path / "audit_two.csv").exists()
-    assert "1 points" in outcome.output
+    dataset = open_audit(tmp_path / "audit_two.nc")
+    assert dataset.sizes["sample"] == 2
+    known = dataset.poisson_ratio == float(first.poisson_ratio[0])
+    np.testing.assert_allclose(dataset.s_body[known], 3.0 * first.s_body)
+    new = dataset.isel(sample=np.flatnonzero(~known))
+    expected = "symmetry_line" if float(new.poisson_ratio[0]) == 0.5 else "none"
+    assert VERDICTS[int(new.verdict[0])] == expected
+    assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
+    np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
+    assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")

@@ -9,7 +9,7 @@ import xarray as xr
 from swtstudy.labelled import ATTRIBUTES
 from swtstudy.statements import critical_point
 from swtstudy.statements.stick_zone import stick_radius
-from tests.made_up import made_up
+from tests.made_up import made_up, made_up_audit
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:
@@ -48,6 +48,14 @@ def test_the_critical_plane(angle, holds):
     results = located()
     results["critical_angle"] = results.critical_angle + angle
     assert critical_point.normal_along_x(results).holds == holds
+
+
+@pytest.mark.parametrize(("off_line", "holds"), [(0, True), (1, True), (5, False)])
+def test_the_critical_point_is_on_the_line(off_line, holds):
+    finding = critical_point.on_the_line(made_up_audit(40, off_line))
+    assert finding.holds == holds
+    assert f"off the line {off_line}" in finding.measured
+    assert ("4.0% higher, for ν ≥ 0.45" in finding.measured) == (off_line > 0)
 
 
 @pytest.mark.parametrize(("regime", "holds"), [(1, True), (2, False)])

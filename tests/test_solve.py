@@ -10,7 +10,7 @@ from swtstudy import StudyError, solve
 def test_dimensions_in_the_order_given():
     dataset = solve(phase=[0, 1.5, 3.0], profile="paraboloid", normal_amplitude=[0.25, 0.75], rtol=1e-2)
     assert dataset.s.dims == ("phase", "normal_amplitude")
-    assert set(dataset.data_vars) == {"s", "s_error", "critical_x", "critical_angle", "regime"}
+    assert set(dataset.data_vars) == {"s", "s_error", "critical_x", "critical_angle", "regime", "s_surface"}
     assert dataset.friction.ndim == 0
     assert dataset.friction.item() == 0.3
     assert dataset.profile.item() == "paraboloid"
@@ -48,7 +48,7 @@ def test_attributes_follow_the_table():
     assert dataset.phase.attrs["units"] == "rad"
     assert dataset.friction.attrs["symbol"] == r"\mu"
     assert dataset.s.attrs["units"] == "1"
-    assert dataset.s.attrs["ancillary_variables"] == "s_error regime"
+    assert dataset.s.attrs["ancillary_variables"] == "s_error regime s_surface"
     meanings = dataset.regime.attrs["flag_meanings"].split()
     assert len(meanings) == len(dataset.regime.attrs["flag_values"])
 

@@ -4,14 +4,16 @@ import numpy as np
 import pytest
 
 import swtstudy
+from swtstudy.fields.one_point import read_scene
+from swtstudy.mechanics import surface_circle
+from swtstudy.mechanics.body import Body, time_nodes
 from swtstudy.mechanics.contact import solve_cycle
 from swtstudy.mechanics.field import contact_states
 from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_circle import circle_gain, circle_stress
+from swtstudy.mechanics.surface_circle import circle_stress
 from swtstudy.mechanics.surface_stress import History, SurfaceLine
-from swtstudy.mechanics.swt_line import Scene
 
 
 def contact():
@@ -26,22 +28,47 @@ def test_stress_is_that_of_the_field(r):
     share = np.tile([0.1, 0.5, 0.9], cycle.begin.shape[1])
     instant = cycle.begin[0, interval] + share * (cycle.end - cycle.begin)[0, interval]
     angle = np.linspace(0.0, np.pi, 7)
-    line = SurfaceLine(cycle, profile, np.array([[r]]), 30)
+    line = SurfaceLine(cycle, profile, np.array([[r]]), 8.0)
     history = line.history(Nodes(interval[None], instant[None], np.arange(instant.size)[None, None]))
-    blocks = History(*(getattr(history, name)[0, 0] for name in history.__dataclass_fields__))
+    blocks = History(**{name: values[0] for name, values in vars(history).items()})
     states = contact_states(cycle, profile, interval, instant, cells=200)
     expected = states.stress(r * np.cos(angle), r * np.sin(angle), 0.0, 0.4, 0.3)
-    np.testing.assert_allclose(circle_stress(blocks, 0.3, 0.4, angle), expected, rtol=0, atol=1e-6)
+    found = circle_stress(blocks, np.array([0.3]), np.array([0.4]), angle[None])[0]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
 
 
-def test_gain():
-    cycle, profile = contact()
-    two = np.zeros(2, dtype=np.intp)
-    scene = Scene(cycle.take(two), profile.take(two), np.array([0.3, 0.5]), np.array([0.3, 0.3]))
-    solved = swtstudy.solve(
-        poisson_ratio=[0.3, 0.5], normal_amplitude=0.5, tangential_amplitude=0.1, phase=0.6
-    )
-    gain, angle = circle_gain(scene, solved.critical_x.values)
-    assert gain[0] == angle[0] == 0.0
-    assert gain[1] > 0.005
-    assert 0.2 < angle[1] < 0.8
+NARROW_SLIP = {"normal_amplitude": 0.5, "tangential_amplitude": 0.1, "phase": 0.6, "poisson_ratio": 0.5}
+#: The maximum is at x < 0, on a plane that is inclined by 22°.
+INCLINED = {
+    "profile": "rounded_punch",
+    "flat_radius": 2.0,
+    "normal_amplitude": 0.475,
+    "tangential_amplitude": 0.2,
+    "phase": 2.618,
+    "friction": 0.975,
+    "poisson_ratio": 0.5,
+}
+
+
+@pytest.mark.parametrize("parameters", [NARROW_SLIP, INCLINED])
+def test_gain_is_that_of_the_field(parameters):
+    solved = swtstudy.solve(rtol=1e-5, **parameters)
+    x = float(solved.critical_x)
+    angle = np.linspace(0.2, 0.8, 25)
+    scene = read_scene(parameters)
+    body = Body.of(scene, time_nodes(scene, 40, [abs(x)]), cells=60)
+    swt = body.swt(x * np.cos(angle), x * np.sin(angle), 0.0).swt
+    assert float(solved.s_surface) > 1.005 * float(solved.s)
+    assert float(solved.s_surface) == pytest.approx(swt.max(), rel=5e-4)
+
+
+def test_the_line_is_enough_for_more_compressible_bodies():
+    solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}))
+    np.testing.assert_array_equal(solved.s_surface, solved.s)
+
+
+def test_a_safe_ratio_is_not_looked_at(monkeypatch):
+    """The bound only saves time: without it the line has the maximum all the same."""
+    monkeypatch.setattr(surface_circle, "SAFE_POISSON_RATIO", -1.0)
+    solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}), friction=[0.1, 0.8])
+    np.testing.assert_array_equal(solved.s_surface, solved.s)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,12 +17,22 @@ from swtstudy.study.definition import Study
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.audit.point import Finding
+
 #: Told how many more points are done.
 Progress = Callable[[int], object]
 
+#: Seconds between two savings of what has been found so far.
+_SAVE_EVERY = 20.0
+
 
 def audit_study(
-    study: Study, points: int = 1000, seed: int = 0, workers: int = 2, progress: Progress | None = None
+    study: Study,
+    path: str | PathLike[str],
+    points: int = 1000,
+    seed: int = 0,
+    workers: int = 2,
+    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Solve random points of a study without the surface line's assumptions.
 
@@ -27,6 +40,9 @@ def audit_study(
     ----------
     study
         From `Study.from_toml`.
+    path
+        netCDF file that keeps the findings. Points that it has already are not audited again: an audit that
+        was killed goes on, and one with more points extends it.
     points
         How many points to take, at random and without repetition; all if the study has fewer.
     seed
@@ -34,31 +50,61 @@ def audit_study(
     workers
         Worker processes.
     progress
-        Called with 1 after each point.
+        Called with the number of points that are done since it was called last.
 
     Returns
     -------
     xarray.Dataset
         Along ``sample``: s, the body's maximum ``s_body``, where it is, on which plane, and ``verdict``, the
         assumption that it breaks.
+
+    Raises
+    ------
+    ValueError
+        If the file is there and holds no audit.
     """
+    from swtstudy.archive.files import save
     from swtstudy.audit.point import audit_point
-    from swtstudy.audit.table import findings_dataset
+    from swtstudy.audit.table import findings_dataset, open_audit, read_findings
     from swtstudy.runner.workers import start_workers
 
     rows = sample_rows(study.grid, points, seed)
-    findings = []
-    with start_workers(workers) as pool:
-        for finding in pool.map(audit_point, rows):
-            findings.append(finding)
-            if progress is not None:
-                progress(1)
-    return findings_dataset(rows, findings)
+    keys = list(map(tuple, rows.tolist()))
+    known: dict[tuple[float, ...], Finding] = read_findings(open_audit(path)) if Path(path).exists() else {}
+    missing = [key for key in keys if key not in known]
+    if progress is not None:
+        progress(len(keys) - len(missing))
+
+    def dataset() -> xr.Dataset:
+        done = [key in known for key in keys]
+        found = findings_dataset(rows[done], [known[key] for key in keys if key in known])
+        return found.assign_attrs(title=study.title, study=study.text, seed=seed)
+
+    saved = time.monotonic()
+    try:
+        with start_workers(workers) as pool:
+            for key, finding in zip(missing, pool.map(audit_point, missing), strict=True):
+                known[key] = finding
+                if progress is not None:
+                    progress(1)
+                if time.monotonic() - saved > _SAVE_EVERY:
+                    save(dataset(), path)
+                    saved = time.monotonic()
+    finally:
+        save(dataset(), path)
+    return dataset()
 
 
 def sample_rows(grid: Grid, points: int, seed: int) -> FloatArray:
     """Canonical rows of random points of a grid, without repetition, shape (n, columns)."""
-    index = np.random.default_rng(seed).permutation(grid.size)[: 2 * points]
+    rng = np.random.default_rng(seed)
+    # More than are asked for: two points of the grid can be one physically.
+    many = 2 * points
+    if grid.size <= 2 * many:
+        index = rng.permutation(grid.size)
+    else:
+        _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
+        index = index[np.sort(first)]
     rows = np.concatenate([grid.canonical(i, i + 1)[0] for i in map(int, index)])
     _, first = np.unique(rows, axis=0, return_index=True)
     return rows[np.sort(first)[:points]]

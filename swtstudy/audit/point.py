@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from swtstudy.grid.canonical import points_from
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body import scene_of
 from swtstudy.mechanics.body_maximum import body_maximum
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import REGIMES, FloatArray
 
 #: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
 #: the last one for points to which the solver gives no finite s.
@@ -28,8 +29,9 @@ class Finding:
 
     Attributes
     ----------
-    s, critical_x
-        The solver's: the surface line's maximum and where it is.
+    s, s_surface, critical_x, regime
+        The solver's: the surface line's maximum, that on the circle through the critical point, where the
+        former is, and the regime's name.
     s_all_planes
         swt at that place over all plane orientations, by the field of the body.
     s_body
@@ -39,7 +41,9 @@ class Finding:
     """
 
     s: float
+    s_surface: float
     critical_x: float
+    regime: str
     s_all_planes: float
     s_body: float
     position: FloatArray
@@ -49,6 +53,11 @@ class Finding:
     def excess(self) -> float:
         """By how much the body's maximum exceeds s, relative."""
         return self.s_body / self.s - 1.0 if self.s != 0.0 else float(self.s_body > 0.0)
+
+    @property
+    def remainder(self) -> float:
+        """By how much it exceeds s_surface, relative."""
+        return self.s_body / self.s_surface - 1.0 if self.s_surface != 0.0 else float(self.s_body > 0.0)
 
     @property
     def verdict(self) -> str:
@@ -65,14 +74,15 @@ class Finding:
         return "plane_through_y" if abs(self.normal[1]) > _ZERO else "line_search"
 
 
-def audit_point(row: FloatArray) -> Finding:
+def audit_point(row: Sequence[float]) -> Finding:
     """Audit one canonical row (`swtstudy.grid.canonical`)."""
-    points = points_from(row[None])
+    points = points_from(np.array([row]))
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
+    solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
     if not np.isfinite(s):
-        return Finding(s, x, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+        return Finding(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)
-    return Finding(s, x, float(at_line.swt), body.swt, body.position, body.normal)
+    return Finding(*solved, float(at_line.swt), body.swt, body.position, body.normal)

@@ -16,23 +16,27 @@ import click
 def audit(studies: tuple[str, ...], points: int, seed: int, results: str, workers: int) -> None:
     """Solve random points of each STUDY in the whole body and for all planes.
 
-    Leaves a table and says where the maximum is not on the surface line, on which s is looked for.
+    Leaves the findings, and a report that says where the maximum is not on the surface line, on which s is
+    looked for. What is there already is not audited again.
     """
-    from swtstudy.archive.files import check_writable
+    from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.audit import AUDIT_PREFIX
     from swtstudy.study.several import read_studies
 
     defined = read_studies(studies)
-    targets = {source: Path(results) / f"audit_{Path(source).stem}.csv" for source in defined}
+    targets = {source: Path(results) / f"{AUDIT_PREFIX}{Path(source).stem}.nc" for source in defined}
     for target in targets.values():
         check_writable(target)
 
     from swtstudy.audit.audit import audit_study
-    from swtstudy.audit.table import summary, write_table
+    from swtstudy.audit.report import report
 
     for source, study in defined.items():
+        target = targets[source]
         with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
-            dataset = audit_study(study, points, seed, workers, progress=bar.update)
-        write_table(dataset, targets[source])
-        click.echo(str(targets[source]))
-        for line in summary(dataset):
-            click.echo(line)
+            dataset = audit_study(study, target, points, seed, workers, progress=bar.update)
+        text = report(dataset)
+        with replacing(target.with_suffix(".md")) as temporary:
+            temporary.write_text(text, encoding="utf-8")
+        click.echo(text)
+        click.echo(f"{target}\n{target.with_suffix('.md')}")

@@ -10,8 +10,9 @@ from swtstudy.fields.places import as_given, read_places, read_time
 from swtstudy.mechanics.body import Body
 from swtstudy.mechanics.field.punch import COMPONENTS
 
-#: Cells of a profile that is not a paraboloid: interior stresses to 1e-8 p0.
-_CELLS = 200
+#: Cells of a profile that is not a paraboloid: stresses to 1e-8 p0 at depths of more than 0.03 a_H; and with
+#: more cells to 5e-8 p0 nearer to the surface and on it.
+_CELLS, _DEEP, _CELLS_NEAR_SURFACE = 200, 0.03, 800
 
 
 def stress_field(
@@ -44,7 +45,8 @@ def stress_field(
     scene = read_scene(parameters)
     places = read_places(x, y, z)
     instants, nodes = read_time(scene, time)
-    history = Body.of(scene, nodes, _CELLS).stress(*(place.values for place in places))
+    cells = _CELLS if float(places[2].min()) > _DEEP else _CELLS_NEAR_SURFACE
+    history = Body.of(scene, nodes, cells).stress(*(place.values for place in places))
     dims = (*instants.dims, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape, *places[0].shape, 6)
     variables = {

@@ -24,6 +24,8 @@ from swtstudy.mechanics.swt_line import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
 _SUBDIVISIONS = 6
+#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
+_HOT = 0.15
 
 
 def scene_of(points: Points) -> Scene:
@@ -98,7 +100,7 @@ def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
 
 
 def closer_nodes(
-    scene: Scene, nodes: TimeNodes, point: tuple[float, float, float], cells: int, looks: int = 3
+    scene: Scene, nodes: TimeNodes, point: tuple[float, ...], cells: int, looks: int = 3
 ) -> TimeNodes:
     """The same instants and others around those that make swt at one point.
 
@@ -118,15 +120,48 @@ def closer_nodes(
     share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
     for _ in range(looks):
         body = Body.of(scene, nodes, cells)
-        stress, normal = body.stress(*point), body.swt(*point).normal
-        strain = strain_history(stress, float(scene.poisson_ratio[0]))
-        on_plane = stress @ normal_weights(normal), strain @ normal_weights(normal)
-        extremes = np.array([on_plane[0].argmax(), on_plane[1].argmax(), on_plane[1].argmin()])
+        stress, strain = _on_critical_plane(body, point)
+        extremes = np.array([stress.argmax(), strain.argmax(), strain.argmin()])
         left = np.concatenate([extremes - 1, extremes])
         left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
         low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
         nodes = _sorted_nodes(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
     return nodes
+
+
+@dataclass(frozen=True)
+class Spells:
+    """Parts of a cycle: those gaps between sorted instants that are ``open``, shapes (T,) and (T − 1,)."""
+
+    instant: FloatArray
+    open: NDArray[np.bool_]
+
+    def of(self, nodes: TimeNodes) -> TimeNodes:
+        """Those instants that lie in the parts, the ends included."""
+        last = len(self.open) - 1
+        before, after = (
+            np.clip(np.searchsorted(self.instant, nodes.instant, side) - 1, 0, last)
+            for side in ("left", "right")
+        )
+        keep = self.open[before] | self.open[after]
+        return TimeNodes(nodes.interval[keep], nodes.instant[keep])
+
+
+def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> Spells:
+    """The parts of the cycle in which a stress or strain at a point is near the extreme that makes swt.
+
+    Parameters
+    ----------
+    body, nodes
+        The body at instants.
+    point
+        x, y, z in a_H; close to it, the same parts make swt.
+    """
+    stress, strain = _on_critical_plane(body, point)
+    hot = np.zeros(len(nodes.instant), dtype=bool)
+    for curve in (stress, strain, -strain):
+        hot |= curve >= curve.max() - _HOT * np.ptp(curve)
+    return Spells(nodes.instant, hot[1:] | hot[:-1])
 
 
 def together(scene: Scene, *several: TimeNodes) -> TimeNodes:
@@ -138,6 +173,14 @@ def nodes_at(scene: Scene, instant: FloatArray) -> TimeNodes:
     """Instants φ in [0, 2π], in any order, with their intervals; two that meet share their stress."""
     interval = (instant[:, None] > scene.cycle.end[0]).sum(axis=1)
     return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), instant)
+
+
+def _on_critical_plane(body: Body, point: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """σ_n and E ε_n over the instants, shape (T,), on the critical plane of one point."""
+    ν = float(body.scene.poisson_ratio[0])
+    stress = body.stress(*point)
+    weights = normal_weights(swt_of_history(stress, ν).normal)
+    return stress @ weights, strain_history(stress, ν) @ weights
 
 
 def _sorted_nodes(scene: Scene, instant: FloatArray) -> TimeNodes:

@@ -10,25 +10,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.body import Body, TimeNodes, closer_nodes, time_nodes, together
+from swtstudy.mechanics.body import (
+    Body,
+    Spells,
+    TimeNodes,
+    closer_nodes,
+    decisive_spells,
+    time_nodes,
+    together,
+)
 from swtstudy.mechanics.critical_plane_3d import CriticalPlane
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
 
-#: Steps of the time nodes on a stretch: first look, climb, and value.
-_LOOK, _CLIMB, _VALUE = 3, 3, 5
-#: Cells of a profile that is not a paraboloid: stresses to about 1e-6 p0.
-_CELLS = 60
+#: Steps of the time nodes on a stretch: first look and climb, and value.
+_LOOK, _VALUE = 3, 5
+#: Cells of a profile that is not a paraboloid and of each growth: stresses to about 1e-4 and 1e-6 p0.
+_CELLS, _VALUE_CELLS = 16, 60
 #: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius.
-_BETWEEN = 20
+_BETWEEN = 12
 _ANGLES = np.linspace(0.0, np.pi, 9)
-_DEPTHS = np.array([0.0, 0.003, 0.01, 0.03, 0.1, 0.25, 0.5, 0.9])
+_DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
 _FIRST_STEPS = np.array([0.03, 0.15, 0.02])
-_SUMMITS = 4
-#: Places below this share of the highest in the first look are not climbed from.
-_PROMISING = 0.75
-_ROUNDS = 9
-#: The search keeps so far from the edge of a flat face, in the largest contact radius.
+_SUMMITS = 3
+#: Places below this share of the highest in the first look are not climbed from; nor those below the second
+#: share once their instants resolve the cycle, nor further below the third.
+_PROMISING, _WORTHY, _NEAR = 0.75, 0.9, 0.97
+_ROUNDS = 8
+#: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
+#: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
 _RING = 1e-3
 
 
@@ -51,6 +61,25 @@ class BodyMaximum:
     normal: FloatArray
 
 
+@dataclass(frozen=True)
+class _Search:
+    """Where the maximum is looked for.
+
+    Attributes
+    ----------
+    scene
+        A batch of one point.
+    largest
+        Largest contact radius of the cycle.
+    ring
+        Half the width of the ring around the edge of a flat face that is left out.
+    """
+
+    scene: Scene
+    largest: float
+    ring: float
+
+
 def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlane]:
     """Largest swt over the body, and swt over all planes at the surface line's critical point.
 
@@ -68,41 +97,42 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     """
     largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    # What makes swt at the line's maximum makes it nearby, too: these instants serve the whole search.
-    sharp = _closer(scene, own, looks=1)
-    starts = np.concatenate([own[None], _first_look(scene, largest), _vicinity(own, largest)])
-    place = _climb(scene, starts, largest, sharp)
+    flat = float(scene.profile.flat_radius[0])
+    search = _Search(scene, largest, min(_RING * largest, 0.9 * abs(own[0] - flat)))
+    place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
     both = np.stack([place, own])
-    final = Body.of(
-        scene, together(scene, _closer(scene, own, looks=3), _closer(scene, place, looks=3)), 2 * _CELLS
-    )
-    swt, normal = final.swt(*_cartesian(both))
+    distinct = both[: 1 + bool(np.any(place != own))]
+    nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
+    swt, normal = Body.of(scene, nodes, _VALUE_CELLS).swt(*_cartesian(both))
     best = int(swt[1] >= swt[0])
     position = np.array(_cartesian(both[best]))
     return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
 
 
-def _closer(scene: Scene, place: FloatArray, looks: int) -> TimeNodes:
-    """Instants that resolve the extremes over the cycle at one place."""
-    x, y, z = (float(v) for v in _cartesian(place))
-    return closer_nodes(scene, time_nodes(scene, _VALUE, place[:1]), (x, y, z), _CELLS, looks)
+def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
+    """Instants that resolve the extremes over the cycle at one place, and the parts of it that matter."""
+    point = tuple(float(v) for v in _cartesian(place))
+    nodes = time_nodes(scene, _VALUE, place[:1])
+    spells = decisive_spells(Body.of(scene, nodes, _CELLS), nodes, point)
+    return closer_nodes(scene, spells.of(nodes), point, _CELLS, looks), spells
 
 
-def _first_look(scene: Scene, largest: float) -> FloatArray:
-    """The highest places of a grid, not more than `_SUMMITS`, shape (k, 3)."""
+def _first_look(search: _Search, own: FloatArray) -> FloatArray:
+    """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
+    scene, largest = search.scene, search.largest
     grid = np.stack(
         np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
     ).reshape(-1, 3)
-    grid = _off_ring(scene, grid, largest)
+    grid = _off_ring(search, grid)
     swt = Body.of(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
-    chosen: list[int] = []
-    for index in np.argsort(-swt):
-        if swt[index] < _PROMISING * swt.max() or len(chosen) == _SUMMITS:
-            break
-        apart = np.abs(grid[index] - grid[chosen]) > [0.1 * largest, 0.5, 0.1 * largest]
+    chosen = [own]
+    for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= _PROMISING * swt.max())]:
+        apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
         if apart.any(axis=1).all():
-            chosen.append(int(index))
-    return grid[chosen]
+            chosen.append(place)
+        if len(chosen) > _SUMMITS:
+            break
+    return np.array(chosen[1:]).reshape(-1, 3)
 
 
 def _radii(scene: Scene, largest: float) -> FloatArray:
@@ -117,36 +147,57 @@ def _radii(scene: Scene, largest: float) -> FloatArray:
     return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
 
-def _vicinity(own: FloatArray, largest: float) -> FloatArray:
-    """Places close to the line's maximum, off the line and beneath it."""
-    away = [[0.0, angle, 0.0] for angle in (1e-3, 1e-2, 0.1)]
-    deep = [[0.0, 0.0, depth * largest] for depth in (1e-4, 1e-3, 1e-2)]
-    return _folded(own + np.array(away + deep))
+def _climb(search: _Search, places: FloatArray) -> FloatArray:
+    """The highest of the summits to which a pattern search leads from each of the places, shape (3,)."""
+    resolved = [_closer(search.scene, place, looks=1) for place in places]
+    height = np.array(
+        [
+            Body.of(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
+            for (nodes, _), place in zip(resolved, places, strict=True)
+        ]
+    )
+    best, highest = places[0], float(height[0])
+    for start in np.argsort(-height):
+        if height[start] < _WORTHY * highest:
+            break
+        nodes, spells = resolved[start]
+        summit, swt = _climb_from(search, places[start], nodes, spells, highest)
+        if swt > highest * (1.0 + 1e-9):
+            best, highest = summit, swt
+    return best
 
 
-def _climb(scene: Scene, places: FloatArray, largest: float, sharp: TimeNodes) -> FloatArray:
-    """Pattern search from several places at once; the highest of the summits, shape (3,)."""
+def _climb_from(
+    search: _Search, place: FloatArray, sharp: TimeNodes, spells: Spells, rival: float
+) -> tuple[FloatArray, float]:
+    """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    steps = np.tile(_FIRST_STEPS * np.array([largest, 1.0, largest]), (len(places), 1))
-    for turn in range(_ROUNDS):
-        trial = _off_ring(scene, _folded(places[:, None] + steps[:, None] * stencil), largest)
-        # Nearby radii share the aligned instants of the place in their midst.
-        nodes = together(scene, sharp, time_nodes(scene, _CLIMB, np.unique(places[:, 0])))
+    scene = search.scene
+    steps = _FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
+    height = 0.0
+    for _ in range(_ROUNDS):
+        trial = _off_ring(search, _folded(place + steps * stencil))
+        # Reflection maps trials onto one another where the place is on the line or on the surface.
+        trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
+        # The trials have three radii, at each of which the stress has its own cusps in time.
+        aligned = time_nodes(scene, _LOOK, np.unique(trial[:, 0]))
+        nodes = together(scene, sharp, spells.of(aligned))
         swt = Body.of(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
-        best = swt.argmax(axis=1)
-        row = np.arange(len(places))
-        highest = swt[row, best]
-        stays = highest <= swt[:, len(stencil) // 2] * (1.0 + 1e-9)
-        places = trial[row, best]
-        steps[stays] *= 0.4
-        keep = highest >= (0.9 if turn == 0 else 0.97) * highest.max()
-        places, steps, highest = places[keep], steps[keep], highest[keep]
-    return places[np.argmax(highest)]
+        here = int(np.abs(trial - place).max(axis=1).argmin())
+        best = int(swt.argmax())
+        if swt[best] <= swt[here] * (1.0 + 1e-9):
+            steps = 0.4 * steps
+        else:
+            place = trial[best]
+        height = float(swt[best])
+        if height < _NEAR * rival:
+            break
+    return place, height
 
 
-def _off_ring(scene: Scene, places: FloatArray, largest: float) -> FloatArray:
-    """Places moved away from the edge of a flat face, where a profile's slope can be infinite."""
-    b, near = float(scene.profile.flat_radius[0]), _RING * largest
+def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
+    """Places moved away from the edge of a flat face."""
+    b, near = float(search.scene.profile.flat_radius[0]), search.ring
     if b == 0.0:
         return places
     offset = places[..., 0] - b
@@ -165,5 +216,5 @@ def _folded(places: FloatArray) -> FloatArray:
 def _cartesian(places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     r, angle, z = np.moveaxis(places, -1, 0)
     # sin π is not 0 in floating point: keep the line y = 0 a line.
-    y = np.where((angle == 0.0) | (angle == np.pi), 0.0, r * np.sin(angle))
+    y = np.where(np.sin(angle) < 1e-9, 0.0, r * np.sin(angle))
     return r * np.cos(angle), y, z

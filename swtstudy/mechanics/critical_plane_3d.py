@@ -91,7 +91,9 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
     return CriticalPlane(swt.reshape(batch), normal.reshape(*batch, 3))
 
 
-def strain_history(stress: FloatArray, poisson_ratio: float, youngs_modulus: float = 1.0) -> FloatArray:
+def strain_history(
+    stress: FloatArray, poisson_ratio: float | FloatArray, youngs_modulus: float = 1.0
+) -> FloatArray:
     """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
 
     Parameters
@@ -99,7 +101,7 @@ def strain_history(stress: FloatArray, poisson_ratio: float, youngs_modulus: flo
     stress
         Shape (..., 6).
     poisson_ratio, youngs_modulus
-        ν, E.
+        ν, E; ν may be an array that can be broadcast to (..., 1).
     """
     strain = (1.0 + poisson_ratio) * stress
     strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)

@@ -14,10 +14,10 @@ from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_
 from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
 #: Planes that the first look tries.
-SCAN_PLANES = 12
-SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
+SCAN_PLANES = 20
+SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, digits=3.5)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
-CANDIDATE_SHARES = np.array([0.9, 0.97, 0.995, 0.999])
+CANDIDATE_SHARES = np.array([0.85, 0.97, 0.995, 0.999])
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
@@ -25,7 +25,7 @@ FIRST_WIDTH, SHRINKING = 0.25, 0.2
 WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
 #: Share of the last round's change that the next one would make at most.
-CHANGE_SHARE = 0.1
+CHANGE_SHARE = 0.03
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
 SETTLED, LEAST_ERROR = 0.3, 0.1
 #: Values closer than this are equal, relative.
@@ -56,8 +56,7 @@ class Accuracy:
         digits = -np.log10(rtol)
         # A zoom gains a factor of 30.
         zooms = max(int(np.ceil(0.5 * digits)) + int(digits > 5.0), 1)
-        growth = int(np.ceil(max(4.0 * digits - 2.0, 6.0 * digits - 10.0)))
-        return cls(Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 8), rtol)
+        return cls(Resolution(3, zooms, digits + 1.0), Resolution(4, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
         """The same with twice the instants."""

@@ -28,11 +28,13 @@ def normal_weights(normal: FloatArray) -> FloatArray:
 
 def bilinear_weights(left: FloatArray, right: FloatArray) -> FloatArray:
     """Weights of the six components in lᵀ σ r, shape (..., 6), for vectors of shape (..., 3)."""
-    lx, ly, lz = np.moveaxis(left, -1, 0)
-    rx, ry, rz = np.moveaxis(right, -1, 0)
-    return np.stack(
-        [lx * rx, ly * ry, lz * rz, ly * rz + lz * ry, lx * rz + lz * rx, lx * ry + ly * rx], axis=-1
-    )
+    lx, ly, lz = left[..., 0], left[..., 1], left[..., 2]
+    rx, ry, rz = right[..., 0], right[..., 1], right[..., 2]
+    weights = np.empty((*np.broadcast_shapes(lx.shape, rx.shape), 6))
+    weights[..., 0], weights[..., 1], weights[..., 2] = lx * rx, ly * ry, lz * rz
+    weights[..., 3], weights[..., 4] = ly * rz + lz * ry, lx * rz + lz * rx
+    weights[..., 5] = lx * ry + ly * rx
+    return weights
 
 
 def symmetric_tensor(components: FloatArray) -> FloatArray:

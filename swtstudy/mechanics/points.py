@@ -60,6 +60,9 @@ class Solution:
         Angle of the critical plane's normal against the x axis, degrees in (-90, 90].
     regime
         Index into `REGIMES`.
+    s_surface
+        s over the circle on the surface through the critical point and all planes: s itself where the line
+        y = 0 is enough, –.
     """
 
     s: FloatArray
@@ -67,3 +70,4 @@ class Solution:
     critical_x: FloatArray
     critical_angle: FloatArray
     regime: NDArray[np.int8]
+    s_surface: FloatArray

@@ -17,8 +17,11 @@ from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
-#: Positions that the first look spreads over the contact besides the cusps, and over each wave.
-SPREAD, SPREAD_PER_WAVE = 16, 8
+#: Positions that the first look spreads over the contact besides the cusps.
+SPREAD = 16
+#: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
+#: what sticks at touch-down keeps the oscillation.
+SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
 #: Depths of cusps nearer than this are one.
@@ -129,7 +132,8 @@ def positions_of_first_look(cycle: Cycle, profile: Profile) -> Positions:
     """Positions of the first look at each of the n points."""
     ends = cusps(cycle, profile)
     waves = (ends[:, -1] - ends[:, 0]) / profile.feature_length
-    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves)
+    oscillations = max(cycle.protocol.p / cycle.protocol.q - 1.0, 0.0)
+    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
 
 
 def _cosine(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:

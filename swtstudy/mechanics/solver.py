@@ -14,6 +14,7 @@ from swtstudy.mechanics.maximum import Accuracy, Maximum, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
 from swtstudy.mechanics.profiles import make_profile, resolved_shape, roughness
 from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.surface_circle import circle_gain
 from swtstudy.mechanics.swt_line import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
@@ -40,7 +41,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     n = len(points)
     shape, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
     points = replace(points, shape=shape)
-    s, error, position, angle = (np.zeros(n) for _ in range(4))
+    s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
     for index, cycle in _batches(points):
@@ -50,6 +51,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         lost = not_finite(profile, cycle, scene.friction)
         found = _maximum(scene, np.flatnonzero(~lost), accuracy)
         s[index], error[index] = found.swt, found.error + left_out[index] * found.swt
+        surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
         position[index] = found.position
         angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
         state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")
@@ -57,7 +59,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         state = np.where(cycle.protocol.tangential_amplitude == 0.0, "stick", state)
         state = np.where(lost, "not_finite", state)
         regime[index] = [REGIMES.index(name) for name in state]
-    return Solution(s, error, position, angle, regime)
+    return Solution(s, error, position, angle, regime, surface)
 
 
 def _batches(points: Points) -> Iterator[tuple[NDArray[np.intp], Cycle]]:

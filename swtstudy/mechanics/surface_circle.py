@@ -1,4 +1,4 @@
-"""swt on the circle through a point of the surface line: the line's assumption y = 0, tested cheaply.
+"""swt on the circle through the critical point of the surface line: the assumption y = 0, tested.
 
 The stress at (r cos θ, r sin θ) on the surface is made of the same building blocks as on the line. By
 pressure it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
@@ -6,25 +6,36 @@ pressure it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T
     σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
 
 since ζ = iξ at the surface makes the functions of `field.punch` depend on one another: r² L³/R = 2 L² − L/R.
+The building blocks know only r: edge and slip fronts pass the whole circle at once, and the instants that
+make swt on the line make it on the circle.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from swtstudy.mechanics.critical_plane_3d import swt_of_history
+from swtstudy.mechanics.critical_plane_3d import strain_history
+from swtstudy.mechanics.gather import gather
 from swtstudy.mechanics.instants import cosine_nodes, stretches
+from swtstudy.mechanics.plane_ascent import climb
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.surface_stress import History, SurfaceLine
 from swtstudy.mechanics.swt_line import Scene
+from swtstudy.mechanics.zoom import TimeBrackets
 
-#: Angles between the line and the y axis that are looked at.
-_ANGLES = np.linspace(0.0, 0.5 * np.pi, 25)
-_TIME_STEPS, _GROWTH_NODES = 4, 16
+#: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
+SAFE_POISSON_RATIO = 0.35
+#: Angles from the line that are looked at first, then in a narrower range.
+_ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
+_CLOSER = np.linspace(-1.0, 1.0, 9)[None] * _ANGLES[1]
+_TIME_STEPS, _DIGITS = 4, 5.5
 
 
-def circle_gain(scene: Scene, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """By how much swt on the circle through a point of the surface line exceeds swt on the line.
+def circle_gain(
+    scene: Scene, position: FloatArray, double_angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """By how much swt on the circle through the line's maximum exceeds swt on the line.
 
     Parameters
     ----------
@@ -32,53 +43,105 @@ def circle_gain(scene: Scene, position: FloatArray) -> tuple[FloatArray, FloatAr
         n points.
     position
         Shape (n,): signed x in a_H of the line's maximum.
+    double_angle
+        Shape (n,): 2θ of its critical plane, rad.
 
     Returns
     -------
     gain, angle
         Shape (n,): the relative excess, 0 where the line has the maximum, and where on the circle it is, rad
-        from the line; over all plane orientations.
+        from the line; over all plane orientations, at the instants that make swt on the line.
     """
-    r = np.abs(position)[:, None]
-    line = SurfaceLine(scene.cycle, scene.profile, r, _GROWTH_NODES)
-    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, scene.profile.depth(r)), _TIME_STEPS)
-    history = line.history(nodes)
-    gain, angle = np.zeros(len(position)), np.zeros(len(position))
-    for row, x in enumerate(position):
-        ν, μ = float(scene.poisson_ratio[row]), float(scene.friction[row])
-        blocks = History(*(getattr(history, name)[row, 0] for name in history.__dataclass_fields__))
-        stress = circle_stress(blocks, ν, μ, np.where(x >= 0.0, _ANGLES, np.pi - _ANGLES))
-        swt = swt_of_history(stress, ν, 1.0 - ν**2).swt
-        best = int(swt.argmax())
-        if swt[best] > 0.0 and best:
-            gain[row] = swt[best] / swt[0] - 1.0 if swt[0] > 0.0 else np.inf
-            angle[row] = _ANGLES[best]
+    gain, angle = np.zeros(len(scene)), np.zeros(len(scene))
+    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (np.abs(position) > 0.0))
+    if rows.size:
+        some = scene.take(rows)
+        history, normal = _decisive_history(some, position[rows], double_angle[rows])
+        swt = _on_circle(some, history, normal, np.broadcast_to(_ANGLES, (rows.size, _ANGLES.size)))
+        base, best = swt[:, 0], swt.argmax(axis=1)
+        off = np.flatnonzero((best > 0) & (base > 0.0))
+        if off.size:
+            near = _ANGLES[best[off], None] + _CLOSER
+            found = _on_circle(some.take(off), _taken(history, off), normal[off], near)
+            top = found.argmax(axis=1), np.arange(off.size)
+            gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
+            angle[rows[off]] = near[top[::-1]]
     return gain, angle
 
 
-def circle_stress(history: History, poisson_ratio: float, friction: float, angle: FloatArray) -> FloatArray:
-    """Stress on a circle of the surface, shape (k, T, 6), components xx, yy, zz, yz, xz, xy in E* √(δ0/R).
+def circle_stress(
+    history: History, poisson_ratio: FloatArray, friction: FloatArray, angle: FloatArray
+) -> FloatArray:
+    """Stress on circles of the surface, shape (n, k, T, 6), components xx, yy, zz, yz, xz, xy.
 
     Parameters
     ----------
     history
-        Building blocks at one r, shape (T,).
+        Building blocks in E* √(δ0/R) at one r for each of n points, shape (n, T).
     poisson_ratio, friction
-        ν, μ.
+        Shape (n,): ν, μ.
     angle
-        Shape (k,): θ from the x axis.
+        Shape (n, k): θ from the x axis.
     """
-    ν = poisson_ratio
-    c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    ν, μ = poisson_ratio[:, None], friction[:, None]
+    c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
     spread = 0.5 * (1.0 - 2.0 * ν) * history.mean_pressure
     radial, hoop = spread - history.pressure, -spread - 2.0 * ν * history.pressure
-    t1, t3 = friction * history.tangential_1, friction * history.tangential_3
+    blocks = radial, hoop, μ * history.tangential_1, μ * history.tangential_3
+    radial, hoop, t1, t3 = (block[:, None] for block in blocks)
+    ν = ν[..., None]
     j, k = t1 - t3, 1.5 * t1 - 2.0 * t3
     across = ν * c * (2.0 * c * c * k - 3.0 * j)
     stress = np.zeros((*np.broadcast_shapes(c.shape, t1.shape), 6))
     stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * t1 * c + across
     stress[..., 1] = radial * s * s + hoop * c * c - across
-    stress[..., 2] = -history.pressure
-    stress[..., 4] = friction * history.traction
+    stress[..., 2] = -history.pressure[:, None]
+    stress[..., 4] = (μ * history.traction)[:, None]
     stress[..., 5] = (radial - hoop) * c * s + 0.5 * t1 * s + ν * s * (2.0 * c * c * k - j)
     return stress
+
+
+def _decisive_history(
+    scene: Scene, position: FloatArray, double_angle: FloatArray
+) -> tuple[History, FloatArray]:
+    """Building blocks around the three instants that make swt on the line, and its plane's normal.
+
+    A maximum at x < 0 is mirrored to x > 0.
+    """
+    r = np.abs(position)[:, None]
+    line = SurfaceLine(scene.cycle, scene.profile, r, _DIGITS)
+    ends = stretches(scene.cycle, scene.profile.depth(r))
+    nodes, number = cosine_nodes(scene.cycle, ends, _TIME_STEPS)
+    side = np.where(position < 0.0, -1.0, 1.0)
+
+    def extremes(history: History) -> list[FloatArray]:
+        planes = scene.planes(history, side[:, None, None])
+        stress, strain = planes.on_plane(double_angle[:, None])
+        return [stress, strain, -strain]
+
+    at = [curve.argmax(axis=-1) for curve in extremes(line.history(nodes))]
+    brackets = TimeBrackets.around(ends, _TIME_STEPS, gather(number, np.stack(at, axis=-1)))
+    wide = line.history(brackets.samples())
+    parts = (np.split(curve, 3, axis=-1)[k] for k, curve in enumerate(extremes(wide)))
+    narrow = line.history(brackets.narrowed(np.stack([p.argmax(axis=-1) for p in parts], axis=-1)).samples())
+    blocks = {
+        name: np.concatenate([getattr(wide, name), getattr(narrow, name)], axis=-1)[:, 0]
+        for name in vars(wide)
+    }
+    for name in ("tangential_1", "tangential_3", "traction"):
+        blocks[name] = blocks[name] * side[:, None]
+    θ = 0.5 * double_angle
+    return History(**blocks), np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)
+
+
+def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatArray) -> FloatArray:
+    """swt at angles (n, k) on the circles; the planes are climbed to from the line's."""
+    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
+    strain = strain_history(stress, scene.poisson_ratio[:, None, None, None])
+    start = np.broadcast_to(normal[:, None], (*angle.shape, 3)).reshape(-1, 3)
+    flat = (-1, *stress.shape[-2:])
+    return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)
+
+
+def _taken(history: History, rows: NDArray[np.intp]) -> History:
+    return History(**{name: values[rows] for name, values in vars(history).items()})

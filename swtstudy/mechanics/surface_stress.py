@@ -55,13 +55,13 @@ class SurfaceLine:
         n cycles and n profiles, one pair a point.
     position
         Shape (n, X): r = |x| > 0 in a_H.
-    growth_nodes
-        Number of Chebyshev nodes for the springs that stuck at touch-down.
+    digits
+        Digits of the largest stress to which tables and series are made.
     """
 
-    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, growth_nodes: int) -> None:
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
         self.cycle, self.profile, self.position = cycle, profile, position
-        self.primitives = profile.primitives(position)
+        self.primitives = profile.primitives(position, digits)
         memory = cycle.memory
         n, intervals, pieces = memory.start.shape
         finite = np.isfinite(memory.start)
@@ -76,7 +76,7 @@ class SurfaceLine:
         slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
         # Integral over each complete piece, up to the start of the next one.
         piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
-        self.growth = GrowthIntegrals(cycle, profile, position, growth_nodes)
+        self.growth = GrowthIntegrals(cycle, profile, position, digits)
         if self.growth.count:
             self.growth_index = self.growth.index(cycle)
             grown = finite & (memory.slope == GROWTH)

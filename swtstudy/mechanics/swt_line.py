@@ -38,13 +38,13 @@ class Resolution:
         Steps of the cosine-spaced instants of each stretch.
     zooms
         How often the extremes are looked at more closely, at least once to refine.
-    growth_nodes
-        Chebyshev nodes for the springs that stuck at touch-down.
+    digits
+        Digits of the largest stress to which tables and series are made.
     """
 
     nodes: int
     zooms: int
-    growth_nodes: int
+    digits: float
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     planes
         Number of planes that are tried.
     """
-    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
+    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.digits)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     nodes, _ = cosine_nodes(scene.cycle, ends, resolution.nodes)
     history = line.history(nodes)
@@ -195,7 +195,7 @@ def _refine_from(
 
     Also another plane that may be better still, and whether it has its extremes elsewhere in the cycle.
     """
-    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
+    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.digits)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
     nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)

@@ -133,9 +133,9 @@ def solve_points(points: Points, rtol: float) -> Solution:
 
 def blank(size: int) -> Solution:
     """A solution without values."""
-    s, s_error, critical_x, critical_angle = np.full((4, size), np.nan)
+    s, s_error, critical_x, critical_angle, s_surface = np.full((5, size), np.nan)
     regime = np.full(size, REGIMES.index("not_finite"), np.int8)
-    return Solution(s, s_error, critical_x, critical_angle, regime)
+    return Solution(s, s_error, critical_x, critical_angle, regime, s_surface)
 
 
 def solution_at(solution: Solution, rows: NDArray) -> Solution:

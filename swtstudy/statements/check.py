@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swtstudy.audit import AUDIT_PREFIX
 from swtstudy.statements import (
     critical_point,
     figure3,
@@ -37,7 +38,7 @@ STATEMENTS: tuple[Statement, ...] = (
 )
 
 
-#: Names of the studies that the statements are about.
+#: Names of the archives and audits that the statements are about.
 STUDIES = tuple(dict.fromkeys(name for statement in STATEMENTS for name in statement.studies))
 
 
@@ -56,7 +57,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Parameters
     ----------
     results
-        Folder with the archives of the suite, each named after its study.
+        Folder with the archives of the suite, each named after its study, and with the audit.
 
     Returns
     -------
@@ -82,10 +83,18 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
 def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
     """Read an archive into the others; what is wrong if it cannot be used."""
     from swtstudy.archive.read import open_results
+    from swtstudy.audit.table import open_audit
 
-    command = f"swtstudy run {Path(SUITE) / name}.toml"
+    audited = name.startswith(AUDIT_PREFIX)
+    study = name.removeprefix(AUDIT_PREFIX)
+    command = (
+        f"swtstudy audit {SUITE}/audit/{study}.toml" if audited else f"swtstudy run {SUITE}/{study}.toml"
+    )
     if not path.is_file():
         return f"{path} is missing; made by: {command}"
+    if audited:
+        archives[name] = open_audit(path)
+        return ""
     dataset = open_results(path)
     gaps = int(dataset.s.isnull().sum())
     if gaps:

@@ -1,7 +1,7 @@
 """Section 4.1: where the critical point lies, how the critical plane is turned, and how contacts slip.
 
-That the point lies on the surface and at y = 0 is not tested here: the archives' values are the maxima over
-that line.
+That the point lies on the surface and at y = 0 is tested on an audit: the archives' values are the maxima
+over that line.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.audit import AUDIT_PREFIX
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.statements.statement import Finding, Statement
 from swtstudy.statements.stick_zone import stick_radius
@@ -30,6 +31,27 @@ _ALL = (
     "tangential_amplitude",
     "poisson_ratio",
 )
+
+
+def on_the_line(audit: xr.Dataset) -> Finding:
+    """Where the maximum over the whole body and all planes is, at random points of all parameters."""
+    verdict = audit.verdict.values[np.isfinite(audit.excess.values)]
+    codes = {name: verdict == code for code, name in enumerate(audit.verdict.attrs["flag_meanings"].split())}
+    off, beneath, oblique = codes["symmetry_line"], codes["surface"], codes["plane_through_y"]
+    left = off | beneath | oblique
+    share = 1.0 - float(left.mean())
+    measured = (
+        f"at {share:.1%} of {len(verdict)} random points of all parameters the worst of all points and "
+        f"planes is on the line; beneath the surface {beneath.sum()}, on an oblique plane {oblique.sum()}, "
+        f"on the surface off the line {off.sum()}"
+    )
+    if left.any():
+        finite = audit.isel(sample=np.isfinite(audit.excess.values))
+        measured += (
+            f", with swt up to {float(finite.excess.values[left].max()):.1%} higher, for "
+            f"ν ≥ {float(finite.poisson_ratio.values[left].min()):.2f}"
+        )
+    return Finding(measured, share >= _BASICALLY_ALL)
 
 
 def outside_of_stick(*archives: xr.Dataset) -> Finding:
@@ -76,6 +98,13 @@ STATEMENTS = (
         "at 95% of all points no gross slip (max(u − δ) > min(u + δ)) recurs in the cycle",
         _ALL,
         slips_partially,
+    ),
+    Statement(
+        "Section 4.1",
+        "The critical point lies on the surface, on the line y = 0.",
+        "at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%",
+        (f"{AUDIT_PREFIX}parameter_box",),
+        on_the_line,
     ),
     Statement(
         "Section 4.1",

@@ -14,8 +14,6 @@ Every statement of E. Willert, Eng 2024, 5, 333–346 (doi:10.3390/eng5010018) t
 folder can test, in our words. The paper says "almost", "little" or "weak" where a test needs a bound: the
 bounds are ours, and stand in the third column. A statement that does not hold is reported as it is.
 
-That the critical point lies on the surface and at y = 0 is not tested here: s is the maximum over that line.
-
 Made by `swtstudy check`.
 """
 

@@ -1,9 +1,10 @@
 """Slopes of the springs as straight pieces on cells of ξ, so that the field integrals are closed form.
 
 Each piece keeps its cell's integrals ∫ g′ dξ and ∫ ξ g′ dξ (it is the L² projection of g′ on straight
-lines). Beneath the surface, where the punch's field is smooth across a cell, the error of the stress is then
-O(h⁴), in the surface O(h^5/2); a paraboloid's slope is exact. The integrable singularity of the truncated
-paraboloid needs no care beyond cells that shrink towards it.
+lines); on the axis the piece starts at 0 and keeps the first integral only. Beneath the surface, where the
+punch's field is smooth across a cell, the error of the stress is then O(h⁴), in the surface O(h^5/2); a
+paraboloid's slope is exact. The integrable singularity of the truncated paraboloid needs no care beyond
+cells that shrink towards it.
 """
 
 from __future__ import annotations
@@ -90,4 +91,7 @@ def slope_cells(
     offset = (t**2 - middle) * (2.0 / width[:, None])
     mean = mass.sum(axis=-1) / width
     gradient = np.where(width > _NARROW * ends[-1], 6.0 * (mass * offset).sum(axis=-1) / width**2, 0.0)
+    if ends[0] == 0.0:
+        # g′(0) = 0: an intercept, however small, would make the stress on the axis logarithmically infinite.
+        gradient[:, 0] = 2.0 * mean[:, 0] / width[0]
     return SlopeCells(ends, mean - gradient * 0.5 * (ends[1:] + ends[:-1]), gradient)

@@ -10,8 +10,8 @@ from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 from swtstudy.mechanics.profiles.struve import struve_functions
 from swtstudy.mechanics.profiles.tables import TablePrimitives
 
-#: Chebyshev nodes of the tables: so many, and so many more per rad of kξ.
-TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
+#: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
+NODES_PER_DIGIT, NODES_PER_RADIAN, NODES_PER_RADIAN_AND_DIGIT = 2.2, 0.55, 0.025
 #: Positions of the first guess of the contact radius of a smooth profile.
 GUESSES = 64
 #: Step of kξ in rad between levels of roughness.
@@ -90,9 +90,8 @@ class WavyParaboloid(Profile):
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
 
-    @property
-    def extra_nodes(self) -> int:
-        return int(NODES_PER_RADIAN * self.phase)
+    def extra_nodes(self, digits: float) -> int:
+        return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
 
     @property
     def feature_length(self) -> FloatArray:
@@ -100,32 +99,32 @@ class WavyParaboloid(Profile):
             return 2.0 * np.pi / self.wave_number
 
     def depth(self, radius: FloatArray) -> FloatArray:
-        return self._with_derivatives(radius)[0]
+        return self._with_slope(radius)[0]
 
-    def _with_derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """g, g′ = 2ξ + (π/2) h k A and g″ = 2 + (π/2) h k² A′ with A = H₀ + z (2/π − H₁)."""
+    def _with_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """g and g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
         zeroth, first = struve_functions(z)
         wave = (0.5 * np.pi) * h
         slope = 2.0 * radius + wave * k * (zeroth + z * (2.0 / np.pi - first))
-        bend = 2.0 + wave * k * k * (4.0 / np.pi - first - z * zeroth)
-        return radius * radius + wave * z * zeroth, slope, bend
+        return radius * radius + wave * z * zeroth, slope
 
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
         guess, root = np.empty_like(depth), np.sqrt(depth)
         for row, (known, radius) in enumerate(zip(self._guess_root, self._guess_radius, strict=True)):
             guess[row] = np.interp(root[row], known, radius)
-        # Halley's step cubes the error of the guess.
-        value, slope, bend = self._with_derivatives(guess)
-        error = value - depth
-        divisor = 2.0 * slope * slope - error * bend
-        step = np.divide(2.0 * error * slope, divisor, out=np.zeros_like(error), where=divisor > 1e-18)
-        return np.maximum(guess - step, 0.0)
+        # To the last digit: at a turning point an error of r is an error of its root in time.
+        for _ in range(2):
+            value, slope = self._with_slope(guess)
+            error = value - depth
+            step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
+            guess = np.maximum(guess - step, 0.0)
+        return guess
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
-        return radius * self._with_derivatives(radius)[1]
+        return radius * self._with_slope(radius)[1]
 
     def half_load(self, radius: FloatArray) -> FloatArray:
         # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
@@ -136,9 +135,9 @@ class WavyParaboloid(Profile):
         scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
         return (2.0 / 3.0) * radius**3 + scale * wave
 
-    def primitives(self, position: FloatArray) -> Primitives:
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
         largest = self.radius(self.largest_depth)
-        nodes = TABLE_NODES + self.extra_nodes
+        nodes = int(NODES_PER_DIGIT * digits) + self.extra_nodes(digits)
         return TablePrimitives(self, position, nodes, nodes, largest)
 
 

@@ -32,8 +32,9 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        s, s_error, critical_x (in a_H), critical_angle (degrees) and regime, with the sequences as
-        dimensions in the order given and the single values as scalar coordinates.
+        s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
+        the surface line is not enough), with the sequences as dimensions in the order given and the single
+        values as scalar coordinates.
 
     Raises
     ------

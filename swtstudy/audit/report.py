@@ -1,0 +1,118 @@
+"""What an audit found, in words and tables."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.audit.point import TOLERANCE, VERDICTS
+from swtstudy.audit.table import canonical_rows
+from swtstudy.grid.canonical import describe_point
+from swtstudy.mechanics.points import REGIMES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_WORDS = {
+    "none": "on the surface line, where the solver found it",
+    "line_search": "on the surface line, elsewhere",
+    "plane_through_y": "on the surface line, on a plane that is not through y",
+    "symmetry_line": "on the surface, off the line",
+    "surface": "beneath the surface",
+    "not_finite": "not looked for: s is not finite",
+}
+_POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
+#: Points whose maximum the solver misses, named in the report.
+_NAMED = 20
+
+
+def report(dataset: xr.Dataset) -> str:
+    """The report of an audit as Markdown.
+
+    Parameters
+    ----------
+    dataset
+        From `swtstudy.audit_study`.
+    """
+    return "\n".join(_lines(dataset)) + "\n"
+
+
+def _lines(dataset: xr.Dataset) -> Iterator[str]:
+    excess, remainder, verdict = (dataset[name].values for name in ("excess", "remainder", "verdict"))
+    finite = np.isfinite(excess)
+    exceeded = finite & (excess > TOLERANCE)
+    flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * dataset["s"].values)
+    beyond = finite & (remainder > TOLERANCE)
+    ν = dataset["poisson_ratio"].values
+
+    yield f"# {dataset.attrs['title']}"
+    yield ""
+    yield (
+        f"{len(excess)} points, each solved in the whole body and for all plane orientations. That swt "
+        f"exceeds s counts from {TOLERANCE:.1%}."
+    )
+    yield ""
+    yield "| the maximum of swt is | points | exceeds s by up to | at ν from |"
+    yield "|---|---|---|---|"
+    for code, name in enumerate(VERDICTS):
+        here = verdict == code
+        if name in ("none", "not_finite") or not here.any():
+            yield f"| {_WORDS[name]} | {here.sum()} | | |"
+        else:
+            yield f"| {_WORDS[name]} | {here.sum()} | {excess[here].max():.1%} | {ν[here].min():.2f} |"
+    yield ""
+    yield from _shares("ν", _ranges(ν), finite, exceeded, excess, remainder)
+    yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
+    regime = np.array(REGIMES)[dataset["regime"].values]
+    yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    yield "## What the solver knows"
+    yield ""
+    yield (
+        f"The solver's s_surface is more than {TOLERANCE:.1%} above s at {flagged.sum()} points: "
+        f"{(flagged & exceeded).sum()} of the {exceeded.sum()} at which the body's maximum is, and "
+        f"{(flagged & ~exceeded).sum()} others. The body's maximum exceeds s_surface at {beyond.sum()} points"
+        + (", by up to " + f"{remainder[beyond].max():.2%}:" if beyond.any() else ".")
+    )
+    yield ""
+    rows = canonical_rows(dataset)
+    for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_NAMED]:
+        yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i])}"
+    away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)[finite]
+    yield ""
+    yield (
+        "At the line's maximum the solver and the field beneath the contact, two ways to one value, differ "
+        f"by {np.median(away):.0e} (median), {np.quantile(away, 0.99):.0e} (99 %), "
+        f"{away.max():.0e} (largest)."
+    )
+
+
+def _shares(
+    title: str,
+    groups: list[tuple[str, NDArray[np.bool_]]],
+    finite: NDArray[np.bool_],
+    exceeded: NDArray[np.bool_],
+    excess: NDArray[np.float64],
+    remainder: NDArray[np.float64],
+) -> Iterator[str]:
+    """A table of how often and by how much s, and s_surface, are exceeded in groups of points."""
+    yield f"| {title} | points | above s | by up to | above s_surface by up to |"
+    yield "|---|---|---|---|---|"
+    for name, group in groups:
+        inside = finite & group
+        if inside.any():
+            largest = f"{max(excess[inside].max(), 0.0):.2%} | {max(remainder[inside].max(), 0.0):.2%}"
+            yield f"| {name} | {inside.sum()} | {(inside & exceeded).sum()} | {largest} |"
+    yield ""
+
+
+def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:
+    pairs = itertools.pairwise(_POISSON_ENDS)
+    return [(f"{low:g}–{high:g}", ((ν > low) | (low == 0.0)) & (ν <= high + 1e-12)) for low, high in pairs]
+
+
+def _values(values: NDArray) -> list[tuple[str, NDArray[np.bool_]]]:
+    return [(str(value).replace("_", " "), values == value) for value in np.unique(values)]
