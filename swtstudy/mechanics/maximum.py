@@ -123,11 +123,7 @@ class _Climb:
     @classmethod
     def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
         """From the first look at the scene, for its finer division."""
-        swt = look.swt
-        if scene.cycle.protocol.q % 2 == 0:
-            # Half a common period later δ is the same and u has changed sign: both sides are alike.
-            swt = swt * np.array([1.0, 0.0])[:, None]
-        peak = local_maxima(swt)
+        peak = local_maxima(look.swt)
         point, side, column = peak
         hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
         centre, top, change = np.zeros((3, len(point)))
@@ -231,7 +227,7 @@ def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], N
     Parameters
     ----------
     swt
-        Shape (n, 2, X), at ascending positions on both sides.
+        Shape (n, 1 or 2, X), at ascending positions on one or both sides.
     """
     padded = np.pad(swt, ((0, 0), (0, 0), (1, 1)), constant_values=-1.0)
     largest = swt.max(axis=(1, 2), keepdims=True)

@@ -45,6 +45,15 @@ class History:
     tangential_3: FloatArray
     traction: FloatArray
 
+    def with_mirror_image(self) -> History:
+        """These instants, and those at which only the sign of the tangential load is another."""
+        normal = self.pressure, self.mean_pressure
+        tangential = self.tangential_1, self.tangential_3, self.traction
+        return History(
+            *(np.concatenate([values, values], axis=-1) for values in normal),
+            *(np.concatenate([values, -values], axis=-1) for values in tangential),
+        )
+
 
 class SurfaceLine:
     """n × X positions on the surface line of n points, ready for any instants.
