@@ -114,6 +114,15 @@ def test_s_grows_like_a_logarithm_towards_lift_off() -> None:
     assert rise[1] == pytest.approx(rise[0], rel=0.02)
 
 
+def test_s_grows_like_a_logarithm_towards_slip_of_the_innermost_spring() -> None:
+    # |u| = δ is reached at u_A = √(1 − δA²) here.
+    tangential = np.sqrt(0.75) * (1.0 - 10.0 ** -np.array([1.0, 2.0, 3.0, 4.0, 6.0, 12.0]))
+    batch = points("truncated_paraboloid", 0.3, 1.2, 0.5, tangential, -0.5 * np.pi, flat_radius=1.0)
+    found = solve_points(batch)
+    assert regime_names(found) == ["partial_slip"] * 4 + ["not_finite"] * 2
+    assert found.s[3] - found.s[2] > found.s[2] - found.s[1] > 0.0
+
+
 def test_s_is_continuous_where_the_search_changes_hands() -> None:
     for friction in (0.8, 0.9, 0.94, 0.95):
         found = sound(truncated(friction + np.array([-1e-9, 0.0, 1e-9]), 0.75, 2.0, 0.7, 1.0))
