@@ -42,7 +42,7 @@ def main() -> None:
         contact = sphere_on_flat(np.radians(degrees))
         s = swtstudy.nonlocal_swt(0.05 / contact.length_scale, **contact.parameters())
         local, mean = (contact.cycles(MATERIAL, values.squeeze()) for values in (s.s, s.s_volume))
-        print(f"{degrees:4}°  {float(contact.swt(s.s)):8.3f}  {float(local):10.2e}  {float(mean):10.2e}")
+        print(f"{degrees:4}°  {float(contact.swt(s.s)):8.3f}  {float(local):9.1e}  {float(mean):9.1e}")
 
 
 if __name__ == "__main__":

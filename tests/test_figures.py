@@ -201,3 +201,27 @@ def test_pyplot_is_not_touched():
         "pyplot" in path.read_text() and "import" in path.read_text().split("pyplot")[0][-20:]
         for path in package.rglob("*.py")
     )
+
+
+def test_regimes_are_marked_where_they_begin_and_long_ranges_are_logarithmic(tmp_path):
+    text = """
+title = "Regimes"
+[axes]
+normal_amplitude = [0.1, 0.75]
+tangential_amplitude = {start = 1e-4, stop = 10, num = 6, spacing = "log"}
+[figure]
+x = "tangential_amplitude"
+hue = "normal_amplitude"
+regimes = true
+"""
+    results = run(Study.from_text(text), tmp_path / "regimes.nc")
+    figure = draw(results)
+    (axes,) = figure.axes
+    assert axes.get_xscale() == "log"
+    marks = [line for line in axes.lines if line.get_marker() == "o"]
+    first = (results.regime.values == 2).argmax(axis=1)
+    np.testing.assert_array_equal(
+        [line.get_xdata()[0] for line in marks], results.tangential_amplitude[first]
+    )
+    assert [text.get_text() for text in figure.legends[0].get_texts()][-1] == "gross slip begins"
+    assert len(figure.legends[0].get_texts()) == 3

@@ -146,3 +146,34 @@ def test_the_regime_is_that_of_the_slip_lines():
     # The whole contact slides where max(u − δ) > min(u + δ): at Table 1 for phases of about 40° to 140°.
     regime = swtstudy.solve(phase=[0, 30 * DEGREE, 45 * DEGREE, 90 * DEGREE, 150 * DEGREE], rtol=1e-2).regime
     assert regime.values.tolist() == [1, 1, 2, 2, 1]
+
+
+def test_stability_lift_off_begins_without_a_jump():
+    study = few("stability", frequency_ratio=[0.5, 1], normal_amplitude=[0.975, 1, 1.025])
+    step = np.abs(study.s.diff("normal_amplitude") / study.s.isel(normal_amplitude=1))
+    assert float(step.max()) < 0.02  # two even steps; NaN does not count
+    lost = study.regime.sel(profile="truncated_paraboloid") == 4
+    assert lost.transpose("frequency_ratio", "normal_amplitude").values.tolist() == [[False, True, True]] * 2
+
+
+def test_stability_of_small_motions():
+    study = few("stability_small_motion", normal_amplitude=[0, 0.1], tangential_amplitude=[1e-12, 1e-8, 100])
+    at_rest, moving = study.s.transpose("normal_amplitude", "tangential_amplitude").values
+    assert at_rest[1] / at_rest[0] == pytest.approx(100, rel=2e-3)  # √u_A
+    assert moving[1] / moving[0] == pytest.approx(1, abs=1e-3)  # a few √u_A more
+
+
+def test_stability_of_friction_to_its_ends():
+    study = few("stability_friction", friction=[1e-6, 1, 10])
+    assert (np.isnan(study.s) == (study.regime == 4)).all()
+    assert study.regime.sel(profile="truncated_paraboloid").values.tolist() == [2, 4, 4]
+
+
+def test_stability_of_a_thin_annulus():
+    study = few("stability_thin_annulus", friction=[0.3, 0.99], flat_radius=[1e-3, 10, 20])
+    rounded, truncated = (study.s.sel(profile=name) for name in ("rounded_punch", "truncated_paraboloid"))
+    assert (rounded.diff("flat_radius") < 0).all()
+    b = study.flat_radius.values
+    # The pressure at r = b grows like b.
+    growth = np.log(truncated.isel(flat_radius=2) / truncated.isel(flat_radius=1)) / np.log(b[2] / b[1])
+    np.testing.assert_allclose(growth, 2, atol=0.05)

@@ -28,7 +28,7 @@ _RADII, _REACH = 240, 1.3
 #: The same for stick and slip.
 _SLIP_RADII, _SLIP_REACH = 601, 1.15
 #: How finely swt of the line is sampled.
-_RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, growth_nodes=24), 72
+_RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, digits=8.0), 72
 #: How many instants are told apart at most, and their least distance in cycles.
 _TOLD, _APART = 4, 0.08
 
@@ -94,7 +94,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     shown: Variables = {
         "shown_x": ((), x, _words("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, 1]), _words("SWT parameter", "swt")),
+        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), _words("SWT parameter", "swt")),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
@@ -152,7 +152,7 @@ def _load(scene: Scene, nodes: TimeNodes) -> Variables:
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
     index = np.broadcast_to(np.arange(nodes.instant.size), (1, radius.size, nodes.instant.size))
-    surface = SurfaceLine(scene.cycle, scene.profile, radius[None], _RESOLUTION.growth_nodes)
+    surface = SurfaceLine(scene.cycle, scene.profile, radius[None], _RESOLUTION.digits)
     return surface.history(Nodes(nodes.interval[None], nodes.instant[None], index))
 
 

@@ -103,11 +103,17 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
         )
     for bottom in axes[-1]:
         bottom.set_xlabel(axis_words(layout.x))
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    if handles:
+    # What the panels have in common is said once, the lines before the marks.
+    handles: dict[str, Any] = {}
+    for one in axes.flat:
+        for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
+    if labels:
         below = layout.kind != "lines"
         place: Any = "outside lower center" if below else "outside right upper"
-        figure.legend(handles, labels, loc=place, ncols=len(labels) if below else 1)
+        columns_of_legend = len(labels) if below else 1
+        figure.legend([handles[label] for label in labels], labels, loc=place, ncols=columns_of_legend)
     if layout.title:
         figure.suptitle(layout.title)
     return figure

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
 from swtstudy.figures.words import place_words, tick_in_pi
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.normalise import normalised, normalised_error
@@ -36,6 +37,14 @@ def draw_lines(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> N
         (line,) = axes.plot(x, s, label=words, markevery=_MARK_EVERY)
         if visible > 0.0 and np.any(half > visible):
             axes.fill_between(x, s - half, s + half, color=line.get_color(), alpha=0.25, linewidth=0)
+        if layout.regimes:
+            regime = panel.regime.isel({layout.hue: index}) if layout.hue else panel.regime
+            names = panel.regime.attrs["flag_meanings"].split()
+            mark_regimes(axes, x, s, [names[value] for value in regime.values[order]], line.get_color())
     axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    if in_equal_ratios(x):
+        axes.set_xscale("log")
+        if float(curves.max()) > LOG_RATIO * float(curves.where(curves > 0.0).min()):
+            axes.set_yscale("log")
     if PARAMETERS[layout.x].units == "rad":
         tick_in_pi(axes.xaxis, float(x.min()), float(x.max()))

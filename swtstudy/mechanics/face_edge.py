@@ -4,9 +4,12 @@ To the order √ε the stress at r = b⁺ is a finite part plus L/2 times a loga
 for b⁺ all springs are outside of r but for those at G → 0⁺, whose pull is finite. L takes the place of the
 position, so that distances far below what a number near b can hold cost nothing:
 
-* |τ| = w at the innermost spring and μ > 1: a plane near 45° is in tension that grows like L.
+* |τ| = w at the innermost spring and μ > 1: a plane near 45° is in tension that grows like L. Short of that
+  the maximum is where the permanent stick zone ends, and is given up once that is nearer than `NEAREST`.
 * The whole contact slides and μ ≥ 1: besides, Δε_n grows like L; at μ = 1 the tension is finite.
 * Contact is lost: springs that just touch at r pull with a finite stress before the pressure of −L comes.
+  Short of that s ~ ln(1/(1 − δA/δ0)), at the least radius of the contact, and is given up once that is nearer
+  than `NEAREST`.
 
 In these cases s is not finite. Else it is; if the whole contact slides, σ_n falls like (1 − μ) L while Δε_n
 rises like L, and the maximum lies at an L of some (π/2)/(1 − μ).
@@ -45,22 +48,26 @@ LEFT_OUT = 1e-5
 
 
 def not_finite(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
-    """Whether swt grows without bound towards r = b, shape (n,); see the head of this file."""
+    """Whether swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
     if not isinstance(profile, TruncatedParaboloid):
         return np.zeros(len(friction), dtype=bool)
-    tears = _innermost_spring_slips(cycle.protocol) & (friction > 1.0)
+    nearest = profile.singular_approach.min(axis=1, keepdims=True)
+    tears = _innermost_spring_slips(cycle.protocol, profile.depth(nearest)) & (friction > 1.0)
     tears |= cycle.gross_slip & (friction >= 1.0)
-    tangential = (friction > 0.0) & (cycle.protocol.tangential_amplitude > 0.0)
-    tears |= (cycle.protocol.normal_amplitude >= 1.0) & tangential
-    return np.asarray(tears & (profile.flat_radius > 0.0))
+    # Once contact is lost, or nearly, the maximum is where its edge turns.
+    turn = profile.radius(1.0 - cycle.protocol.normal_amplitude[:, None])
+    tears |= (turn <= nearest)[:, 0]
+    moves = (friction > 0.0) & (cycle.protocol.tangential_amplitude > 0.0)
+    return np.asarray(tears & moves & (profile.flat_radius > 0.0))
 
 
-def _innermost_spring_slips(protocol: Protocol) -> NDArray[np.bool_]:
-    """Whether the spring at G → 0 ends on a slip line: |u| ≥ δ somewhere in the cycle."""
+def _innermost_spring_slips(protocol: Protocol, margin: FloatArray) -> NDArray[np.bool_]:
+    """Whether the spring at G → 0 ends on a slip line: |u| ≥ δ at some instant, but for a margin (n, 1)."""
     instants = turning_instants(protocol)
     depth, displacement = protocol.depth(instants), protocol.displacement(instants)
     return np.asarray(
-        ((displacement - depth).max(axis=1) >= 0.0) | ((displacement + depth).min(axis=1) <= 0.0)
+        ((displacement - depth + margin).max(axis=1) >= 0.0)
+        | ((displacement + depth - margin).min(axis=1) <= 0.0)
     )
 
 
@@ -69,7 +76,8 @@ def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDAr
     if not isinstance(profile, TruncatedParaboloid):
         return np.zeros(len(friction), dtype=bool)
     face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
-    return np.asarray(face & cycle.gross_slip & (friction >= LEAST_FRICTION))
+    slides = cycle.gross_slip & (cycle.protocol.normal_amplitude < 1.0)
+    return np.asarray(face & slides & (friction >= LEAST_FRICTION))
 
 
 def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:

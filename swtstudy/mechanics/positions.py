@@ -18,16 +18,16 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
 #: Positions that the first look spreads over the contact besides the cusps.
-SPREAD = 16
+SPREAD = 24
 #: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
 #: what sticks at touch-down keeps the oscillation.
 SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
 #: Depths of cusps nearer than this are one.
-SAME_DEPTH = 1e-9
+SAME_DEPTH = 1e-13
 #: Share of the range below which a stretch between cusps is none.
-NO_STRETCH = 1e-7
+NO_STRETCH = 1e-12
 
 
 @dataclass(frozen=True)
@@ -100,6 +100,9 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     # The last real stretch keeps its end.
     last = count - 2 - real[:, ::-1].argmax(axis=1)
     keep[np.arange(n), last, steps[np.arange(n), last]] = True
+    # … which is the end of the range, however short a stretch is left out: a thin slip zone has its s there.
+    high = high.copy()
+    high[np.arange(n), last] = ends[:, -1]
     keep = keep.reshape(n, -1)
     stretch, place = packed(keep, stretch.reshape(n, -1), place.reshape(n, -1))
 

@@ -42,6 +42,8 @@ class FigureLayout:
         "lines"; "contour", with the places of least and greatest s along x; or "heatmap", a cell a point.
     vertical
         Dimension along the vertical axis of a contour or heat map, None for lines.
+    regimes
+        Whether lines are marked where a regime of the contact begins.
     """
 
     x: str
@@ -51,6 +53,7 @@ class FigureLayout:
     title: str | None = None
     kind: str = "lines"
     vertical: str | None = None
+    regimes: bool = False
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""

@@ -17,7 +17,7 @@ _ALLOWED = {
     "rtol": ALLOWED_RTOL,
     "fixed": "a table of single values",
     "axes": "a table of axes",
-    "figure": "a table with x and, if wanted, kind, vertical, hue, panels, y and title",
+    "figure": "a table with x and, if wanted, kind, vertical, hue, panels, y, title and regimes",
     "figure.kind": '"lines", "contour" or "heatmap"',
     "figure.vertical": "the name of an axis",
     "figure.x": "the name of an axis",
@@ -25,6 +25,7 @@ _ALLOWED = {
     "figure.panels": "the name of an axis",
     "figure.y": 'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
     "figure.title": "a text",
+    "figure.regimes": "true or false",
 }
 
 

@@ -41,6 +41,7 @@ class FigureTable(_Table):
     panels: str | None = None
     y: str | list[str] = "s"
     title: str | None = None
+    regimes: bool = False
 
 
 class StudyTable(_Table):

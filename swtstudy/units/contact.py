@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from swtstudy.units.life import FatigueConstants
 
-#: Radii at which the largest pressure is looked for.
-_RADII = 4001
+#: Radii at which the largest pressure is looked for, and its digits.
+_RADII, _DIGITS = 4001, 9.0
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class PhysicalContact:
             return math.inf
         edge = self._profile().radius(np.ones((1, 1)))
         r = edge * np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII))[None]
-        outer = self._profile().primitives(r).outer(edge[:, :, None])[0]
+        outer = self._profile().primitives(r, _DIGITS).outer(edge[:, :, None])[0]
         return self.stress_scale * float(outer.max()) / math.pi
 
     def _profile(self) -> Profile:

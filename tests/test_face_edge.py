@@ -1,0 +1,133 @@
+"""The truncated paraboloid at r = b⁺, where p and q are A ln(1/ε): where s is finite, and where it lies."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+from scenes import points
+from soundness import regime_names, sound
+
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics.critical_plane import product
+from swtstudy.mechanics.face_edge import _swt
+from swtstudy.mechanics.instants import cosine_nodes, split_at_breakpoints, stretches
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.surface_stress import SurfaceLine
+from swtstudy.mechanics.swt_line import Resolution, Scene, refine
+
+
+def scene_of(batch: Points) -> Scene:
+    loads = batch.normal_amplitude, batch.tangential_amplitude, batch.phase
+    cycle = split_at_breakpoints(solve_cycle(Protocol(*loads, int(batch.p[0]), int(batch.q[0]))))
+    profile = make_profile(batch.profile, batch.shape, 1.0 + batch.normal_amplitude)
+    return Scene(cycle, profile, batch.poisson_ratio, batch.friction)
+
+
+def truncated(
+    friction: ArrayLike, normal: ArrayLike, tangential: float, phase: float, flat_radius: ArrayLike
+) -> Points:
+    return points("truncated_paraboloid", 0.3, friction, normal, tangential, phase, flat_radius=flat_radius)
+
+
+TEARS = {
+    "gross slip, μ > 1": (1.05, 0.75, 2.0, 0.7, 0.5),
+    "gross slip, μ = 1": (1.0, 0.75, 2.0, 0.7, 2.0),
+    "Table 1, where u + δ falls below 0": (1.2, 0.75, 5 / 6, 0.0, 2.0),
+    "no gross slip, narrowly": (1.2, 0.5, 0.8, 0.1, 1.0),
+    "lift-off": (0.3, 1.2, 1.0, 1.0, 1.0),
+    "the contact is a point for an instant": (0.3, 1.0, 1.0, 1.0, 1.0),
+    "lift-off that slides a little": (0.05, 1.1875, 0.05, 0.0, 1.0),
+}
+
+
+@pytest.mark.parametrize("values", TEARS.values(), ids=TEARS)
+def test_not_finite(values: tuple[float, ...]) -> None:
+    batch = truncated(*values)
+    found = sound(batch)
+    assert regime_names(found) == ["not_finite"]
+    assert np.isnan(found.s[0])
+    # And so it is: per decade of ε swt grows by no less the nearer to the edge.
+    epsilon = 10.0 ** -np.arange(2.0, 10.0, 2.0)
+    position = batch.shape["flat_radius"][0] * (1.0 + epsilon)[None]
+    tops = []
+    for side in (1.0, -1.0):
+        for plane in (0.0, 0.5 * np.pi, -0.5 * np.pi):
+            start = np.full(position.shape, plane)
+            tops.append(
+                refine(scene_of(batch), position, np.array([side]), start, Resolution(8, 4, 24))[0][0]
+            )
+    growth = np.diff(np.max(tops, axis=0))
+    assert growth[-1] > 0.0
+    assert growth[-1] > 0.9 * growth[-2]
+
+
+FINITE = {
+    "the innermost spring never slips": (3.0, 0.5, 0.3, 0.7, 2.0),
+    "μ = 1 without gross slip": (1.0, 0.75, 5 / 6, 0.0, 0.5),
+    "lift-off without sliding": (3.0, 1.5, 0.0, 0.0, 1.0),
+    "lift-off without friction": (0.0, 1.5, 1.0, 0.7, 1.0),
+    "no face": (3.0, 1.5, 2.0, 0.7, 0.0),
+    "at rest": (3.0, 0.0, 0.0, 0.0, 0.5),
+}
+
+
+@pytest.mark.parametrize("values", FINITE.values(), ids=FINITE)
+def test_finite(values: tuple[float, ...]) -> None:
+    assert regime_names(sound(truncated(*values))) != ["not_finite"]
+
+
+@pytest.mark.parametrize(("side", "start"), [(1.0, 1.5), (1.0, -1.5), (-1.0, 1.5), (-1.0, -1.5)])
+def test_the_limit_agrees_with_the_stress_beside_it(side: float, start: float) -> None:
+    # ε = e^−18: what the limit leaves out is of the order √ε, and r still holds ε to seven digits.
+    scene = scene_of(truncated(0.95, 0.75, 2.0, 0.7, 1.0))
+    position = np.array([[1.0 + np.exp(-18.0)]])
+    swt, angle = _swt(scene, -np.log(position - 1.0), side, start, 24, 24)
+    # By brute force: all instants, no interpolation.
+    ends = stretches(scene.cycle, scene.profile.depth(position))
+    nodes, _ = cosine_nodes(scene.cycle, ends, 300)
+    planes = scene.planes(SurfaceLine(scene.cycle, scene.profile, position, 24).history(nodes), side)
+    tops = []
+    for double_angle in angle[0, 0] + np.linspace(-0.05, 0.05, 201):
+        stress, strain = planes.on_plane(np.array([[double_angle]]))
+        tops.append(product(stress.max(-1), strain.max(-1), strain.min(-1))[0, 0])
+    assert swt[0, 0] == pytest.approx(max(tops), rel=1e-5)
+
+
+def test_gross_slip_below_friction_one_has_its_maximum_next_to_the_edge() -> None:
+    # At L ~ 1/(1 − μ), and as high: numbers near b end at L = 36.
+    friction = 1.0 - 10.0 ** -np.arange(2.0, 7.0)
+    found = sound(truncated(friction, 0.75, 2.0, 0.7, 1.0))
+    np.testing.assert_array_equal(np.abs(found.critical_x), 1.0)
+    np.testing.assert_allclose(np.abs(found.critical_angle), 45.0, atol=2.0)
+    limit = found.s * (1.0 - friction)
+    np.testing.assert_allclose(limit, limit[-1], rtol=0.02)
+
+
+def test_s_grows_like_a_logarithm_towards_lift_off() -> None:
+    normal = 1.0 - 10.0 ** -np.array([1.0, 1.5, 2.0, 2.5, 3.0, 6.0])
+    found = solve_points(truncated(0.5, normal, 0.5, 0.0, 2.0), 1e-3)
+    assert regime_names(found) == ["partial_slip"] * 5 + ["not_finite"]
+    rise = np.diff(found.s[2:5])
+    assert rise[1] == pytest.approx(rise[0], rel=0.02)
+
+
+def test_s_grows_like_a_logarithm_towards_slip_of_the_innermost_spring() -> None:
+    # |u| = δ is reached at u_A = √(1 − δA²) here.
+    tangential = np.sqrt(0.75) * (1.0 - 10.0 ** -np.array([1.0, 2.0, 3.0, 4.0, 6.0, 12.0]))
+    batch = points("truncated_paraboloid", 0.3, 1.2, 0.5, tangential, -0.5 * np.pi, flat_radius=1.0)
+    found = solve_points(batch)
+    assert regime_names(found) == ["partial_slip"] * 4 + ["not_finite"] * 2
+    assert found.s[3] - found.s[2] > found.s[2] - found.s[1] > 0.0
+
+
+def test_s_is_continuous_where_the_search_changes_hands() -> None:
+    for friction in (0.8, 0.9, 0.94, 0.95):
+        found = sound(truncated(friction + np.array([-1e-9, 0.0, 1e-9]), 0.75, 2.0, 0.7, 1.0))
+        np.testing.assert_allclose(found.s, found.s[1], rtol=1e-4)
+    found = sound(truncated(np.linspace(0.9, 0.99, 19), 0.75, 2.0, 0.7, 2.0))
+    # Convex: the rise per step never falls.
+    assert np.all(np.diff(found.s, 2) > -1e-4 * found.s[1:-1])
+    assert np.all(solve_points(truncated(0.9, 0.75, 2.0, 0.7, [0.0, 1e-9, 1e-3])).s > 0.0)
