@@ -100,14 +100,7 @@ def stress_positions(indenter: oracle.Indenter) -> Array:
     return np.unique(np.concatenate([around_face[around_face > 0.0], around_edges, inside]))
 
 
-INACCURATE = ("rounded_small_face", "rounded", "truncated_small_face")
-SMALL_FACE = pytest.mark.xfail(strict=True, reason="the tables do not resolve w ~ b of a small face")
-
-
-@pytest.mark.parametrize(
-    "indenter",
-    [pytest.param(v, id=k, marks=SMALL_FACE if k in INACCURATE else ()) for k, v in INDENTERS.items()],
-)
+@pytest.mark.parametrize("indenter", [pytest.param(v, id=k) for k, v in INDENTERS.items()])
 def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     position = stress_positions(indenter)
     radius = np.append(position, batch(indenter).radius(np.array([[0.6]]))[0])

@@ -239,12 +239,13 @@ def _front_in_piece(
 ) -> FloatArray:
     """Solve sense·o(G) − G = target in the given piece; −inf where piece < 0."""
     last = memory.start.shape[-1] - 1
-    at = place * (last + 1) + np.maximum(piece, 0)
+    known = np.maximum(piece, 0)
+    at = place * (last + 1) + known
     start, offset, slope = (values.take(at) for values in (memory.start, memory.offset, memory.slope))
     steep = 1.0 - sense * np.where(slope == GROWTH, 0.0, slope)
     fall = np.where(piece < 0, 0.0, sense * offset - start - target)
     # On a line of the same sense h is constant: the front is at its end, in a tie that recurs every cycle.
-    end = np.where(piece == last, np.inf, memory.start.take(at + (piece < last)))
+    end = np.where(known == last, np.inf, memory.start.take(at + (known < last)))
     front = np.where(steep > 0.0, start + fall / np.where(steep > 0.0, steep, 1.0), end)
     grown = active & (slope == GROWTH) & (piece >= 0)
     if np.any(grown):

@@ -40,7 +40,8 @@ def running_integral(values: FloatArray) -> FloatArray:
     -------
     Shape (…, count + 1), coefficients of T_0, T_1, …
     """
-    return values @ _integration_matrix(values.shape[-1])
+    # Not a matrix product: its rounding depends on the batch's size, and so would every tie that it decides.
+    return np.einsum("...i,ij->...j", values, _integration_matrix(values.shape[-1]))
 
 
 def evaluate(series: FloatArray, y: FloatArray) -> FloatArray:

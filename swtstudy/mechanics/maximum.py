@@ -14,10 +14,10 @@ from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_
 from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
 #: Planes that the first look tries.
-SCAN_PLANES = 12
+SCAN_PLANES = 20
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
-CANDIDATE_SHARES = np.array([0.9, 0.97, 0.995, 0.999])
+CANDIDATE_SHARES = np.array([0.85, 0.97, 0.995, 0.999])
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 FIRST_WIDTH, SHRINKING = 0.25, 0.2

@@ -17,8 +17,11 @@ from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
-#: Positions that the first look spreads over the contact besides the cusps, and over each wave.
-SPREAD, SPREAD_PER_WAVE = 16, 8
+#: Positions that the first look spreads over the contact besides the cusps.
+SPREAD = 16
+#: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
+#: what sticks at touch-down keeps the oscillation.
+SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
 #: Depths of cusps nearer than this are one.
@@ -53,8 +56,10 @@ class Positions:
 def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
     """Radii at which swt(r) may have a cusp, and the ends of the range, ascending, shape (n, k)."""
     n = len(cycle.begin)
-    starts = cycle.memory.start.reshape(n, -1)
-    edges = np.maximum(cycle.protocol.depth(cycle.begin), 0.0)
+    # Empty intervals, which fill up the rows of a batch, have nothing to say.
+    lasts = cycle.end > cycle.begin
+    starts = np.where(lasts[..., None], cycle.memory.start, np.inf).reshape(n, -1)
+    edges = np.where(lasts, np.maximum(cycle.protocol.depth(cycle.begin), 0.0), 0.0)
     largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
     depth = np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
     depth = np.sort(depth, axis=1)
@@ -124,7 +129,8 @@ def positions_of_first_look(cycle: Cycle, profile: Profile) -> Positions:
     """Positions of the first look at each of the n points."""
     ends = cusps(cycle, profile)
     waves = (ends[:, -1] - ends[:, 0]) / profile.feature_length
-    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves)
+    oscillations = max(cycle.protocol.p / cycle.protocol.q - 1.0, 0.0)
+    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
 
 
 def _cosine(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:

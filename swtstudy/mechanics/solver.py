@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle, solve_cycle
-from swtstudy.mechanics.maximum import Accuracy, maximum
+from swtstudy.mechanics.face_edge import maximum_at_edge, may_be_largest, not_finite
+from swtstudy.mechanics.maximum import Accuracy, Maximum, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import Profile, make_profile, resolved_shape, roughness
+from swtstudy.mechanics.profiles import make_profile, resolved_shape, roughness
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.surface_circle import circle_gain
 from swtstudy.mechanics.swt_line import Scene
@@ -20,8 +21,6 @@ from swtstudy.mechanics.swt_line import Scene
 BATCH_SIZE = 1600
 #: So many batches may share the contact solutions that are held at a time.
 SHARING = 8
-#: Distance from a singular edge, in a tenth of the contact's width, at which a maximum is given up.
-NEAR_SINGULARITY = 1e-5
 
 
 def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
@@ -49,7 +48,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         shape = {name: values[index] for name, values in points.shape.items()}
         profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
         scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
-        found = maximum(scene, accuracy)
+        lost = not_finite(profile, cycle, scene.friction)
+        found = _maximum(scene, np.flatnonzero(~lost), accuracy)
         s[index], error[index] = found.swt, found.error + left_out[index] * found.swt
         surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
         position[index] = found.position
@@ -57,17 +57,15 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")
         state = np.where(cycle.lift_off, "lift_off", state)
         state = np.where(cycle.protocol.tangential_amplitude == 0.0, "stick", state)
-        # Next to a singular edge swt has no maximum, or one too near to it for numbers.
-        lost = _at_singularity(profile, found.position)
         state = np.where(lost, "not_finite", state)
-        for values in (s, error, position, angle, surface):
-            values[index[lost]] = np.nan
         regime[index] = [REGIMES.index(name) for name in state]
     return Solution(s, error, position, angle, regime, surface)
 
 
 def _batches(points: Points) -> Iterator[tuple[NDArray[np.intp], Cycle]]:
     """Indices of points with the same frequency ratio and roughness, and their contact cycles."""
+    if not len(points):
+        return
     level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
     loads = points.phase, points.tangential_amplitude, points.normal_amplitude
     order = np.lexsort((*loads, points.p, points.q))
@@ -100,14 +98,20 @@ def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol
     return Protocol(normal, tangential, phase, p, q), load.reshape(-1)
 
 
-def _at_singularity(profile: Profile, position: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether the critical point was followed to the end of the profile's singular approach."""
-    approach = profile.singular_approach
-    if not approach.shape[1]:
-        return np.zeros(len(position), dtype=bool)
-    flat = profile.flat_radius
-    gap, range_ = np.abs(position) - flat, approach.max(axis=1) - flat
-    return np.asarray((flat > 0.0) & (gap < NEAR_SINGULARITY * range_))
+def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maximum:
+    """The maximum of each point of the scene, NaN but for those at ``finite``."""
+    found = Maximum(*(np.full(len(scene), np.nan) for _ in range(4)))
+    if finite.size:
+        part = maximum(scene.take(finite), accuracy)
+        for values, one in zip(vars(found).values(), vars(part).values(), strict=True):
+            values[finite] = one
+    near = finite[may_be_largest(scene.profile, scene.cycle, scene.friction)[finite]]
+    if near.size:
+        edge = maximum_at_edge(scene.take(near), accuracy)
+        higher = edge.swt > found.swt[near]
+        for values, one in zip(vars(found).values(), vars(edge).values(), strict=True):
+            values[near[higher]] = one[higher]
+    return found
 
 
 def _fold_angle(degrees: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,10 +12,15 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
-from swtstudy.mechanics.profiles.tables import OuterTable, TablePrimitives
+from swtstudy.mechanics.profiles.tables import OuterTable
 
 #: Chebyshev nodes of the tables: their error is below 1e-9 of the largest stress (tests/test_profiles.py).
-INNER_NODES, OUTER_NODES = 20, 32
+OUTER_NODES = 40
+#: Distance from the singular r = b up to which positions are looked at, over the face or the ring beside it.
+NEAREST = 1e-9
+#: A face smaller than this share of the contact is not looked at closely: its singularity has no weight.
+SMALLEST_FACE = 1e-3
+APPROACH_COUNT = 9
 
 
 class FlatFaced(Profile):
@@ -39,10 +44,6 @@ class FlatFaced(Profile):
         """w = √(ξ² − b²), 0 on the face."""
         b = self._face(radius)
         return np.sqrt(np.maximum((radius - b) * (radius + b), 0.0))
-
-    def primitives(self, position: FloatArray) -> Primitives:
-        largest = self.radius(self.largest_depth)
-        return TablePrimitives(self, position, INNER_NODES, OUTER_NODES, largest)
 
 
 class RoundedPunch(FlatFaced):
@@ -73,6 +74,50 @@ class RoundedPunch(FlatFaced):
         b, w = self._face(radius), self._rise(radius)
         return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * np.arctan2(w, b) - b * w)
 
+    def primitives(self, position: FloatArray) -> Primitives:
+        return RoundedPrimitives(self, position, self.radius(self.largest_depth))
+
+
+class FacePrimitives(Primitives):
+    """Elementary inner integrals in α, w = √(r² − b²) sin α, and tabulated outer ones."""
+
+    def __init__(self, profile: FlatFaced, position: FloatArray, largest: FloatArray) -> None:
+        self.position, self.flat = position, profile.flat_radius[:, None]
+        self._outer = OuterTable(profile, position, OUTER_NODES, largest)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        return self._outer(radius)
+
+    def _angle(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """r, b, (r² − b²), sin α and cos α, which broadcast against the radius."""
+        r, b = align(self.position, radius), align(self.flat, radius)
+        gap = np.maximum((r - b) * (r + b), 0.0)
+        share = np.maximum((radius - b) * (radius + b), 0.0) / np.maximum(gap, 1e-300)
+        share = np.where(gap > 0.0, np.minimum(share, 1.0), 0.0)
+        return r, b, gap, np.sqrt(share), np.sqrt(1.0 - share)
+
+
+class RoundedPrimitives(FacePrimitives):
+    """m = 2w² − b w arctan(w/b); the integrals of the second term follow by parts."""
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        r, b, gap, sine, cosine = self._angle(radius)
+        root = np.sqrt(gap)
+        angle = np.arcsin(sine)
+        product = sine * cosine
+        lens = angle - product
+        bend = np.arctan2(root * sine, b)
+        # ∫ cos²α dα/(b² + (r² − b²) sin²α) times b (r² − b²).
+        turn = r * np.arctan2(r * sine, b * cosine) - b * angle
+        first = turn - root * cosine * bend
+        cubic = (2.0 * gap - b * b) * turn + 0.5 * b * gap * (angle + product)
+        cubic = cubic / 3.0 - root * gap * (cosine - cosine**3 / 3.0) * bend
+        quartic = 0.75 * lens - 0.5 * sine * sine * product
+        b2 = b * b
+        one = gap * lens - b * first
+        three = b2 * one + gap * gap * quartic - b * cubic
+        return np.stack([(2.0 / r) * one, (2.0 / r**3) * three])
+
 
 @lru_cache(maxsize=1)
 def _rise_table() -> tuple[FloatArray, FloatArray]:
@@ -101,8 +146,12 @@ class TruncatedParaboloid(FlatFaced):
     @property
     def singular_approach(self) -> FloatArray:
         b = self._flat_radius[:, None]
-        width = self.radius(self.largest_depth)[:, None] - b
-        return np.asarray(np.where(b > 0.0, b + width * 10.0 ** -np.arange(1.0, 10.0), b))
+        largest = self.radius(self.largest_depth)[:, None]
+        width = 0.1 * (largest - b)
+        nearest = NEAREST * np.minimum(largest - b, np.maximum(b, SMALLEST_FACE * largest))
+        share = np.linspace(0.0, 1.0, APPROACH_COUNT)
+        distance = width * (nearest / width) ** share
+        return np.asarray(np.where(b >= SMALLEST_FACE * largest, b + distance, b))
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         b = self._face(radius)
@@ -116,26 +165,15 @@ class TruncatedParaboloid(FlatFaced):
         return TruncatedPrimitives(self, position, self.radius(self.largest_depth))
 
 
-class TruncatedPrimitives(Primitives):
-    """The inner integrals are elementary, the outer ones elliptic (tabulated)."""
-
-    def __init__(self, profile: TruncatedParaboloid, position: FloatArray, largest: FloatArray) -> None:
-        self.position, self.flat = position, profile.flat_radius[:, None]
-        self._outer = OuterTable(profile, position, OUTER_NODES, largest)
+class TruncatedPrimitives(FacePrimitives):
+    """m = 2w² + b²."""
 
     def inner(self, radius: FloatArray) -> FloatArray:
-        r, b = align(self.position, radius), align(self.flat, radius)
-        b2, gap = b * b, np.maximum(r * r - b * b, 0.0)
-        sine2 = np.maximum(radius * radius - b2, 0.0) / np.maximum(gap, 1e-300)
-        sine2 = np.where(gap > 0.0, np.minimum(sine2, 1.0), 0.0)
-        sine = np.sqrt(sine2)
-        product = sine * np.sqrt(1.0 - sine2)
+        r, b, gap, sine, cosine = self._angle(radius)
+        b2, sine2, product = b * b, sine * sine, sine * cosine
         angle = np.arcsin(sine)
         lens = angle - product
         first = (2.0 / r) * (b2 * angle + gap * lens)
         quartic = 0.75 * lens - 0.5 * sine2 * product
         third = (2.0 / r**3) * (b2 * b2 * angle + 1.5 * b2 * gap * lens + gap * gap * quartic)
         return np.stack([first, third])
-
-    def outer(self, radius: FloatArray) -> FloatArray:
-        return self._outer(radius)

@@ -64,7 +64,8 @@ class OuterTable:
         self.low2 = np.maximum(position, flat) ** 2
         self.position = position
         if self.has_face:
-            self.scale = np.sqrt(np.maximum(np.abs(position**2 - flat**2), 1e-20 * largest[:, None] ** 2))
+            distance = np.abs((position - flat) * (position + flat))
+            self.scale = np.sqrt(np.maximum(distance, 1e-20 * largest[:, None] ** 2))
         else:
             self.scale = np.ones_like(position)
         self.span = np.maximum(self._abscissa(largest[:, None], self.low2, self.scale), 1e-300)

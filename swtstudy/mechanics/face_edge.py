@@ -1,0 +1,191 @@
+"""swt of the truncated paraboloid next to r = b, where the stress grows like L = ln(1/ε), r = b (1 + ε).
+
+To the order √ε the stress at r = b⁺ is a finite part plus L/2 times a logarithmic part, both in closed form:
+for b⁺ all springs are outside of r but for those at G → 0⁺, whose pull is finite. L takes the place of the
+position, so that distances far below what a number near b can hold cost nothing:
+
+* |τ| = w at the innermost spring and μ > 1: a plane near 45° is in tension that grows like L.
+* The whole contact slides and μ ≥ 1: besides, Δε_n grows like L; at μ = 1 the tension is finite.
+* Contact is lost: springs that just touch at r pull with a finite stress before the pressure of −L comes.
+
+In these cases s is not finite. Else it is; if the whole contact slides, σ_n falls like (1 − μ) L while Δε_n
+rises like L, and the maximum lies at an L of some (π/2)/(1 − μ).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact import Cycle
+from swtstudy.mechanics.critical_plane import best_angle, parabola, product
+from swtstudy.mechanics.gather import pick
+from swtstudy.mechanics.instants import cosine_nodes, split_at_breakpoints, stretches
+from swtstudy.mechanics.maximum import LEAST_ERROR, Accuracy, Maximum
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.profiles.base import Primitives, Profile
+from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE, TruncatedParaboloid
+from swtstudy.mechanics.protocol import Protocol, turning_instants
+from swtstudy.mechanics.surface_stress import SurfaceLine
+from swtstudy.mechanics.swt_line import Scene
+
+#: Below this friction swt falls towards r = b from where the search over x ends.
+LEAST_FRICTION = 0.8
+#: Values of L of the first look and of each closer one, and how many of these there are.
+FIRST_COUNT, NEXT_COUNT, ROUND_COUNT = 24, 9, 5
+#: Steps of each smooth stretch of the cycle, and how often the plane is improved.
+STEPS_PER_DIGIT, ANGLE_ROUND_COUNT = 3, 4
+#: The spring at r = b⁺ for the events of the cycle, by its w/b, and how exactly that is known.
+ONSET, BESIDE = 1e-5, 1e-3
+#: Relative error by what is left out: of the order √ε, measured at r = b (1 + NEAREST), and of the onset.
+LEFT_OUT = 1e-5
+
+
+def not_finite(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+    """Whether swt grows without bound towards r = b, shape (n,); see the head of this file."""
+    if not isinstance(profile, TruncatedParaboloid):
+        return np.zeros(len(friction), dtype=bool)
+    tears = _innermost_spring_slips(cycle.protocol) & (friction > 1.0)
+    tears |= cycle.gross_slip & (friction >= 1.0)
+    tangential = (friction > 0.0) & (cycle.protocol.tangential_amplitude > 0.0)
+    tears |= (cycle.protocol.normal_amplitude >= 1.0) & tangential
+    return np.asarray(tears & (profile.flat_radius > 0.0))
+
+
+def _innermost_spring_slips(protocol: Protocol) -> NDArray[np.bool_]:
+    """Whether the spring at G → 0 ends on a slip line: |u| ≥ δ somewhere in the cycle."""
+    instants = turning_instants(protocol)
+    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+    return np.asarray(
+        ((displacement - depth).max(axis=1) >= 0.0) | ((displacement + depth).min(axis=1) <= 0.0)
+    )
+
+
+def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+    """Whether the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
+    if not isinstance(profile, TruncatedParaboloid):
+        return np.zeros(len(friction), dtype=bool)
+    face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
+    return np.asarray(face & cycle.gross_slip & (friction >= LEAST_FRICTION))
+
+
+def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
+    """Largest swt at 0 < ε ≤ `NEAREST` of n truncated paraboloids that slide, μ < 1."""
+    # The instant at which the front arrives at G = 0 is a breakpoint.
+    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    n = len(scene)
+    rows = np.arange(n)
+    found = Maximum(*(np.zeros(n) for _ in range(4)))
+    radius = scene.profile.radius(scene.profile.largest_depth)
+    flat = scene.profile.flat_radius
+    nearest = -np.log(NEAREST * np.minimum(radius - flat, flat) / flat)
+    # Beyond this no plane is in tension.
+    farthest = nearest + 20.0 * (1.0 + radius / flat) / (1.0 - scene.friction)
+    steps = STEPS_PER_DIGIT * math.ceil(-math.log10(accuracy.tolerance))
+    growth_nodes = accuracy.check.growth_nodes
+    for side in (1.0, -1.0):
+        for start in (0.5 * np.pi, -0.5 * np.pi):
+            low, high, count = nearest, farthest, FIRST_COUNT
+            for _ in range(ROUND_COUNT):
+                share = np.linspace(0.0, 1.0, count)
+                distance = low[:, None] * (high / low)[:, None] ** share
+                swt, angle = _swt(scene, distance, side, start, steps, growth_nodes)
+                best = swt.argmax(axis=1)
+                low = distance[rows, np.maximum(best - 1, 0)]
+                high = distance[rows, np.minimum(best + 1, count - 1)]
+                count = NEXT_COUNT
+            there = distance[rows, best][:, None]
+            check = _swt(scene, there, side, start, 2 * steps, growth_nodes)[0][:, 0]
+            error = np.abs(check - swt[rows, best]) + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * check
+            larger = check > found.swt
+            new = check, error, side * flat, angle[rows, best]
+            for old, values in zip(vars(found).values(), new, strict=True):
+                old[larger] = values[larger]
+    return found
+
+
+def _swt(
+    scene: Scene, distance: FloatArray, side: float, start: float, steps: int, growth_nodes: int
+) -> tuple[FloatArray, FloatArray]:
+    """swt and 2θ at L = ``distance``, shape (n, X), on the best plane near 2θ = ``start``.
+
+    Unlike `swtstudy.mechanics.swt_line.refine` this knows that the stress may jump at an event: an extreme
+    is interpolated only where its neighbours belong to the same smooth stretch.
+    """
+    profile = scene.profile
+    edge = _Edge(profile.largest_depth, profile.flat_radius, distance)
+    position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
+    ends = stretches(scene.cycle, edge.depth(position))
+    nodes, number = cosine_nodes(scene.cycle, ends, steps)
+    # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
+    inside = (number % (steps + 1) % steps > 0) & (number // (steps + 1) % 3 == 0)
+    history = SurfaceLine(scene.cycle, edge, position, growth_nodes).history(nodes)
+    planes = scene.planes(history, side)
+    angle = np.full(distance.shape, start)
+    for _ in range(ANGLE_ROUND_COUNT):
+        stress, strain = planes.on_plane(angle)
+        peak, high, low = (
+            np.stack([pick(part, at) for part in parts])
+            for parts, at in (
+                (planes.stress, stress.argmax(axis=-1)),
+                (planes.strain, strain.argmax(axis=-1)),
+                (planes.strain, strain.argmin(axis=-1)),
+            )
+        )
+        angle = best_angle(peak, high - low, angle)
+    stress, strain = planes.on_plane(angle)
+    return product(_top(stress, inside), _top(strain, inside), -_top(-strain, inside)), angle
+
+
+def _top(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """Maximum over the instants, by a parabola where it is not at the end of a stretch."""
+    best = curve.argmax(axis=-1)
+    middle = np.clip(best, 1, curve.shape[-1] - 2)
+    _, rise = parabola(*(pick(curve, middle + k) for k in (-1, 0, 1)))
+    return pick(curve, best) + np.where(pick(inside, best), rise, 0.0)
+
+
+class _Edge(TruncatedParaboloid):
+    """n truncated paraboloids seen from r = b⁺ at L of shape (n, X)."""
+
+    def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray, distance: FloatArray) -> None:
+        super().__init__(largest_depth, flat_radius)
+        self.distance = distance
+
+    def take(self, index: NDArray[np.intp]) -> _Edge:
+        return _Edge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return np.maximum(super().depth(radius), ONSET * self._face(radius) ** 2)
+
+    def primitives(self, position: FloatArray) -> Primitives:
+        return _EdgePrimitives(self)
+
+
+@dataclass(frozen=True)
+class _EdgePrimitives(Primitives):
+    """The limits of `TruncatedPrimitives` for r → b⁺, L = ln(b/(r − b)).
+
+    A slip front passes the pressure's logarithm first and the springs at G → 0⁺ last: in between there is
+    the instant at which the spring at r starts to slip.
+    """
+
+    edge: _Edge
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        b, w = self.edge._face(radius), self.edge._rise(radius)
+        pull = np.where(w > (1.0 - BESIDE) * ONSET * b, np.pi * b, 0.0)
+        shape = np.broadcast_shapes(radius.shape, (*self.edge.distance.shape, *(1,) * (radius.ndim - 2)))
+        return np.stack([np.broadcast_to(pull, shape)] * 2)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        b, w = self.edge._face(radius), self.edge._rise(radius)
+        half = 0.5 * self.edge.distance.reshape(self.edge.distance.shape + (1,) * (radius.ndim - 2))
+        past = w > (1.0 + BESIDE) * ONSET * b
+        finite = np.log(np.sqrt(2.0) * np.where(past, w, b) / b) - np.log(0.5 * (radius + b) / b)
+        pressure = np.where(past, b * np.maximum(half + finite, 0.0) + 2.0 * (radius - b), 0.0)
+        load = (2.0 / 3.0) * (radius**3 - b**3) - b * b * (radius - b)
+        return np.stack([pressure, np.broadcast_to(np.where(past, load, 0.0), pressure.shape)])
