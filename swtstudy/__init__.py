@@ -3,30 +3,39 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from swtstudy.archive.read import open_results
     from swtstudy.audit.audit import audit_study
+    from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.nonlocal_swt import nonlocal_swt
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
+    from swtstudy.figures.inspection import inspect
     from swtstudy.mechanics.critical_plane_3d import swt_of_history
     from swtstudy.mistakes import StudyError
     from swtstudy.runner.run import run
-    from swtstudy.solve import solve
+    from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.suite import run_suite
+    from swtstudy.units.life import FatigueConstants
+    from swtstudy.units.physical import physical
 
 __version__ = "0.1.0"
 __all__ = [
+    "FatigueConstants",
     "Study",
     "StudyError",
     "__version__",
     "audit_study",
+    "inspect",
+    "inspect_point",
     "nonlocal_swt",
     "open_results",
+    "physical",
     "run",
     "run_suite",
     "slip_map",
@@ -38,28 +47,41 @@ __all__ = [
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
+    "FatigueConstants": "swtstudy.units.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "audit_study": "swtstudy.audit.audit",
+    "inspect": "swtstudy.figures.inspection",
+    "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.read",
+    "physical": "swtstudy.units.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "slip_map": "swtstudy.fields.slip",
-    "solve": "swtstudy.solve",
+    "solve": "swtstudy.solving",
     "stress_field": "swtstudy.fields.stress",
     "swt_field": "swtstudy.fields.swt",
     "swt_of_history": "swtstudy.mechanics.critical_plane_3d",
 }
 
+#: What gives Datasets of results, which then have the accessor ``swt``.
+_GIVE_RESULTS = ("open_results", "run", "run_suite", "solve")
+
 
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name in _GIVE_RESULTS:
+        importlib.import_module("swtstudy.accessor")
     value = getattr(importlib.import_module(_HOMES[name]), name)
-    globals()[name] = value  # also replaces the submodule of the same name
+    globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
     return sorted([*globals(), *_HOMES])
+
+
+if "xarray" in sys.modules:
+    importlib.import_module("swtstudy.accessor")  # costs nothing then

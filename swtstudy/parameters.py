@@ -19,6 +19,8 @@ class Parameter:
         Name of the dimension, the keyword and the TOML key.
     symbol
         Symbol as in the paper, LaTeX without dollar signs.
+    letter
+        The paper's letter, which may stand for the name in a place such as ``s/s(b=0)``.
     meaning
         One line, used as ``long_name`` and in help texts.
     default
@@ -35,6 +37,7 @@ class Parameter:
 
     name: str
     symbol: str
+    letter: str
     meaning: str
     default: float | str | None = None
     lower: float = 0.0
@@ -62,14 +65,21 @@ LARGEST_FREQUENCY_TERM = 64
 PARAMETERS: dict[str, Parameter] = {
     p.name: p
     for p in (
-        Parameter("poisson_ratio", r"\nu", "Poisson ratio", 0.3, 0.0, 0.5),
-        Parameter("friction", r"\mu", "coefficient of friction", 0.3, 0.0, 10.0),
+        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5),
+        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0),
         Parameter(
-            "normal_amplitude", r"\delta_A/\delta_0", "amplitude of the normal oscillation", 0.75, 0.0, 10.0
+            "normal_amplitude",
+            r"\delta_A/\delta_0",
+            "δA",
+            "amplitude of the normal oscillation",
+            0.75,
+            0.0,
+            10.0,
         ),
         Parameter(
             "frequency_ratio",
             r"\omega_2/\omega_1",
+            "ω2",
             "frequency of the tangential over that of the normal oscillation",
             1.0,
             0.0,
@@ -80,18 +90,22 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "tangential_amplitude",
             r"G^* u_A/(\mu E^* \delta_0)",
+            "uA",
             "amplitude of the tangential oscillation",
             5 / 6,
             0.0,
             100.0,
         ),
-        Parameter("phase", r"\psi", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"),
-        Parameter("profile", "f", "profile of the indenter", "paraboloid", kind="profile"),
-        Parameter("flat_radius", r"b/a_H", "radius of the punch face", None, 0.0, 100.0),
-        Parameter("waviness_amplitude", r"h/\delta_0", "amplitude of the waviness", None, 0.0, 10.0),
+        Parameter(
+            "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
+        ),
+        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile"),
+        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 100.0),
+        Parameter("waviness_amplitude", r"h/\delta_0", "h", "amplitude of the waviness", None, 0.0, 10.0),
         Parameter(
             "wavelength",
             r"\lambda/\sqrt{hR}",
+            "λ",
             "wavelength of the waviness",
             None,
             0.0,
@@ -100,6 +114,9 @@ PARAMETERS: dict[str, Parameter] = {
         ),
     )
 }
+
+#: Names by letter.
+LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in PARAMETERS.items()}
 
 #: Every profile with the shape parameters κ_i that it has (eqs. 3–6).
 PROFILE_SHAPES: dict[str, tuple[str, ...]] = {

@@ -45,6 +45,29 @@ def test_solve_prints_a_table():
     assert len(lines) == 3
 
 
+def test_a_style_is_the_users(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    (tmp_path / "own.mplstyle").write_text("figure.facecolor: red\n")
+    plain, own = (tmp_path / f"{name}.svg" for name in ("plain", "own"))
+    assert call("plot", tmp_path / "small.nc", "-o", plain).exit_code == 0
+    style = tmp_path / "own.mplstyle"
+    assert call("plot", tmp_path / "small.nc", "-o", own, "--style", style).exit_code == 0
+    assert "#ff0000" in own.read_text()
+    assert "#ff0000" not in plain.read_text()
+    result = call("plot", tmp_path / "small.nc", "--style", "no_such_style")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_show_draws_one_point(tmp_path):
+    target = tmp_path / "point.pdf"
+    result = call("show", "--phase", "pi/6", "--frequency-ratio", "3/2", "-o", target)
+    assert result.exit_code == 0, result.output
+    assert target.read_bytes().startswith(b"%PDF")
+    assert "phase: found '0,1'" in call("show", "--phase", "0,1").stderr
+    assert "ends in one of" in call("show", "-o", tmp_path / "point.docx").stderr
+
+
 def test_plan_counts_and_writes_nothing(study, tmp_path):
     result = call("plan", study, "--results", tmp_path / "results")
     assert result.exit_code == 0, result.output
@@ -125,7 +148,7 @@ def test_a_scheduler_that_is_not_there(study, tmp_path):
 
 def test_version_and_help():
     assert swtstudy.__version__ in call("--version").output
-    for command in ("run", "plan", "validate", "plot", "info", "merge", "solve"):
+    for command in ("run", "plan", "validate", "plot", "info", "merge", "solve", "show"):
         assert command in call("--help").output
         assert call(command, "--help").exit_code == 0
 

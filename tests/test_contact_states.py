@@ -48,7 +48,7 @@ def test_surface_line(load, name):
     states = contact_states(cycle, profile, interval, instant, cells=100)
     stress = states.stress(np.concatenate([r, -r]), 0.0, 0.0, friction, poisson_ratio)
 
-    line = SurfaceLine(cycle, profile, r[None], 40)
+    line = SurfaceLine(cycle, profile, r[None], 9.0)
     every = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
     history = line.history(Nodes(interval[None], instant[None], every))
     ν, μ = np.array([poisson_ratio]), np.array([friction])

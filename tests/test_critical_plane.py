@@ -144,7 +144,7 @@ def stress_history(point: Points, x: float, instants: Array) -> Stress:
     )
     cycle = solve_cycle(load)
     profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
-    line = SurfaceLine(cycle, profile, np.array([[abs(x)]]), 40)
+    line = SurfaceLine(cycle, profile, np.array([[abs(x)]]), 9.0)
     interval = np.searchsorted(cycle.end[0], instants)[None]
     history = line.history(Nodes(interval, instants[None], np.arange(instants.size)[None, None]))
     sigma = stresses(history, point.poisson_ratio, point.friction, np.sign(x))

@@ -6,9 +6,11 @@ import pytest
 import stand_in
 
 from swtstudy import Study, run
-from swtstudy.figures.draw import draw, quantity
+from swtstudy.figures.draw import draw
 from swtstudy.figures.save import save_figure
+from swtstudy.figures.style import STYLE
 from swtstudy.figures.words import value_words
+from swtstudy.results.normalise import normalised
 from swtstudy.study.figure import FigureLayout
 
 PANELS = """
@@ -77,12 +79,12 @@ def test_other_endings_are_refused(panels, tmp_path):
 def test_what_cannot_be_drawn_is_refused(panels):
     with pytest.raises(ValueError, match="not a dimension"):
         draw(panels, FigureLayout(x="friction"))
-    with pytest.raises(ValueError, match="has no figure"):
+    with pytest.raises(ValueError, match="no figure"):
         draw(panels.drop_attrs())
 
 
 def test_the_reference_of_a_normalised_quantity(panels):
-    ratio = quantity(panels, "s/s(flat_radius=0)")
+    ratio = normalised(panels, "s/s(flat_radius=0)")
     np.testing.assert_allclose(ratio * panels.s.isel(flat_radius=0), panels.s)
 
 
@@ -101,6 +103,96 @@ def test_the_reference_of_a_normalised_quantity(panels):
 )
 def test_values_in_words(name, value, words):
     assert value_words(name, value) == words
+
+
+SURFACE = """
+title = "Surface"
+[axes]
+phase = {start = 0, stop = "pi", num = 13}
+normal_amplitude = [0, 0.25, 0.5]
+friction = [0.1, 0.3]
+[figure]
+kind = "contour"
+x = "phase"
+vertical = "normal_amplitude"
+panels = "friction"
+"""
+
+
+@pytest.fixture
+def surface(tmp_path):
+    return run(Study.from_text(SURFACE), tmp_path / "surface.nc", solver=stand_in.smooth)
+
+
+def test_contours_with_the_optimum(surface):
+    figure = draw(surface)
+    assert len(figure.axes) == 3  # two panels and the scale of colours
+    one = figure.axes[0]
+    assert one.get_ylabel() == r"$\delta_A/\delta_0$"
+    assert [tick.get_text() for tick in one.get_xticklabels()] == ["0", "π/4", "π/2", "3π/4", "π"]
+    least = next(line for line in one.lines if line.get_label() == "least $s$")
+    np.testing.assert_array_equal(least.get_ydata(), surface.normal_amplitude)
+    found = surface.swt.slice(friction=0.1).swt.extrema("phase").at_minimum
+    there = least.get_xdata()
+    np.testing.assert_array_equal(there[np.isfinite(there)], found.values[np.isfinite(there)])
+    degrees = {text.get_text() for text in one.texts}
+    assert f"{np.degrees(float(found[1])):.0f}°" in degrees
+
+
+def test_a_heat_map_has_a_cell_for_each_point(surface):
+    layout = FigureLayout("friction", None, "phase", ("s",), None, "heatmap", "normal_amplitude")
+    surface.s[0, 0, 0] = np.nan
+    figure = draw(surface.isel(phase=[0, 1]), layout)
+    (mesh,) = figure.axes[0].collections
+    assert mesh.get_array().shape == (3, 2)
+    assert mesh.get_array().mask.sum() == 1
+    assert [tick.get_text() for tick in figure.axes[0].get_yticklabels()] == ["0", "0.25", "0.5"]
+
+
+@pytest.mark.parametrize(
+    ("layout", "words"),
+    [
+        (FigureLayout("phase", kind="contour"), "vertical: found nothing"),
+        (FigureLayout("phase", "friction", kind="heatmap", vertical="normal_amplitude"), "hue"),
+        (FigureLayout("phase", vertical="friction"), "vertical"),
+        (FigureLayout("phase", kind="pie"), "found 'pie'"),
+    ],
+)
+def test_roles_that_do_not_fit_the_kind_are_refused(surface, layout, words):
+    with pytest.raises(ValueError, match=words):
+        draw(surface, layout)
+
+
+def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    dataset["s_error"] = 1e-6 * dataset.s
+    assert not draw(dataset).axes[0].collections
+    dataset["s_error"] = 0.05 * dataset.s
+    band = draw(dataset).axes[0].collections[0].get_paths()[0].vertices
+    s = dataset.s.isel(normal_amplitude=0)
+    assert band[:, 1].max() == pytest.approx(1.05 * float(s.max()))
+
+
+def test_the_user_has_the_last_word_on_the_look(panels, tmp_path):
+    import matplotlib
+
+    assert draw(panels, style={"lines.linewidth": 5.0}).axes[0].lines[0].get_linewidth() == 5.0
+    with matplotlib.rc_context({"font.size": 6.0, "axes.prop_cycle": matplotlib.cycler(color=["r", "g"])}):
+        lines = draw(panels).axes[0].lines
+    assert [line.get_color() for line in lines] == ["r", "g", "r"]
+    assert {line.get_linestyle() for line in lines} == {"-"}
+    with pytest.raises(OSError, match="no_such_style"):
+        draw(panels, style="no_such_style")
+    for name in ("one", "two"):
+        save_figure(draw(panels), tmp_path / f"{name}.svg")
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
+
+
+def test_lines_differ_in_greyscale():
+    """Of any five neighbours in the cycle none have the same dashes; later ones differ in the marker."""
+    looks = list(STYLE["axes.prop_cycle"])
+    assert all(len({str(look["linestyle"]) for look in looks[i : i + 5]}) == 5 for i in range(30))
+    assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 
 
 def test_pyplot_is_not_touched():

@@ -92,7 +92,7 @@ def test_the_package_goes_the_same_way_on_harmonic_paths(
     interval = np.searchsorted(cycle.end[0], instants)[None]
     position = np.linspace(0.05, 1.4, 40)
     index = np.broadcast_to(np.arange(instants.size), (1, position.size, instants.size))
-    found = SurfaceLine(cycle, profile, position[None], 40).history(Nodes(interval, instants[None], index))
+    found = SurfaceLine(cycle, profile, position[None], 9.0).history(Nodes(interval, instants[None], index))
 
     # Through all turns; a chord of growth in stick leaves a kink that q sees to (2π/300)^1.5 ~ 3e-3 of it.
     steps = 2.0 * np.pi / (300 * max(p, q))

@@ -105,7 +105,7 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     position = stress_positions(indenter)
     radius = np.append(position, batch(indenter).radius(np.array([[0.6]]))[0])
     radius = np.sort(np.minimum(radius, batch(indenter).radius(np.array([[DEEPEST]]))[0, 0]))
-    primitives = batch(indenter).primitives(position[None])
+    primitives = batch(indenter).primitives(position[None], 9.0)
     inner, outer = (
         f(np.broadcast_to(radius, (1, position.size, radius.size)))[:, 0]
         for f in (primitives.inner, primitives.outer)
@@ -141,7 +141,9 @@ def test_the_paraboloid_is_the_limit(name: str, shape: dict[str, float], toleran
     position = np.array([[0.1, 0.7, 1.0, 1.3]])
     upper = np.broadcast_to(radius, (1, 4, 50))
     for integrals in ("inner", "outer"):
-        found, expected = (getattr(one.primitives(position), integrals)(upper) for one in (profile, limit))
+        found, expected = (
+            getattr(one.primitives(position, 9.0), integrals)(upper) for one in (profile, limit)
+        )
         # A wave changes the slope by more than the depth: by √(h/δ0) for λ ~ √(hR).
         atol = 1e-9 + (
             tolerance if name != "wavy_paraboloid" else 10.0 * np.sqrt(shape["waviness_amplitude"])

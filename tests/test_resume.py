@@ -1,6 +1,7 @@
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -163,17 +164,56 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
 
     def full(handle):
         calls.append(handle)
-        if len(calls) > 4:
+        if len(calls) > 2:
             raise OSError(28, "No space left on device")
         fsync(handle)
 
     monkeypatch.setattr(os, "fsync", full)
-    with pytest.raises(OSError, match="No space left"):
+    with pytest.raises(OSError, match=r"No space left on device; \d+ of 400 distinct points are saved"):
         run(line, path, solver=stand_in.smooth, workers=1)
     monkeypatch.undo()
     counting = stand_in.Counting()
     same(run(line, path, solver=counting, workers=1), undisturbed)
     assert 0 < counting.points < 400
+
+
+def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypatch):
+    path = tmp_path / "line.nc"
+
+    def full(*_, **__):
+        raise RuntimeError("NetCDF: HDF error")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", full)
+    with pytest.raises(OSError, match="400 of 400 distinct points are saved"):
+        run(line, path, solver=stand_in.smooth, workers=1)
+    monkeypatch.undo()
+    counting = stand_in.Counting()
+    assert np.isfinite(run(line, path, solver=counting, workers=1).s).all()
+    assert counting.points == 0
+
+
+def test_two_ctrl_c_end_a_run_cleanly(line, tmp_path):
+    path = tmp_path / "line.nc"
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy.cli import main\n"
+        "from swtstudy.runner import run\nrun.run.__kwdefaults__['solver'] = stand_in.slow\n"
+        "main(['run', sys.argv[2], '--results', sys.argv[3]])"
+    )
+    (tmp_path / "line.toml").write_text(LINE)
+    command = [sys.executable, "-c", code, os.path.dirname(__file__), str(tmp_path / "line.toml")]
+    with subprocess.Popen([*command, str(tmp_path)], stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 60
+        while not points_saved(parts_folder(path)) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        try:
+            _, words = process.communicate(timeout=60)
+        finally:
+            process.kill()
+    assert "of 400 distinct points are saved" in words
+    assert "Traceback" not in words
 
 
 def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):

@@ -43,6 +43,14 @@ def test_figure_3_hardly_depends_on_the_phase_at_small_amplitudes():
     assert float(s.max() / s.min()) < 1.06
 
 
+def test_contours_show_the_best_and_the_worst_phase():
+    at = {"normal_amplitude": [0.5], "phase": [phase * DEGREE for phase in (60, 105, 152.5)]}
+    s = few("contour", **at).s.squeeze()
+    assert s.idxmin() == s.phase[2]
+    assert s.idxmax() == s.phase[1]
+    assert float(s.max() / s.min()) == pytest.approx(1.34, abs=0.01)
+
+
 def test_figure_4_depends_on_the_phase_most_at_one_half():
     s = few(
         "figure4", normal_amplitude=[0.75], frequency_ratio=[0.5, 2], phase=[17.5 * DEGREE, 270 * DEGREE]
@@ -100,6 +108,15 @@ def test_other_frequencies_matter_less():
         phase=[32.5 * DEGREE, 75 * DEGREE],
     ).s
     assert float(s.max() / s.min()) == pytest.approx(1.116, abs=0.005)
+
+
+def test_all_frequencies_have_their_period_in_the_phase():
+    # π/p for odd q, 2π/p for even q.
+    s = few("frequencies", normal_amplitude=[0.75], frequency_ratio=[3, 0.4], phase=[0, np.pi / 3, np.pi]).s
+    s = s.squeeze()
+    assert s.sel(frequency_ratio=3)[0] == s.sel(frequency_ratio=3)[1]
+    assert s.sel(frequency_ratio=0.4)[0] == s.sel(frequency_ratio=0.4)[2]
+    assert abs(s.sel(frequency_ratio=0.4)[1] / s.sel(frequency_ratio=0.4)[0] - 1) > 1e-4
 
 
 def test_s_rises_with_friction_for_every_profile():

@@ -28,7 +28,7 @@ def test_stress_is_that_of_the_field(r):
     share = np.tile([0.1, 0.5, 0.9], cycle.begin.shape[1])
     instant = cycle.begin[0, interval] + share * (cycle.end - cycle.begin)[0, interval]
     angle = np.linspace(0.0, np.pi, 7)
-    line = SurfaceLine(cycle, profile, np.array([[r]]), 30)
+    line = SurfaceLine(cycle, profile, np.array([[r]]), 8.0)
     history = line.history(Nodes(interval[None], instant[None], np.arange(instant.size)[None, None]))
     blocks = History(**{name: values[0] for name, values in vars(history).items()})
     states = contact_states(cycle, profile, interval, instant, cells=200)

@@ -17,7 +17,7 @@ from swtstudy.mechanics.profiles import Profile, make_profile
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
 
 Array = NDArray[np.float64]
-GROWTH_NODES = 56
+DIGITS = 12.0
 SHAPES: dict[str, oracle.Indenter] = {
     "paraboloid": oracle.paraboloid(),
     "rounded_punch": oracle.rounded_punch(1.0),
@@ -30,9 +30,7 @@ def history_at(cycle: Cycle, profile: Profile, position: Array, instants: Array)
     """Building blocks of the stress of the first cycle at all positions and instants, each (1, X, T)."""
     interval = np.searchsorted(cycle.end[0], instants)[None]
     index = np.broadcast_to(np.arange(instants.size), (1, position.size, instants.size))
-    return SurfaceLine(cycle, profile, position[None], GROWTH_NODES).history(
-        Nodes(interval, instants[None], index)
-    )
+    return SurfaceLine(cycle, profile, position[None], DIGITS).history(Nodes(interval, instants[None], index))
 
 
 def stress_at(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import signal
 import sys
 from typing import Any
 
@@ -16,6 +17,7 @@ from swtstudy.cli.merge import merge
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
+from swtstudy.cli.show import show
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
 
@@ -38,6 +40,7 @@ class _Commands(click.Group):
                 click.echo(f"Error: {line}", err=True)
             sys.exit(BAD_INPUT)
         except KeyboardInterrupt as error:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C while we are ending anyway
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
 
@@ -56,5 +59,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-for _command in (run, plan, validate, plot, check, info, merge, solve, audit):
+for _command in (run, plan, validate, plot, check, info, merge, solve, show, audit):
     main.add_command(_command)

@@ -10,7 +10,8 @@ import click
 @click.command()
 @click.argument("archive")
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
-def plot(archive: str, output: str | None) -> None:
+@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+def plot(archive: str, output: str | None, style: str | None) -> None:
     """Draw the figure of an ARCHIVE, from the archive alone."""
     from swtstudy.archive.files import check_writable
     from swtstudy.archive.read import open_results
@@ -20,5 +21,5 @@ def plot(archive: str, output: str | None) -> None:
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)
     check_writable(target)
-    save_figure(draw(dataset), target)
+    save_figure(draw(dataset, style=style), target, style)
     click.echo(str(target))

@@ -16,7 +16,7 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
+def with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
     """One option for each row of the table of parameters."""
     for parameter in reversed(PARAMETERS.values()):
         default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
@@ -26,7 +26,7 @@ def _with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @click.command()
-@_with_parameters
+@with_parameters
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 def solve(rtol: float, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
@@ -34,7 +34,7 @@ def solve(rtol: float, **texts: str | None) -> None:
     VALUES is one value, or several between commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
     from swtstudy.mechanics.points import REGIMES
-    from swtstudy.solve import solve as solve_grid
+    from swtstudy.solving import solve as solve_grid
 
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     dataset = solve_grid(rtol=rtol, **parameters)

@@ -12,7 +12,7 @@ from swtstudy.mechanics.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
-from swtstudy.solve import solve
+from swtstudy.solving import solve
 
 _CELLS, _STEPS = 60, 10
 DIRECTIONS = ("depth", "critical_plane")

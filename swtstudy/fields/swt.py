@@ -29,7 +29,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     Returns
     -------
     xarray.Dataset
-        swt over E* δ0/R, and the unit normals normal_x, normal_y, normal_z of the critical planes.
+        s_local: swt over E* δ0/R; normal_x, normal_y, normal_z: unit normals of the critical planes.
 
     Notes
     -----
@@ -48,7 +48,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
         swt[some], normal[some] = Body.of(scene, nodes, _CELLS).swt(*flat[:, some])
     dims, shape = places[0].dims, places[0].shape
     meaning = {"long_name": "Smith-Watson-Topper parameter over E* delta0/R", "units": "1", "symbol": "swt"}
-    variables = {"swt": (dims, swt.reshape(shape), meaning)}
+    variables = {"s_local": (dims, swt.reshape(shape), meaning)}
     for axis, name in enumerate("xyz"):
         meaning = {"long_name": "unit normal of the critical plane", "units": "1", "symbol": f"n_{name}"}
         variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)

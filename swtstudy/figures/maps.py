@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.draw import COLOURS, STYLES
+from swtstudy.figures.style import COLOURS
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.patches import Patch
 
-#: Colours of open contact, stick, forward and backward slip.
-_STATE_COLOURS = ("#FFFFFF", "#999999", "#0072B2", "#D55E00")
+#: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
+_STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 
 
 def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
@@ -27,12 +27,12 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
     dataset
         From `swtstudy.swt_field`, with two of the dimensions x, y and z.
     """
-    if len(dataset.swt.dims) != 2 or not set(dataset.swt.dims) <= set("xyz"):
+    if len(dataset.s_local.dims) != 2 or not set(dataset.s_local.dims) <= set("xyz"):
         raise ValueError(
-            f"a map of swt spans two of x, y and z; this one spans {', '.join(dataset.swt.dims)}"
+            f"a map of swt spans two of x, y and z; this one spans {', '.join(dataset.s_local.dims)}"
         )
-    across, along = sorted(map(str, dataset.swt.dims))
-    swt = dataset.swt.transpose(along, across)
+    across, along = sorted(map(str, dataset.s_local.dims))
+    swt = dataset.s_local.transpose(along, across)
     mesh = axes.pcolormesh(swt[across], swt[along], swt, cmap="cividis", shading="gouraud", rasterized=True)
     axes.figure.colorbar(mesh, ax=axes, label="swt")
     axes.set_xlabel(f"${across}/a_H$")
@@ -56,7 +56,7 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
     shown = [name for name in names if float(abs(dataset[name]).max()) > 1e-9 * largest]
     for index, name in enumerate(shown):
         words = f"${dataset[name].attrs['symbol']}$"
-        axes.plot(dataset.time, dataset[name], color=COLOURS[index], linestyle=STYLES[0], label=words)
+        axes.plot(dataset.time, dataset[name], color=COLOURS[index], linestyle="-", label=words)
     axes.set_xlabel(r"$\omega_1 t$ in rad")
     axes.set_ylabel(r"stress over $E^* \sqrt{\delta_0/R}$")
     axes.set_xlim(float(dataset.time.min()), float(dataset.time.max()))

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import replacing
+from swtstudy.figures.style import Style, styled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,8 +18,8 @@ _NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": 
 FORMATS = (".png", ".pdf", ".svg")
 
 
-def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
-    """Write a figure as PNG, PDF or SVG, by the ending of its name.
+def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None = None) -> None:
+    """Write a figure as PNG, PDF or SVG, by the ending of its name; `style` as for `draw`.
 
     Raises
     ------
@@ -28,5 +29,5 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
         raise ValueError(f"{path}: a figure's name ends in one of {', '.join(FORMATS)}")
-    with replacing(path) as temporary:
-        figure.savefig(temporary, format=suffix[1:], dpi=150, metadata=_NO_DATE.get(suffix))
+    with styled(style), replacing(path) as temporary:
+        figure.savefig(temporary, format=suffix[1:], metadata=_NO_DATE.get(suffix))

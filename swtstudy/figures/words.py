@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from swtstudy.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from matplotlib.axis import Axis
 
 #: A float this close, relatively, to a fraction or a root is taken for it.
 _TOLERANCE = 1e-9
@@ -64,6 +68,18 @@ def value_words(name: str, value: float | str) -> str:
     return f"{value:.4g}"
 
 
+def place_words(name: str, value: float | str) -> str:
+    """A value of a parameter with its symbol; the name alone for a profile.
+
+    Examples
+    --------
+    >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
+    ('$\\\\mu$ = 0.25', 'rounded punch')
+    """
+    symbol = "" if PARAMETERS[name].kind == "profile" else f"{parameter_words(name)} = "
+    return symbol + value_words(name, value)
+
+
 def pi_words(multiple: Fraction) -> str:
     """A rational multiple of π.
 
@@ -83,3 +99,13 @@ def pi_words(multiple: Fraction) -> str:
 def _fraction(value: float, largest: int) -> Fraction | None:
     fraction = Fraction(value).limit_denominator(largest)
     return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None
+
+
+def tick_in_pi(axis: Axis, low: float, high: float) -> None:
+    """Ticks at multiples of π/4 or π/2, or coarser ones over a long range."""
+    span = (high - low) / math.pi
+    step = next((step for step in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / step <= 6), None)
+    step = step or Fraction(math.ceil(span / 6))
+    first, last = math.ceil(low / math.pi / step - 1e-9), math.floor(high / math.pi / step + 1e-9)
+    multiples = [step * index for index in range(first, last + 1)]
+    axis.set_ticks([float(multiple) * math.pi for multiple in multiples], list(map(pi_words, multiples)))

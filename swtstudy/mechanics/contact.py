@@ -98,6 +98,10 @@ class Cycle:
         empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
 
+    def first_half(self) -> Cycle:
+        """The intervals that begin in the first half of the common period, and empty ones."""
+        return self.select(np.arange(len(self.begin)), self.begin < np.pi)
+
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
         """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""
         at = index[:, None], interval

@@ -85,20 +85,20 @@ def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     # Beyond this no plane is in tension.
     farthest = nearest + 20.0 * (1.0 + radius / flat) / (1.0 - scene.friction)
     steps = STEPS_PER_DIGIT * math.ceil(-math.log10(accuracy.tolerance))
-    growth_nodes = accuracy.check.growth_nodes
+    digits = accuracy.check.digits
     for side in (1.0, -1.0):
         for start in (0.5 * np.pi, -0.5 * np.pi):
             low, high, count = nearest, farthest, FIRST_COUNT
             for _ in range(ROUND_COUNT):
                 share = np.linspace(0.0, 1.0, count)
                 distance = low[:, None] * (high / low)[:, None] ** share
-                swt, angle = _swt(scene, distance, side, start, steps, growth_nodes)
+                swt, angle = _swt(scene, distance, side, start, steps, digits)
                 best = swt.argmax(axis=1)
                 low = distance[rows, np.maximum(best - 1, 0)]
                 high = distance[rows, np.minimum(best + 1, count - 1)]
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
-            check = _swt(scene, there, side, start, 2 * steps, growth_nodes)[0][:, 0]
+            check = _swt(scene, there, side, start, 2 * steps, digits)[0][:, 0]
             error = np.abs(check - swt[rows, best]) + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * check
             larger = check > found.swt
             new = check, error, side * flat, angle[rows, best]
@@ -108,7 +108,7 @@ def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 
 def _swt(
-    scene: Scene, distance: FloatArray, side: float, start: float, steps: int, growth_nodes: int
+    scene: Scene, distance: FloatArray, side: float, start: float, steps: int, digits: float
 ) -> tuple[FloatArray, FloatArray]:
     """swt and 2θ at L = ``distance``, shape (n, X), on the best plane near 2θ = ``start``.
 
@@ -122,7 +122,7 @@ def _swt(
     nodes, number = cosine_nodes(scene.cycle, ends, steps)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
     inside = (number % (steps + 1) % steps > 0) & (number // (steps + 1) % 3 == 0)
-    history = SurfaceLine(scene.cycle, edge, position, growth_nodes).history(nodes)
+    history = SurfaceLine(scene.cycle, edge, position, digits).history(nodes)
     planes = scene.planes(history, side)
     angle = np.full(distance.shape, start)
     for _ in range(ANGLE_ROUND_COUNT):
@@ -161,7 +161,7 @@ class _Edge(TruncatedParaboloid):
     def depth(self, radius: FloatArray) -> FloatArray:
         return np.maximum(super().depth(radius), ONSET * self._face(radius) ** 2)
 
-    def primitives(self, position: FloatArray) -> Primitives:
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return _EdgePrimitives(self)
 
 

@@ -18,6 +18,9 @@ from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 
+#: Chebyshev nodes for each oscillation of u while the ground grows.
+NODES_PER_OSCILLATION = 1.6
+
 
 class GrowthIntegrals:
     """Running integrals of the primitives' kernels times −u̇/δ̇ over each growth of each cycle.
@@ -28,13 +31,15 @@ class GrowthIntegrals:
         n cycles and n profiles.
     position
         Shape (n, X), r = |x|.
-    count
-        Number of Chebyshev nodes of each series for a smooth profile.
+    digits
+        Digits that the stress is to have.
     """
 
-    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, count: int) -> None:
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
         # u may oscillate several times while δ rises once.
-        count += profile.extra_nodes + math.ceil(1.6 * cycle.protocol.p / cycle.protocol.q)
+        oscillations = cycle.protocol.p / cycle.protocol.q
+        smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * oscillations
+        count = math.ceil(smooth) + profile.extra_nodes(digits)
         memory = cycle.memory
         n = len(memory.start)
         grown = (memory.slope == GROWTH) & np.isfinite(memory.start)

@@ -15,7 +15,7 @@ from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look
 
 #: Planes that the first look tries.
 SCAN_PLANES = 20
-SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, growth_nodes=8)
+SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, digits=3.5)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
 CANDIDATE_SHARES = np.array([0.85, 0.97, 0.995, 0.999])
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
@@ -56,8 +56,7 @@ class Accuracy:
         digits = -np.log10(rtol)
         # A zoom gains a factor of 30.
         zooms = max(int(np.ceil(0.5 * digits)) + int(digits > 5.0), 1)
-        growth = int(np.ceil(max(4.0 * digits - 2.0, 6.0 * digits - 10.0)))
-        return cls(Resolution(3, zooms, growth), Resolution(4, zooms + 1, growth + 8), rtol)
+        return cls(Resolution(3, zooms, digits + 1.0), Resolution(4, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
         """The same with twice the instants."""
@@ -124,11 +123,7 @@ class _Climb:
     @classmethod
     def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
         """From the first look at the scene, for its finer division."""
-        swt = look.swt
-        if scene.cycle.protocol.q % 2 == 0:
-            # Half a common period later δ is the same and u has changed sign: both sides are alike.
-            swt = swt * np.array([1.0, 0.0])[:, None]
-        peak = local_maxima(swt)
+        peak = local_maxima(look.swt)
         point, side, column = peak
         hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
         centre, top, change = np.zeros((3, len(point)))
@@ -232,7 +227,7 @@ def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], N
     Parameters
     ----------
     swt
-        Shape (n, 2, X), at ascending positions on both sides.
+        Shape (n, 1 or 2, X), at ascending positions on one or both sides.
     """
     padded = np.pad(swt, ((0, 0), (0, 0), (1, 1)), constant_values=-1.0)
     largest = swt.max(axis=(1, 2), keepdims=True)

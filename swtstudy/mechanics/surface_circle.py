@@ -29,7 +29,7 @@ SAFE_POISSON_RATIO = 0.35
 #: Angles from the line that are looked at first, then in a narrower range.
 _ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
 _CLOSER = np.linspace(-1.0, 1.0, 9)[None] * _ANGLES[1]
-_TIME_STEPS, _GROWTH_NODES = 4, 16
+_TIME_STEPS, _DIGITS = 4, 5.5
 
 
 def circle_gain(
@@ -112,7 +112,7 @@ def _decisive_history(
     A maximum at x < 0 is mirrored to x > 0.
     """
     r = np.abs(position)[:, None]
-    line = SurfaceLine(scene.cycle, scene.profile, r, _GROWTH_NODES)
+    line = SurfaceLine(scene.cycle, scene.profile, r, _DIGITS)
     ends = stretches(scene.cycle, scene.profile.depth(r))
     nodes, number = cosine_nodes(scene.cycle, ends, _TIME_STEPS)
     side = np.where(position < 0.0, -1.0, 1.0)

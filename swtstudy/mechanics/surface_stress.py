@@ -45,6 +45,15 @@ class History:
     tangential_3: FloatArray
     traction: FloatArray
 
+    def with_mirror_image(self) -> History:
+        """These instants, and those at which only the sign of the tangential load is another."""
+        normal = self.pressure, self.mean_pressure
+        tangential = self.tangential_1, self.tangential_3, self.traction
+        return History(
+            *(np.concatenate([values, values], axis=-1) for values in normal),
+            *(np.concatenate([values, -values], axis=-1) for values in tangential),
+        )
+
 
 class SurfaceLine:
     """n × X positions on the surface line of n points, ready for any instants.
@@ -55,13 +64,13 @@ class SurfaceLine:
         n cycles and n profiles, one pair a point.
     position
         Shape (n, X): r = |x| > 0 in a_H.
-    growth_nodes
-        Number of Chebyshev nodes for the springs that stuck at touch-down.
+    digits
+        Digits of the largest stress to which tables and series are made.
     """
 
-    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, growth_nodes: int) -> None:
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
         self.cycle, self.profile, self.position = cycle, profile, position
-        self.primitives = profile.primitives(position)
+        self.primitives = profile.primitives(position, digits)
         memory = cycle.memory
         n, intervals, pieces = memory.start.shape
         finite = np.isfinite(memory.start)
@@ -76,7 +85,7 @@ class SurfaceLine:
         slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
         # Integral over each complete piece, up to the start of the next one.
         piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
-        self.growth = GrowthIntegrals(cycle, profile, position, growth_nodes)
+        self.growth = GrowthIntegrals(cycle, profile, position, digits)
         if self.growth.count:
             self.growth_index = self.growth.index(cycle)
             grown = finite & (memory.slope == GROWTH)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import Cycle
 from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, parabola, product
 from swtstudy.mechanics.gather import gather, pick
-from swtstudy.mechanics.instants import cosine_nodes, stretches
+from swtstudy.mechanics.instants import NO_STRETCH, cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
@@ -38,13 +38,13 @@ class Resolution:
         Steps of the cosine-spaced instants of each stretch.
     zooms
         How often the extremes are looked at more closely, at least once to refine.
-    growth_nodes
-        Chebyshev nodes for the springs that stuck at touch-down.
+    digits
+        Digits of the largest stress to which tables and series are made.
     """
 
     nodes: int
     zooms: int
-    growth_nodes: int
+    digits: float
 
 
 @dataclass(frozen=True)
@@ -90,16 +90,17 @@ class FirstLook:
     Attributes
     ----------
     swt, double_angle
-        Shape (n, 2, X): at x = +r and x = −r; 2θ in rad.
-    interval
-        Shape (n, X, T): interval of the cycle of each instant.
+        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad.
+    begin, end
+        Shape (n, X, T): ends of the interval of the cycle in which each instant is.
     history
         What was seen there.
     """
 
     swt: FloatArray
     double_angle: FloatArray
-    interval: NDArray[np.intp]
+    begin: FloatArray
+    end: FloatArray
     history: History
 
     def hot_intervals(
@@ -124,7 +125,10 @@ class FirstLook:
             hot |= curve >= high - HOT * (high - low)
         kept = np.zeros((len(point), scene.cycle.begin.shape[1]), dtype=bool)
         row, instant = np.nonzero(hot)
-        kept[row, self.interval[point, column][row, instant]] = True
+        begin, end = (v[point[row], column[row], instant, None] for v in (self.begin, self.end))
+        low, high = scene.cycle.begin[point[row]], scene.cycle.end[point[row]]
+        hit, interval = np.nonzero(np.minimum(high, end) - np.maximum(low, begin) > NO_STRETCH)
+        kept[row[hit], interval] = True
         return kept
 
 
@@ -142,15 +146,23 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     planes
         Number of planes that are tried.
     """
-    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
-    ends = stretches(scene.cycle, scene.profile.depth(position))
-    nodes, _ = cosine_nodes(scene.cycle, ends, resolution.nodes)
+    # For even q, half a common period later δ is the same and u has changed sign: half of it is enough.
+    mirrored = scene.cycle.protocol.q % 2 == 0
+    cycle = scene.cycle.first_half() if mirrored else scene.cycle
+    line = SurfaceLine(cycle, scene.profile, position, resolution.digits)
+    nodes, _ = cosine_nodes(cycle, stretches(cycle, scene.profile.depth(position)), resolution.nodes)
     history = line.history(nodes)
-    sides = (coarse_swt(scene.planes(history, side), planes) for side in (1.0, -1.0))
+    flat = nodes.index.reshape(len(scene), -1)
+    interval = gather(nodes.interval, flat)
+    begin, end = (gather(v, interval).reshape(nodes.index.shape) for v in (cycle.begin, cycle.end))
+    if mirrored:
+        history = history.with_mirror_image()
+        begin, end = (np.concatenate([v, v + np.pi], axis=-1) for v in (begin, end))
+    sides = (
+        coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
+    )
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    shape = nodes.index.shape
-    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(shape)
-    return FirstLook(swt, angle, interval, history)
+    return FirstLook(swt, angle, begin, end, history)
 
 
 def refine(
@@ -195,7 +207,7 @@ def _refine_from(
 
     Also another plane that may be better still, and whether it has its extremes elsewhere in the cycle.
     """
-    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.growth_nodes)
+    line = SurfaceLine(scene.cycle, scene.profile, position, resolution.digits)
     ends = stretches(scene.cycle, scene.profile.depth(position))
     side = side[:, None, None]
     nodes, number = cosine_nodes(scene.cycle, ends, resolution.nodes)

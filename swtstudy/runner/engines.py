@@ -10,14 +10,15 @@ from types import TracebackType
 from typing import Any, Protocol
 
 from swtstudy.runner.chunk import Chunk, Result, Solver, given_up, solve_chunk
-from swtstudy.runner.workers import start_workers
+from swtstudy.runner.workers import kill_workers, start_workers
 
 #: Takes every result as soon as it is there.
 Deliver = Callable[[Result], None]
 
-#: Chunks for each worker in the first and in each later wave in which dask is given its tasks. A wave
-#: ends with workers waiting for the last one; the first is short, to cut later chunks by their timing.
-_FIRST_WAVE, _LATER_WAVE = 1, 128
+#: Chunks for each worker in the waves in which dask is given its tasks; the last number is for all later
+#: waves. A wave ends with workers waiting for the last one; the first are short, to cut later chunks by
+#: their timing.
+_WAVES = (1, 8, 128)
 
 LOST_WORKER = "the worker process died while it computed this point"
 
@@ -74,16 +75,18 @@ class LocalWorkers:
         self._pool = start_workers(self.count)
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None:
+            # What they have in hand is lost anyway, and a second Ctrl-C must not find us waiting for it.
+            kill_workers(self._pool)
         # Workers end while the archive is written.
         self._pool.shutdown(wait=False, cancel_futures=True)
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
         """See `Engine`; a lost worker is replaced, and what it had in hand is given out again."""
         waiting = iter(chunks)
-        length = _FIRST_WAVE
-        while wave := list(itertools.islice(waiting, length * self.count)):
-            length = _LATER_WAVE
+        lengths = itertools.chain(_WAVES, itertools.repeat(_WAVES[-1]))
+        while wave := list(itertools.islice(waiting, next(lengths) * self.count)):
             lost = self._attempt(wave, rtol, solver, deliver)
             if lost:
                 lost = self._attempt(lost, rtol, solver, deliver)

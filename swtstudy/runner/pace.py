@@ -13,16 +13,22 @@ _LARGEST_WEIGHT = 10_000
 #: Rough cost of a point by its weight in `plan.weights`, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
 
+#: The first chunks are this part of the later ones: they are there to be timed, and to be saved soon.
+_FIRST_PART = 0.2
+
 
 class Pace:
     """Running mean of the seconds that points take a worker, by their weight."""
 
     def __init__(self) -> None:
-        self.seconds_per_weight = SECONDS_PER_WEIGHT
+        self.seconds_per_weight = SECONDS_PER_WEIGHT / _FIRST_PART
+        self._first = True
 
     def update(self, result: Result, weight: int) -> None:
         """Take the timing of one more result into account."""
-        self.seconds_per_weight = (self.seconds_per_weight + max(result.seconds, 1e-9) / weight) / 2
+        timed = max(result.seconds, 1e-9) / weight
+        self.seconds_per_weight = timed if self._first else (self.seconds_per_weight + timed) / 2
+        self._first = False
 
     def chunk_weight(self) -> float:
         """Weight of a chunk that takes a good time."""

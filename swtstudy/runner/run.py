@@ -123,7 +123,10 @@ def _run_locked(
         history += "\n" + old.attrs["history"]
         _keep_dropped(path, work, old)
     dataset = build(study, work.points, records.trimmed(), history, time.perf_counter() - begin)
-    save(dataset, path, beside=folder)
+    try:
+        save(dataset, path, beside=folder)
+    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter on a full disk
+        raise _interrupted(OSError(f"cannot write the archive ({error})"), records, path) from error
     clear_parts(folder)
     return read_archive(path)
 
@@ -186,11 +189,22 @@ def _compute(
         with engine:
             engine.solve(chunks(records.table, missing, pace.chunk_weight), this.rtol, solver, deliver)
     except KeyboardInterrupt:
-        saved = int((records.status != MISSING).sum())
-        raise Stopped(
-            f"stopped; {saved} of {len(records)} distinct points are saved beside {path}; "
-            "the same command goes on from there"
-        ) from None
+        raise Stopped(f"stopped; {_saved(records, path)}; the same command goes on from there") from None
+    except OSError as error:
+        raise _interrupted(error, records, path) from error
     finally:
         progress.close()
     return records
+
+
+def _interrupted(error: OSError, records: Records, path: Path) -> OSError:
+    """Such as a full disk, or a scheduler that is gone: what is saved, and how to go on."""
+    reason = error.strerror or str(error)
+    return OSError(
+        f"{reason}; {_saved(records, path)}; once that is mended the same command goes on from there"
+    )
+
+
+def _saved(records: Records, path: Path) -> str:
+    saved = int((records.status != MISSING).sum())
+    return f"{saved} of {len(records)} distinct points are saved beside {path}"

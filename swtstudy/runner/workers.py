@@ -28,6 +28,12 @@ def start_workers(count: int) -> ProcessPoolExecutor:
     return pool
 
 
+def kill_workers(pool: ProcessPoolExecutor) -> None:
+    """End the worker processes of a pool at once, whatever they are doing."""
+    for process in list((pool._processes or {}).values()):
+        process.kill()
+
+
 def _prepare() -> None:
     # Ctrl-C reaches the whole process group; the parent decides what happens then.
     signal.signal(signal.SIGINT, signal.SIG_IGN)

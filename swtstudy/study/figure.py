@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import unicodedata
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
@@ -11,14 +12,18 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Report
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import literal, nearest
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import LETTERS, PARAMETERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
 
+#: Kinds of figures: lines over x, or s as a surface over x and vertical.
+KINDS = ("lines", "contour", "heatmap")
+
+
 @dataclass(frozen=True)
 class FigureLayout:
-    """Layout of a line figure.
+    """Layout of a figure.
 
     Attributes
     ----------
@@ -29,9 +34,14 @@ class FigureLayout:
     panels
         Dimension whose values are the panels side by side, or None for one panel.
     y
-        One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.
+        One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place; the paper's
+        letter may stand for the name.
     title
         Title over the figure, or None.
+    kind
+        "lines"; "contour", with the places of least and greatest s along x; or "heatmap", a cell a point.
+    vertical
+        Dimension along the vertical axis of a contour or heat map, None for lines.
     """
 
     x: str
@@ -39,6 +49,8 @@ class FigureLayout:
     panels: str | None = None
     y: tuple[str, ...] = ("s",)
     title: str | None = None
+    kind: str = "lines"
+    vertical: str | None = None
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""
@@ -52,7 +64,7 @@ class FigureLayout:
 
     def roles(self) -> Iterator[tuple[str, str]]:
         """Role and dimension of every dimension that is used."""
-        for role in ("x", "hue", "panels"):
+        for role in ("x", "vertical", "hue", "panels"):
             name = getattr(self, role)
             if name is not None:
                 yield role, name
@@ -70,6 +82,8 @@ def reference(y: str) -> tuple[str, Value] | None:
     --------
     >>> reference("s/s(flat_radius=0)")
     ('flat_radius', 0.0)
+    >>> reference("s/s(b=0)")
+    ('flat_radius', 0.0)
     """
     if y.strip() == "s":
         return None
@@ -77,9 +91,27 @@ def reference(y: str) -> tuple[str, Value] | None:
     if match is None:
         raise ValueError("not a quantity")
     name, raw = match.groups()
+    name = LETTERS.get(unicodedata.normalize("NFKC", name), name)  # a keyboard's µ is not the letter μ
     if name not in PARAMETERS:
         raise ValueError(f"unknown parameter {name}")
     return name, read_value(PARAMETERS[name], raw.strip())
+
+
+def wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of every role that this kind of figure must or must not have."""
+    if layout.kind not in KINDS:
+        yield ".kind", literal(layout.kind), nearest(layout.kind, KINDS)
+    elif layout.kind == "lines":
+        if layout.vertical is not None:
+            yield ".vertical", literal(layout.vertical), 'none for kind = "lines", whose vertical axis is y'
+    else:
+        if layout.vertical is None:
+            yield ".vertical", "nothing", f'the name of an axis (kind = "{layout.kind}" needs it)'
+        if layout.hue is not None:
+            yield ".hue", literal(layout.hue), f'none for kind = "{layout.kind}"'
+    for role, name in (("x", layout.x), ("vertical", layout.vertical)):
+        if name == "profile" and layout.kind != "heatmap":
+            yield f".{role}", "'profile'", "an axis of numbers"
 
 
 def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, report: Report) -> None:
@@ -103,11 +135,16 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
         elif name in used:
             report(f"figure.{role}", f"{literal(name)}, used for {used[name]} too", "each axis once")
         used.setdefault(name, role)
-    if layout.x == "profile":
-        report("figure.x", "'profile'", "an axis of numbers")
+    for key, found, allowed in wrong_roles(layout):
+        report(f"figure{key}", found, allowed)
+    if layout.kind == "contour" and grid is not None:
+        for role in ("x", "vertical"):
+            name = getattr(layout, role)
+            if name in dims and len(grid.values(name)) < 2:
+                report(f"figure.{role}", f"{name} with a single value", "an axis of two values or more")
     for name in dims:
         if name not in used and name in PARAMETERS:
-            report("figure", f"no place for the axis {name}", "every axis as x, hue or panels")
+            report("figure", f"no place for the axis {name}", "every axis as x, hue, vertical or panels")
     if not layout.y:
         report("figure.y", "an empty list", 'at least one of "s" or "s/s(name=value)"')
     for y in layout.y:

@@ -32,9 +32,11 @@ Axis = Annotated[
 
 
 class FigureTable(_Table):
-    """What the figure puts where: each of x, hue and panels is a dimension of the study."""
+    """What the figure puts where: each of x, hue, vertical and panels is a dimension of the study."""
 
+    kind: Literal["lines", "contour", "heatmap"] = "lines"
     x: str
+    vertical: str | None = None
     hue: str | None = None
     panels: str | None = None
     y: str | list[str] = "s"

@@ -31,7 +31,8 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
     if figure is not None:
-        lines += ["", "[figure]", *(f"{role} = {_string(name)}" for role, name in figure.roles())]
+        lines += ["", "[figure]", f"kind = {_string(figure.kind)}"]
+        lines += (f"{role} = {_string(name)}" for role, name in figure.roles())
         lines.append(f"y = [{', '.join(map(_string, figure.y))}]")
         if figure.title:
             lines.append(f"title = {_string(figure.title)}")

@@ -80,9 +80,8 @@ class Profile(ABC):
         """Shape (n, k): radii that lead up to a singularity of the stress, in ever smaller steps."""
         return np.zeros((len(self.largest_depth), 0))
 
-    @property
-    def extra_nodes(self) -> int:
-        """Nodes that running integrals of g′ need beyond those of a smooth profile."""
+    def extra_nodes(self, digits: float) -> int:
+        """Chebyshev nodes that running integrals of g′ need beyond those of a smooth profile."""
         return 0
 
     @property
@@ -107,8 +106,8 @@ class Profile(ABC):
         """∫ ξ g′ dξ from b to ``radius``: half of the normal force over E* δ0 a_H."""
 
     @abstractmethod
-    def primitives(self, position: FloatArray) -> Primitives:
-        """The full-slip integrals at r = ``position``, shape (n, X)."""
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        """The full-slip integrals at r = ``position``, shape (n, X), to so many digits of the largest."""
 
 
 def align(values: FloatArray, like: FloatArray) -> FloatArray:

@@ -14,8 +14,8 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 from swtstudy.mechanics.profiles.tables import OuterTable
 
-#: Chebyshev nodes of the tables: their error is below 1e-9 of the largest stress (tests/test_profiles.py).
-OUTER_NODES = 40
+#: Chebyshev nodes of the tables for each digit, for any width of the face (tests/test_profiles.py).
+NODES_PER_DIGIT = 4.5
 #: Distance from the singular r = b up to which positions are looked at, over the face or the ring beside it.
 NEAREST = 1e-9
 #: A face smaller than this share of the contact is not looked at closely: its singularity has no weight.
@@ -74,16 +74,16 @@ class RoundedPunch(FlatFaced):
         b, w = self._face(radius), self._rise(radius)
         return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * np.arctan2(w, b) - b * w)
 
-    def primitives(self, position: FloatArray) -> Primitives:
-        return RoundedPrimitives(self, position, self.radius(self.largest_depth))
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return RoundedPrimitives(self, position, self.radius(self.largest_depth), digits)
 
 
 class FacePrimitives(Primitives):
     """Elementary inner integrals in α, w = √(r² − b²) sin α, and tabulated outer ones."""
 
-    def __init__(self, profile: FlatFaced, position: FloatArray, largest: FloatArray) -> None:
+    def __init__(self, profile: FlatFaced, position: FloatArray, largest: FloatArray, digits: float) -> None:
         self.position, self.flat = position, profile.flat_radius[:, None]
-        self._outer = OuterTable(profile, position, OUTER_NODES, largest)
+        self._outer = OuterTable(profile, position, int(NODES_PER_DIGIT * digits), largest)
 
     def outer(self, radius: FloatArray) -> FloatArray:
         return self._outer(radius)
@@ -161,8 +161,8 @@ class TruncatedParaboloid(FlatFaced):
         b, w = self._face(radius), self._rise(radius)
         return w * ((2.0 / 3.0) * w * w + b * b)
 
-    def primitives(self, position: FloatArray) -> Primitives:
-        return TruncatedPrimitives(self, position, self.radius(self.largest_depth))
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return TruncatedPrimitives(self, position, self.radius(self.largest_depth), digits)
 
 
 class TruncatedPrimitives(FacePrimitives):

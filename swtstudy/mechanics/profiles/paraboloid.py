@@ -47,5 +47,5 @@ class Paraboloid(Profile):
     def half_load(self, radius: FloatArray) -> FloatArray:
         return (2.0 / 3.0) * radius**3
 
-    def primitives(self, position: FloatArray) -> Primitives:
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return ParaboloidPrimitives(position)

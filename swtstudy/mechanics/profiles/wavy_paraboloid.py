@@ -10,8 +10,8 @@ from swtstudy.mechanics.profiles.base import Primitives, Profile, align
 from swtstudy.mechanics.profiles.struve import struve_functions
 from swtstudy.mechanics.profiles.tables import TablePrimitives
 
-#: Chebyshev nodes of the tables: so many, and so many more per rad of kξ.
-TABLE_NODES, NODES_PER_RADIAN = 20, 0.8
+#: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
+NODES_PER_DIGIT, NODES_PER_RADIAN, NODES_PER_RADIAN_AND_DIGIT = 2.2, 0.55, 0.025
 #: Positions of the first guess of the contact radius of a smooth profile.
 GUESSES = 64
 #: Step of kξ in rad between levels of roughness.
@@ -90,9 +90,8 @@ class WavyParaboloid(Profile):
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
 
-    @property
-    def extra_nodes(self) -> int:
-        return int(NODES_PER_RADIAN * self.phase)
+    def extra_nodes(self, digits: float) -> int:
+        return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
 
     @property
     def feature_length(self) -> FloatArray:
@@ -136,9 +135,9 @@ class WavyParaboloid(Profile):
         scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
         return (2.0 / 3.0) * radius**3 + scale * wave
 
-    def primitives(self, position: FloatArray) -> Primitives:
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
         largest = self.radius(self.largest_depth)
-        nodes = TABLE_NODES + self.extra_nodes
+        nodes = int(NODES_PER_DIGIT * digits) + self.extra_nodes(digits)
         return TablePrimitives(self, position, nodes, nodes, largest)
 
 

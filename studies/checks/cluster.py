@@ -1,6 +1,6 @@
 """Runs on dask.distributed: a worker killed half way; a scheduler and workers started on their own.
 
-python checks/cluster.py > results/cluster.txt
+python studies/checks/cluster.py > results/cluster.txt
 """
 
 from __future__ import annotations

@@ -1,30 +1,35 @@
 """SIGKILLs at random moments of a run, and of the writing of its archive: what is lost.
 
-python checks/kills.py > results/kills.txt
+python studies/checks/kills.py > results/kills.txt
 """
 
 from __future__ import annotations
 
+import os
 import random
 import signal
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
-
-sys.path.insert(0, str(Path(__file__).parent))
-
 from cheap import cheap, logged
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
+from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.run import Stopped
 
 KILLS = 25
+WORKERS = 2
+
+#: Chunks that the pool of local workers is given at once.
+IN_FLIGHT = 2 * WORKERS
 
 RUN = """
 title = "2,000 points"
@@ -45,8 +50,18 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """What is killed: a run in a process of its own."""
-    solver = partial(logged, log) if what == "run" else cheap
-    run(Study.from_text(text), path, solver=solver)
+    from swtstudy.runner import run as module
+
+    cut = module.chunks
+
+    def noted(*arguments: Any) -> Iterator[Chunk]:
+        for chunk in cut(*arguments):
+            with open(f"{log}-chunks", "a") as file:
+                file.write(f"{len(chunk)}\n")
+            yield chunk
+
+    module.chunks = noted
+    run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap)
 
 
 def start(what: str, text: str, path: Path, log: Path) -> subprocess.Popen[bytes]:
@@ -56,8 +71,11 @@ def start(what: str, text: str, path: Path, log: Path) -> subprocess.Popen[bytes
 
 def workers_of(process: int) -> list[int]:
     """The worker processes of a process."""
-    children = Path(f"/proc/{process}/task/{process}/children").read_text().split()
-    return [int(each) for each in children if b"spawn_main" in Path(f"/proc/{each}/cmdline").read_bytes()]
+    try:
+        children = Path(f"/proc/{process}/task/{process}/children").read_text().split()
+        return [int(each) for each in children if b"spawn_main" in Path(f"/proc/{each}/cmdline").read_bytes()]
+    except OSError:  # it has ended
+        return []
 
 
 def same_values(one: xr.Dataset, other: xr.Dataset) -> None:
@@ -70,44 +88,69 @@ def computed(log: Path) -> int:
     return sum(map(int, log.read_text().split())) if log.exists() else 0
 
 
+def largest_chunk(log: Path) -> int:
+    """Points of the largest chunk that was ever cut."""
+    return max(map(int, Path(f"{log}-chunks").read_text().split()))
+
+
 def kills_of_runs(folder: Path, dice: random.Random) -> None:
-    """Kill a run of 2,000 points, again and again, and let it end."""
+    """Kill runs of 2,000 points, again and again, and let each end."""
     begin = time.perf_counter()
     expected = run(Study.from_text(RUN), folder / "undisturbed.nc")
-    print(f"undisturbed run of {expected.s.size} points: {time.perf_counter() - begin:.1f} s")
-    path, log = folder / "killed.nc", folder / "log"
-    lost = saved_before = 0
-    for kill in range(1, KILLS + 1):
-        process = start("run", RUN, path, log)
-        # From the first work of this process on: imports can take longer than the wait.
-        whom = "a worker" if kill % 3 == 0 else "the parent"
-        at = computed(log)
-        while computed(log) == at and process.poll() is None:
-            time.sleep(0.01)
-        time.sleep(dice.uniform(0, 1.0))
-        if process.poll() is not None:
-            break
-        if whom == "a worker":
-            workers = workers_of(process.pid)
-            subprocess.run(["kill", "-9", str(dice.choice(workers))], check=False)
-            time.sleep(dice.uniform(0, 0.35))
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-        time.sleep(0.5)  # workers end on their own
-        assert not path.exists()
-        saved = points_saved(parts_folder(path))
-        assert saved >= saved_before, "saved points were lost"
-        total_lost = computed(log) - saved
-        note = (
-            f"kill {kill:2d} of {whom:10s}: {saved:4d} points saved, {total_lost - lost:3d} computed in vain"
-        )
-        print(note, flush=True)
-        lost, saved_before = total_lost, saved
-    final = run(Study.from_text(RUN), path, solver=partial(logged, str(log)))
-    same_values(final, expected)
-    assert not parts_folder(path).exists()
-    print(f"all kills: {lost} points of {expected.s.size} computed in vain")
-    print("the final archive has the very values of the undisturbed one\n")
+    seconds = time.perf_counter() - begin
+    print(f"undisturbed run of {expected.s.size} points on {WORKERS} workers: {seconds:.1f} s")
+    print(
+        f"{KILLS} kills, each at a random moment up to 1.5 s after the first points of a run were computed;"
+    )
+    print(f"in flight are {IN_FLIGHT} chunks: with a worker, on the way to one, or on the way back")
+    kills = rounds = all_lost = 0
+    while kills < KILLS:
+        rounds += 1
+        path, log = folder / f"killed{rounds}.nc", folder / f"log{rounds}"
+        saved = 0
+        while kills < KILLS and saved < expected.s.size:
+            before, done = saved, computed(log)
+            Path(f"{log}-chunks").unlink(missing_ok=True)
+            whom = "a worker" if kills % 3 == 2 else "the parent"
+            kill_one(path, log, whom, dice)
+            kills += 1
+            assert not path.exists()
+            saved = points_saved(parts_folder(path))
+            assert saved >= before, "saved points were lost"
+            lost = computed(log) - done - (saved - before)
+            # A killed worker takes with it what is in flight; then the parent does so once more.
+            bound = (2 if whom == "a worker" else 1) * IN_FLIGHT * largest_chunk(log)
+            assert lost <= bound, "more was lost than what was in flight"
+            all_lost += lost
+            print(
+                f"run {rounds}, kill {kills:2d}, of {whom:10s}: {saved:4d} points saved "
+                f"({saved - before:3d} more), {lost:3d} lost, at most {bound:3d} were in flight",
+                flush=True,
+            )
+        final = run(Study.from_text(RUN), path, solver=partial(logged, str(log)))
+        same_values(final, expected)
+        assert not parts_folder(path).exists()
+        print(f"run {rounds} ends with the very values of the undisturbed one, nothing else is left")
+    print(f"{KILLS} kills: {all_lost} points lost, {all_lost / KILLS:.0f} a kill, and never a saved one\n")
+
+
+def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> None:
+    """Start a run, and kill it, or first one of its workers, at a random moment after its first block."""
+    process = start("run", RUN, path, log)
+    at = computed(log)
+    while computed(log) == at and process.poll() is None:
+        time.sleep(0.01)
+    time.sleep(dice.uniform(0, 1.5))
+    if whom == "a worker":
+        workers = workers_of(process.pid)
+        if workers:
+            os.kill(dice.choice(workers), signal.SIGKILL)
+        time.sleep(dice.uniform(0, 0.35))
+    workers = workers_of(process.pid)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    while any(Path(f"/proc/{worker}").exists() for worker in workers):
+        time.sleep(0.01)  # they end on their own
 
 
 def kills_of_writes(folder: Path, dice: random.Random) -> None:
@@ -126,7 +169,7 @@ def kills_of_writes(folder: Path, dice: random.Random) -> None:
         process = start("write", large, path, folder / "log")
         while process.poll() is None and not writing(path):
             time.sleep(0.002)
-        time.sleep(dice.uniform(0, 4 * duration))
+        time.sleep(dice.uniform(0, 6 * duration))
         during = writing(path)
         process.send_signal(signal.SIGKILL)
         process.wait()

@@ -1,0 +1,54 @@
+"""Peer: surface stresses by the periodic FFT half-space of tamaas, from this package's contact solution."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from histories import INSTANTS, history_at
+
+from swtstudy.mechanics import Points
+from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.textbook import brute_force
+
+#: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
+WIDTH, LAYERS, PLANES = 2.0, 2, 180
+#: Radii from which the tractions are interpolated.
+RADII = 2000
+
+
+@lru_cache(maxsize=2)
+def _model(side: int, width: float, nu: float):
+    import tamaas
+
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    model = tamaas.Model(tamaas.model_type.volume_2d, [0.01 * width, width, width], [LAYERS, side, side])
+    model.E, model.nu = 1.0 - nu**2, nu
+    tamaas.ModelFactory.registerVolumeOperators(model)
+    shape = [LAYERS, side, side, 6]
+    return model, np.zeros(shape), np.zeros(shape)
+
+
+def half_space_s(point: Points, side: int) -> float:
+    """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
+    nu, mu = point.poisson_ratio.item(), point.friction.item()
+    profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
+    largest = float(profile.radius(profile.largest_depth)[0])
+    width = 2.0 * WIDTH * largest
+    radius = np.linspace(1e-3, 1.01, RADII) * largest
+    history = history_at(point, radius)
+    pressure, traction = history.pressure[0], -mu * history.traction[0]
+    axis = (np.arange(side) - side // 2) * width / side
+    grid = np.hypot(axis[:, None], axis)
+    model, strain, stress = _model(side, width, nu)
+    line = np.empty((INSTANTS, side, 6))
+    for instant in range(INSTANTS):
+        model.traction[..., 2] = np.interp(grid, radius, pressure[:, instant], right=0.0)
+        model.traction[..., 0] = np.interp(grid, radius, traction[:, instant], right=0.0)
+        model.operators["boussinesq_gradient"](model.traction, strain)
+        model.operators["hooke"](strain, stress)
+        line[instant] = stress[0, :, side // 2]
+    xx, yy, zz, _, xz = (line[..., k].T for k in range(5))
+    zero = np.zeros_like(xx)
+    # brute_force looks at both signs of x by the sign of the tangential part; here x itself has both.
+    return brute_force((xx, yy, zz, zero, zero, xz / np.sqrt(2.0)), nu, PLANES)[0]

@@ -1,0 +1,29 @@
+"""Peer: the plane search as critical-plane packages write it, a Python loop over a hemisphere of normals."""
+
+from __future__ import annotations
+
+import numpy as np
+from histories import history_at
+
+from swtstudy.mechanics import Points
+from swtstudy.mechanics.surface_stress import stresses
+
+
+def plane_loop_s(point: Points, x: float, step: float) -> float:
+    """Largest swt over planes every ``step`` degrees, at one given place."""
+    nu = point.poisson_ratio.item()
+    history = history_at(point, np.array([abs(x)]))
+    parts = stresses(history, point.poisson_ratio, point.friction, np.sign(x))
+    xx, yy, zz, xz = (part[0, 0] for part in parts)
+    zero = np.zeros_like(xx)
+    stress = np.moveaxis(np.array([[xx, zero, xz], [zero, yy, zero], [xz, zero, zz]]), 2, 0)
+    trace = np.trace(stress, axis1=1, axis2=2)
+    strain = ((1.0 + nu) * stress - nu * trace[:, None, None] * np.eye(3)) / (1.0 - nu**2)
+    best = 0.0
+    for tilt in np.radians(np.arange(0.0, 90.0 + 0.5 * step, step)):
+        for turn in np.radians(np.arange(0.0, 360.0, step)):
+            normal = np.array([np.sin(tilt) * np.cos(turn), np.sin(tilt) * np.sin(turn), np.cos(tilt)])
+            on_plane = np.array([normal @ one @ normal for one in stress])
+            strain_on_plane = np.array([normal @ one @ normal for one in strain])
+            best = max(best, on_plane.max() * 0.5 * np.ptp(strain_on_plane))
+    return float(best)

@@ -1,0 +1,68 @@
+"""The scenes of the chart, and what s is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.textbook import textbook_s
+
+#: Tolerance of the reference values.
+REFERENCE_RTOL = 1e-9
+#: Grid of the independent computation that confirms them.
+INDEPENDENT = {"springs": 4000, "steps": 2400, "positions": 400, "planes": 720, "aligned": True}
+#: Points solved in one call, as a study does, and the step of their phases, rad.
+BATCH, PHASE_STEP = 64, 1e-3
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A named parameter point, as a batch of one."""
+
+    title: str
+    point: Points
+
+    def batch(self) -> Points:
+        """As many neighbours of the point as a study solves at a time, itself first."""
+        point, rows = self.point, np.zeros(BATCH, dtype=int)
+        columns = {
+            name: getattr(point, name)[rows]
+            for name in ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude")
+        }
+        phase = point.phase[0] + PHASE_STEP * np.arange(BATCH)
+        shape = {name: values[rows] for name, values in point.shape.items()}
+        return replace(point, **columns, phase=phase, shape=shape)
+
+    def reference(self) -> float:
+        """s at the tightest tolerance."""
+        return float(solve_points(self.point, REFERENCE_RTOL).s[0])
+
+    def independent(self) -> float:
+        """s by the textbook method on a fine aligned grid."""
+        return textbook_s(self.point, **INDEPENDENT).s
+
+
+def _scene(
+    title: str,
+    profile: str = "paraboloid",
+    normal_amplitude: float = 0.75,
+    phase: float = 0.0,
+    ratio: tuple[int, int] = (1, 1),
+    **shape: float,
+) -> Scene:
+    values = (np.array([v]) for v in (0.3, 0.3, normal_amplitude))
+    p, q = (np.array([v]) for v in ratio)
+    lengths = {name: np.array([value]) for name, value in shape.items()}
+    return Scene(title, Points(profile, *values, p, q, np.array([5 / 6]), np.array([phase]), lengths))
+
+
+SCENES = (
+    _scene("Table 1"),
+    _scene("cusp: δA/δ0 = 0.1", normal_amplitude=0.1),
+    _scene("hard: δA/δ0 = 8/9, ψ = 2.6", normal_amplitude=8 / 9, phase=2.6),
+    _scene(
+        "rounded punch, b/a_H = 0.5, ω2/ω1 = 5/2", "rounded_punch", ratio=(5, 2), phase=1.0, flat_radius=0.5
+    ),
+)

@@ -1,0 +1,119 @@
+"""How the cost of a value scales, and what a notebook's user waits for at the start.
+
+Processor time a value against the points solved in one call, against 1/rtol, and against q in ω2/ω1 = 1/q and
+p in ω2/ω1 = p; the memory of a call; start-up in processes of their own. Run from the project's folder:
+``OMP_NUM_THREADS=1 python studies/scaling.py``; writes results/scaling.png and results/scaling.md.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+from swtstudy.mechanics import Points, solve_points
+
+RESULTS = Path("results")
+COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
+RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
+TERMS = (1, 2, 4, 8, 16, 32, 64)
+REPEATS, SOME = 3, 64
+START_UP = {
+    "python -c pass": ["-c", "pass"],
+    "swtstudy --help": ["-m", "swtstudy", "--help"],
+    "import swtstudy": ["-c", "import swtstudy"],
+    "import swtstudy and the first value": ["-c", "import swtstudy; swtstudy.solve(phase=0.3)"],
+}
+PEAK = (
+    "import resource, sys; from scaling import batch; from swtstudy.mechanics import solve_points;"
+    "solve_points(batch(int(sys.argv[1]))); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+)
+
+
+def batch(count: int, p: int = 1, q: int = 1) -> Points:
+    """So many points of Table 1 that differ in ψ; the tangential path is as long for every frequency."""
+    one = np.ones(count)
+    whole = np.ones(count, dtype=int)
+    amplitude = 5 / 6 * min(1.0, q / p) * one
+    phase = np.linspace(0.01, 3.1, count)
+    return Points("paraboloid", 0.3 * one, 0.3 * one, 0.75 * one, p * whole, q * whole, amplitude, phase, {})
+
+
+def milliseconds(points: Points, rtol: float) -> float:
+    """Median processor time a value; one run where that takes long."""
+    times: list[float] = []
+    while len(times) < REPEATS and sum(times) < 20.0:
+        begin = time.process_time()
+        solve_points(points, rtol)
+        times.append(time.process_time() - begin)
+    return 1e3 * float(np.median(times)) / len(points)
+
+
+def growth(x: Sequence[float], y: Sequence[float]) -> float:
+    """Exponent of the power law through the second half of the samples."""
+    half = len(x) // 2
+    return float(np.polyfit(np.log(x[half:]), np.log(y[half:]), 1)[0])
+
+
+def start_up(arguments: list[str]) -> float:
+    """Median wall time of a new process, in seconds."""
+    times = []
+    for _ in range(5):
+        begin = time.perf_counter()
+        subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
+        times.append(time.perf_counter() - begin)
+    return float(np.median(times))
+
+
+def peak_memory(count: int) -> float:
+    """Largest memory of a process that solves so many points in one call, MB."""
+    run = subprocess.run(
+        [sys.executable, "-c", PEAK, str(count)], check=True, capture_output=True, text=True, cwd="studies"
+    )
+    return float(run.stdout)
+
+
+def main() -> None:
+    sweeps: dict[str, tuple[str, Sequence[float], Callable[[float], float]]] = {
+        "points": ("points in a call", COUNTS, lambda n: milliseconds(batch(int(n)), 1e-4)),
+        "rtol": ("1/rtol", [1 / r for r in RTOLS], lambda r: milliseconds(batch(SOME), 1 / r)),
+        "q": (
+            "q, ω2/ω1 = 1/q",
+            TERMS,
+            lambda q: milliseconds(batch(max(SOME // int(q), 2), 1, int(q)), 1e-4),
+        ),
+        "p": ("p, ω2/ω1 = p", TERMS, lambda p: milliseconds(batch(max(SOME // int(p), 2), int(p), 1), 1e-4)),
+    }
+    figure = Figure((10.0, 3.2), layout=ConstrainedLayoutEngine())
+    panels = figure.subplots(1, len(sweeps), sharey=True)
+    lines = ["Processor time a value (paraboloid, Table 1), one thread.", ""]
+    for axes, (words, x, cost) in zip(panels, sweeps.values(), strict=True):
+        y = [cost(value) for value in x]
+        exponent = growth(x, y)
+        axes.loglog(x, y, "o-", color="#0072B2", markersize=4)
+        axes.set_xlabel(words)
+        axes.set_title(f"∝ x^{exponent:.2f} at the end", fontsize="small")
+        axes.grid(color="0.9", linewidth=0.6)
+        lines += [f"| {words} | " + " | ".join(f"{value:.3g}" for value in x) + " |"]
+        lines += ["|---" * (len(x) + 1) + "|"]
+        lines += ["| ms a value | " + " | ".join(f"{value:.3g}" for value in y) + " |", ""]
+        lines += [f"Over the second half of the samples the cost grows like the power {exponent:.2f}.", ""]
+    panels[0].set_ylabel("ms a value")
+    lines += ["| points in a call | peak memory of the process, MB |", "|---|---|"]
+    lines += [f"| {count} | {peak_memory(count):.0f} |" for count in COUNTS[::2]]
+    lines += ["", "| start-up (median of 5 processes) | s |", "|---|---|"]
+    lines += [f"| {words} | {start_up(arguments):.2f} |" for words, arguments in START_UP.items()]
+    RESULTS.mkdir(exist_ok=True)
+    figure.savefig(RESULTS / "scaling.png", dpi=150)
+    (RESULTS / "scaling.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,87 @@
+"""``ds.swt`` on every Dataset of results: short names for functions that stand elsewhere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import xarray as xr
+
+from swtstudy.results.select import TOLERANCE
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+    from swtstudy.figures.style import Style
+
+
+@xr.register_dataset_accessor("swt")
+class SwtAccessor:
+    """What can be done with results of `solve`, `run` and `open_results`, also after xarray's operations.
+
+    Registered as ``Dataset.swt`` as soon as one of these functions has been looked up in `swtstudy`, or by
+    ``import swtstudy.accessor``.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> dataset = swtstudy.solve(phase=[0, "pi/2"], normal_amplitude=[0.25, 0.75], rtol=1e-2)
+    >>> dataset.swt.slice(phase="pi/2").s.dims
+    ('normal_amplitude',)
+    >>> list(dataset.swt.extrema("phase").data_vars)
+    ['minimum', 'at_minimum', 'maximum', 'at_maximum', 'ratio']
+    """
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    def figure(self, style: Style | None = None) -> Figure:
+        """The figure that the study asks for; see `swtstudy.figures.draw.draw`.
+
+        A dimension that has been sliced away leaves its place in the layout.
+        """
+        from swtstudy.figures.draw import draw
+
+        return draw(self._dataset, style=style)
+
+    def panels(
+        self,
+        x: str,
+        hue: str | None = None,
+        panels: str | None = None,
+        y: str | list[str] = "s",
+        title: str | None = None,
+        kind: str = "lines",
+        vertical: str | None = None,
+        style: Style | None = None,
+    ) -> Figure:
+        """A figure of one's own: the same keys as in a study's ``[figure]``."""
+        from swtstudy.figures.draw import draw
+        from swtstudy.study.figure import FigureLayout
+
+        rows = (y,) if isinstance(y, str) else tuple(y)
+        return draw(self._dataset, FigureLayout(x, hue, panels, rows, title, kind, vertical), style)
+
+    def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
+        """The part at given values; see `swtstudy.results.select.slice_at`."""
+        from swtstudy.results.select import slice_at
+
+        return slice_at(self._dataset, places, tolerance)
+
+    def normalised(self, place: str) -> xr.DataArray:
+        """s over s at one place, such as "b=0"; see `swtstudy.results.normalise.normalised`."""
+        from swtstudy.results.normalise import normalised
+
+        return normalised(self._dataset, f"s/s({place})")
+
+    def extrema(self, dim: str) -> xr.Dataset:
+        """Least and greatest s along a dimension, and where; see `swtstudy.results.extrema.extrema`."""
+        from swtstudy.results.extrema import extrema
+
+        return extrema(self._dataset, dim)
+
+    def to_table(self) -> pd.DataFrame:
+        """One row a point; see `swtstudy.results.table.to_table`."""
+        from swtstudy.results.table import to_table
+
+        return to_table(self._dataset)

@@ -1,0 +1,29 @@
+"""swtstudy show"""
+
+from __future__ import annotations
+
+import click
+
+from swtstudy.cli.solve import with_parameters
+
+
+@click.command()
+@with_parameters
+@click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
+@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+def show(output: str, style: str | None, **texts: str | None) -> None:
+    """Draw one point of the parameters: load path, slip, tractions, stress cycle and swt.
+
+    VALUES is a single value here; "3/2", "2*pi" and "sqrt(20)" are numbers too. Example:
+
+        swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf
+    """
+    from swtstudy.archive.files import check_writable
+    from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.save import save_figure
+
+    parameters: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    figure = inspect(style=style, **parameters)
+    check_writable(output)
+    save_figure(figure, output, style)
+    click.echo(output)

@@ -1,0 +1,218 @@
+"""One parameter point explained: all that makes its s, as numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.slip import slip_map
+from swtstudy.fields.springs import spring_forces
+from swtstudy.mechanics.body import TimeNodes, nodes_at, time_nodes, together
+from swtstudy.mechanics.instants import Nodes
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.protocol import stick_depth
+from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
+from swtstudy.mechanics.swt_line import Resolution, Scene, first_look
+from swtstudy.solving import solve
+
+Variables = dict[str, tuple[Any, Any, dict[str, str]]]
+
+#: Instants of each oscillation, at least, and of the first few; and steps between the events.
+_SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
+#: Distances from the axis, and how far they reach, in the largest contact radius.
+_RADII, _REACH = 240, 1.3
+#: The same for stick and slip.
+_SLIP_RADII, _SLIP_REACH = 601, 1.15
+#: How finely swt of the line is sampled.
+_RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, growth_nodes=24), 72
+#: How many instants are told apart at most, and their least distance in cycles.
+_TOLD, _APART = 4, 0.08
+
+
+def inspect_point(**parameters: object) -> xr.Dataset:
+    """What happens at one parameter point over its stationary cycle, and why s is what it is.
+
+    Parameters
+    ----------
+    **parameters
+        Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        What `swtstudy.solve` gives, and
+
+        - over time (ω1 t): depth δ/δ0, displacement G*u/(μE*δ0), contact_radius, slip_radius; normal_stress
+          and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there;
+        - over time and r: state (open, stick, forward or backward slip);
+        - over x: s_local, that is swt on the surface line;
+        - at a few telling instants, with their instant_time and reason: pressure p and traction q over x;
+          compression w and force τ of the MDR springs (the memory diagram) over r;
+        - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
+          not finite, those of the largest swt that was sampled;
+        - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), least_radius and
+          largest_radius of the contact.
+
+        Lengths in a_H, stresses in E* √(δ0/R), strains in √(δ0/R), swt in E* δ0/R.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters.
+
+    Examples
+    --------
+    >>> point = inspect_point(phase="pi/6")
+    >>> amplitude = (point.normal_strain.max() - point.normal_strain.min()) / 2
+    >>> round(float(point.normal_stress.max() * amplitude / point.s), 3)
+    1.0
+    """
+    scene = read_scene(parameters)
+    solved = solve(**parameters)  # type: ignore[arg-type]
+    protocol = scene.cycle.protocol
+    extent = _extent(scene)
+    radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
+    line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
+    x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
+    if not np.isfinite(x):
+        side, column = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
+        x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
+        double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
+
+    oscillations = max(protocol.p, protocol.q)
+    count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
+    uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
+    nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
+    time = protocol.q * nodes.instant
+    cycle = _load(scene, nodes) | _stress_cycle(scene, nodes, x, double_angle)
+    told, reasons = _telling_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
+    some = TimeNodes(nodes.interval[told], nodes.instant[told])
+    shown: Variables = {
+        "shown_x": ((), x, _words("position at which the stress is shown", "x/a_H")),
+        "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
+        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, 1]), _words("SWT parameter", "swt")),
+    }
+    largest = float(extent["largest_radius"][1])
+    slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
+    coordinates = {
+        "x": ("x", _both_sides(radius, -radius), _words("position in the direction of sliding", "x/a_H")),
+        "instant": np.arange(1, len(told) + 1),
+        "instant_time": ("instant", time[told]),
+        "reason": ("instant", reasons),
+    }
+    variables = (
+        cycle | extent | shown | _tractions(scene, some, radius) | _springs(scene, some, slip.r.values)
+    )
+    return slip.assign(variables).assign_coords(coordinates).merge(solved)
+
+
+def _words(meaning: str, symbol: str) -> dict[str, str]:
+    return {"long_name": meaning, "units": "1", "symbol": symbol}
+
+
+def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
+    """Values at −r and at +r, from left to right along the last axis."""
+    return np.concatenate([left[..., ::-1], right], axis=-1)
+
+
+def _extent(scene: Scene) -> Variables:
+    """How far the contact reaches at least and at most, and what of it never slips."""
+    d = scene.cycle.protocol.normal_amplitude
+    least, largest = scene.profile.radius(np.stack([1.0 - d, 1.0 + d], axis=1))[0]
+    stick = stick_depth(scene.cycle.protocol)
+    permanent = scene.profile.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
+    return {
+        "permanent_stick_radius": ((), permanent, _words("radius that always sticks", "c/a_H")),
+        "least_radius": ((), least if d[0] < 1.0 else 0.0, _words("least contact radius", "a/a_H")),
+        "largest_radius": ((), largest, _words("largest contact radius", "a/a_H")),
+    }
+
+
+def _radii(scene: Scene, special: list[float]) -> FloatArray:
+    """Distances from the axis: evenly spread, at special places, and not where the pressure is infinite."""
+    largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
+    b = float(scene.profile.flat_radius[0])
+    places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
+    radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), places)
+    return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
+
+
+def _load(scene: Scene, nodes: TimeNodes) -> Variables:
+    protocol = scene.cycle.protocol
+    depth, u = (f(nodes.instant[None])[0] for f in (protocol.depth, protocol.displacement))
+    return {
+        "depth": ("time", depth, _words("indentation depth", r"\delta/\delta_0")),
+        "displacement": ("time", u, _words("tangential displacement", r"G^* u/(\mu E^* \delta_0)")),
+    }
+
+
+def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
+    index = np.broadcast_to(np.arange(nodes.instant.size), (1, radius.size, nodes.instant.size))
+    surface = SurfaceLine(scene.cycle, scene.profile, radius[None], _RESOLUTION.growth_nodes)
+    return surface.history(Nodes(nodes.interval[None], nodes.instant[None], index))
+
+
+def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float) -> Variables:
+    """Stress and strain over the cycle at one point, on one plane."""
+    history, side = _history(scene, nodes, np.array([abs(x)])), float(np.sign(x))
+    sigma_xx, _, _, sigma_xz = stresses(history, scene.poisson_ratio, scene.friction, side)
+    on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
+    return {
+        "normal_stress": ("time", on_plane[0][0, 0], _words("stress normal to the plane", r"\sigma_n")),
+        "normal_strain": ("time", on_plane[1][0, 0], _words("strain normal to the plane", r"\varepsilon_n")),
+        "sigma_xx": ("time", sigma_xx[0, 0], _words("stress xx", r"\sigma_{xx}")),
+        "sigma_xz": ("time", sigma_xz[0, 0], _words("stress xz", r"\sigma_{xz}")),
+    }
+
+
+def _telling_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[NDArray[np.intp], list[str]]:
+    """Instants at which curves over the cycle are extreme, the most telling ones, in the order of time."""
+    extremes = {
+        "σ_n largest": curves["normal_stress"].argmax(),
+        "ε_n smallest": curves["normal_strain"].argmin(),
+        "δ largest": curves["depth"].argmax(),
+        "δ smallest": curves["depth"].argmin(),
+        "u largest": curves["displacement"].argmax(),
+        "u smallest": curves["displacement"].argmin(),
+    }
+    touching = curves["depth"] > 0.0
+    distance = np.full(share.size, 1.0)  # to the nearest instant that is told already
+    told: dict[int, str] = {}
+
+    def tell(index: int, reason: str) -> None:
+        told[index] = reason
+        nonlocal distance
+        distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
+
+    for reason, index in extremes.items():
+        of_swt = reason in ("σ_n largest", "ε_n smallest")
+        if len(told) < _TOLD and distance[index] >= _APART and (of_swt or touching[index]):
+            tell(int(index), reason)
+    while len(told) < _TOLD and np.ptp(curves["normal_strain"]) > 0.0:
+        tell(int(np.where(touching, distance, -1.0).argmax()), "in between")
+    order = sorted(told)
+    return np.array(order), [told[index] for index in order]
+
+
+def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
+    """Pressure and traction on the half-space; both are even in x."""
+    history = _history(scene, some, radius)
+    p, q = history.pressure[0].T, -scene.friction * history.traction[0].T
+    dims = ("instant", "x")
+    return {
+        "pressure": (dims, _both_sides(p, p), _words("pressure", "p")),
+        "traction": (dims, _both_sides(q, q), _words("tangential traction in +x", "q")),
+    }
+
+
+def _springs(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
+    compression, force = spring_forces(scene, some, radius)
+    dims = ("instant", "r")
+    return {
+        "compression": (dims, compression, _words("compression of the springs", r"w/\delta_0")),
+        "force": (dims, force, _words("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)")),
+    }

@@ -1,0 +1,96 @@
+"""One parameter point in one picture: load, slip, springs, tractions, stress, swt."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from swtstudy.fields.inspection import inspect_point
+from swtstudy.figures.inspection_panels import (
+    draw_load,
+    draw_slip,
+    draw_springs,
+    draw_stress,
+    draw_swt,
+    draw_tractions,
+)
+from swtstudy.figures.style import Style, styled
+from swtstudy.figures.words import place_words, value_words
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_WIDTH, _HEIGHT = 13.2, 7.8
+
+
+def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
+    """One picture of one parameter point: its load path, slip, tractions, stress cycle and swt.
+
+    Parameters
+    ----------
+    style
+        A matplotlib style of one's own.
+    **parameters
+        Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Six panels, see `draw_inspection`; save it with its ``savefig``. The numbers in it are those of
+        `swtstudy.inspect_point`.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters.
+    """
+    return draw_inspection(inspect_point(**parameters), style)
+
+
+def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
+    """Draw what `swtstudy.fields.inspection.inspect_point` has found.
+
+    Parameters
+    ----------
+    dataset
+        The point.
+    style
+        A matplotlib style of one's own.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Six panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
+        tangential force; tractions; the stress cycle on the critical plane; swt along the surface. Numbers
+        mark the same instants in all of them.
+    """
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    with styled(style):
+        figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))
+        (load, slip, springs), (tractions, stress, swt) = figure.subplots(2, 3)
+        draw_load(load, dataset)
+        draw_slip(slip, dataset)
+        draw_springs(springs, dataset)
+        draw_tractions(tractions, dataset)
+        draw_stress(stress, dataset)
+        draw_swt(swt, dataset)
+        for axes, letter in zip((load, slip, springs, tractions, stress, swt), "ABCDEF", strict=True):
+            axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
+        figure.suptitle(_headline(dataset))
+    return figure
+
+
+def _headline(dataset: xr.Dataset) -> str:
+    profile = str(dataset.profile.item())
+    names = [*PROFILE_SHAPES[profile], *(n for n, p in PARAMETERS.items() if p.default is not None)]
+    values = [place_words(name, dataset[name].item()) for name in names if name != "profile"]
+    regime = REGIMES[int(dataset.regime)].replace("_", " ")
+    found = f"$s$ = {float(dataset.s):.4f},  {regime}"
+    if not math.isfinite(float(dataset.s)):
+        found = "$s$ is not finite: swt grows without bound towards the edge"
+    return f"{value_words('profile', profile)},  {',  '.join(values)}\n{found}"

@@ -1,0 +1,222 @@
+"""The panels of the picture of one parameter point."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.figures.maps import draw_slip_map
+from swtstudy.figures.words import tick_in_pi
+from swtstudy.mechanics.points import FloatArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+_THIN, _FAINT = 0.9, "0.55"
+_DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
+
+
+def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
+    """The path of the load in (u, δ), and its sense."""
+    u, depth = dataset.displacement.values, dataset.depth.values
+    axes.plot(u, depth, color="black", linestyle="-", marker="")
+    axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.axhline(1.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    if depth.min() < 0.0:
+        axes.axhspan(min(1.15 * depth.min(), -0.1), 0.0, color="0.92", zorder=0)
+        axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
+    _draw_sense(axes, u, depth, [index for _, index in _instants(dataset)])
+    for number, index in _instants(dataset):
+        _mark(axes, number, u[index], depth[index])
+    axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
+    axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
+    axes.margins(0.14)
+    axes.set_title("load path", loc="left")
+
+
+def _draw_sense(axes: Axes, u: FloatArray, depth: FloatArray, marked: list[int]) -> None:
+    """An arrow in the sense of the loop, far from the marks."""
+    size = max(np.ptp(u), np.ptp(depth), 1e-12)
+    path = np.stack([u / size, depth / size])
+    distance = np.linalg.norm(path[:, :, None] - path[:, None, marked], axis=0).min(axis=1)
+    at = int(distance[1:-1].argmax()) + 1
+    if distance[at] > 0.0:
+        ends: dict[str, Any] = {"xytext": (u[at - 1], depth[at - 1]), "xy": (u[at + 1], depth[at + 1])}
+        axes.annotate("", **ends, arrowprops={"arrowstyle": "-|>", "color": "black", "mutation_scale": 18})
+
+
+def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
+    """Stick and slip over the cycle."""
+    handles: list[Artist] = list(draw_slip_map(axes, dataset)[1:])
+    axes.grid(False)
+    top = float(dataset.r[-1])
+    axes.set_ylim(0.0, top)
+    stick = float(dataset.permanent_stick_radius)
+    for radius, dashes, words in (
+        (abs(float(dataset.shown_x)), _DASHED, "critical point"),
+        (stick, _DOTTED, "always sticks"),
+    ):
+        if radius > 0.0:
+            look: dict[str, Any] = {"color": "black", "linewidth": _THIN, "linestyle": dashes}
+            handles.append(axes.axhline(radius, label=words, **look))
+    for number, time in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+        axes.axvline(time, color="black", linewidth=_THIN, alpha=0.6)
+        _mark(axes, number, time, 0.95 * top)
+    _time_axis(axes, dataset)
+    below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "fontsize": "small"}
+    axes.legend(handles=handles, ncols=3, handlelength=1.8, **below)
+    axes.set_title("stick and slip over the cycle", loc="left")
+
+
+def draw_springs(axes: Axes, dataset: xr.Dataset) -> None:
+    """The memory diagram: the tangential force of the springs between its bounds."""
+    for number, line in _lines(axes, dataset, "force", "r"):
+        w = dataset.compression.sel(instant=number)
+        for sign in (1.0, -1.0):
+            axes.plot(dataset.r, sign * w, **_bound(line))
+    axes.legend(
+        title="instant", handlelength=2.0, fontsize="small", title_fontsize="small", loc="upper right"
+    )
+    axes.set_xlim(0.0, 1.05 * float(dataset.largest_radius))
+    axes.set_xlabel(r"$\xi/a_H$")
+    axes.set_ylabel(f"${dataset.force.attrs['symbol']}$")
+    axes.set_title(r"memory diagram: springs, $|\tau| \leq w$", loc="left")
+
+
+def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
+    """The traction between its bounds."""
+    mu = float(dataset.friction)
+    for number, line in _lines(axes, dataset, "traction", "x"):
+        p = dataset.pressure.sel(instant=number)
+        for sign in (1.0, -1.0):
+            axes.plot(dataset.x, sign * mu * p, **_bound(line))
+    # Next to a sharp edge the pressure has no bound.
+    highest = mu * float(np.quantile(dataset.pressure, 0.995))
+    axes.set_ylim(-1.2 * highest - 1e-3, 1.2 * highest + 1e-3)
+    largest = 1.08 * float(dataset.largest_radius)
+    axes.set_xlim(-largest, largest)
+    axes.axvline(float(dataset.shown_x), color="black", linewidth=_THIN, linestyle=_DASHED)
+    axes.set_xlabel("$x/a_H$")
+    axes.set_ylabel(r"$q$ over $E^* \sqrt{\delta_0/R}$")
+    axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
+
+
+def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
+    """The cycle of stress and strain on the critical plane."""
+    time, stress, strain = dataset.time, dataset.normal_stress, dataset.normal_strain
+    (line,) = axes.plot(time, stress, label=r"$\sigma_n$")
+    other = axes.twinx()
+    other.plot([], [])  # the next of the cycle's looks
+    (dashed,) = other.plot(time, strain, label=r"$\varepsilon_n$")
+    other.grid(False)
+    peak = int(stress.values.argmax())
+    axes.plot(time[peak], stress[peak], marker="o", markersize=7, color=line.get_color(), linestyle="")
+    high, low = float(strain.max()), float(strain.min())
+    for level in (high, low):
+        other.axhline(level, color=dashed.get_color(), linewidth=_THIN, alpha=0.7)
+    at = 0.93 * float(time[-1])
+    arrow = {"arrowstyle": "<->", "color": dashed.get_color(), "shrinkA": 0, "shrinkB": 0}
+    other.annotate("", xy=(at, high), xytext=(at, low), arrowprops=arrow)
+    box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
+    words: dict[str, Any] = {"color": dashed.get_color(), "ha": "right", "va": "center", "bbox": box}
+    other.text(0.915 * float(time[-1]), 0.5 * (high + low), r"$\Delta\varepsilon_n$", **words)
+    for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+        axes.axvline(when, color="black", linewidth=_THIN, alpha=0.35)
+        _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
+    _time_axis(axes, dataset)
+    axes.set_ylabel(r"$\sigma_n$ over $E^* \sqrt{\delta_0/R}$", color=line.get_color())
+    other.set_ylabel(r"$\varepsilon_n$ over $\sqrt{\delta_0/R}$", color=dashed.get_color())
+    for one, values in ((axes, stress), (other, strain)):
+        low, span = float(values.min()), float(values.max() - values.min()) or 1.0
+        one.set_ylim(low - 0.08 * span, low + 1.22 * span)
+    axes.set_title(f"on the critical plane at $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
+
+
+def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
+    """swt along the surface, and the critical plane."""
+    x, largest = float(dataset.shown_x), float(dataset.largest_radius)
+    top = float(dataset.s) if math.isfinite(float(dataset.s)) else float(dataset.s_local.max())
+    top = top or 1.0
+    (line,) = axes.plot(dataset.x, dataset.s_local)
+    axes.fill_between(dataset.x, 0.0, dataset.s_local, color=line.get_color(), alpha=0.12, linewidth=0)
+    stick, least = float(dataset.permanent_stick_radius), float(dataset.least_radius)
+    if stick > 0.0:
+        axes.axvspan(-stick, stick, color="0.85", zorder=0)
+        axes.text(0.0, 0.04 * top, "always\nsticks", ha="center", va="bottom", color="0.25", fontsize="small")
+    for radius, dashes, words in ((least, _DOTTED, r"$a_{\min}$"), (largest, "-", r"$a_{\max}$")):
+        for side in (-1.0, 1.0):
+            axes.axvline(side * radius, color=_FAINT, linewidth=_THIN, linestyle=dashes)
+        if radius > 0.0:
+            box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
+            axes.text(radius, 1.39 * top, words, ha="center", va="center", fontsize="small", bbox=box)
+    axes.plot(x, top, marker="o", markersize=7, color="black", linestyle="")
+    axes.set_xlim(-1.2 * largest, 1.2 * largest)
+    axes.set_ylim(0.0, 1.45 * top)
+    axes.set_xlabel("$x/a_H$")
+    axes.set_ylabel(r"swt over $E^* \delta_0/R$")
+    axes.set_title("swt along the surface", loc="left")
+    _draw_plane(axes, dataset)
+
+
+def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
+    """The critical plane in the half-space, small: the surface, the plane and its normal."""
+    inset = axes.inset_axes((0.37, 0.74, 0.26, 0.24))
+    angle = math.radians(float(dataset.shown_angle))
+    normal = np.array([math.cos(angle), -math.sin(angle)])  # z points down
+    plane = np.array([-normal[1], normal[0]])
+    plane = plane if plane[1] < 0.0 else -plane
+    inset.axhspan(-1.0, 0.0, color="0.9")
+    inset.plot([-1.2, 1.2], [0, 0], color="black", linestyle="-", linewidth=_THIN, marker="")
+    inset.plot(
+        [0, 0.85 * plane[0]], [0, 0.85 * plane[1]], color="black", linestyle="-", linewidth=2.4, marker=""
+    )
+    start = 0.42 * plane
+    arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
+    inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)
+    inset.text(-1.1, -0.9, f"{float(dataset.shown_angle):.1f}°", va="bottom", fontsize="small")
+    inset.set(xlim=(-1.2, 1.2), ylim=(-1.0, 0.3), xticks=[], yticks=[], aspect="equal")
+    inset.set_frame_on(False)
+    inset.grid(False)
+
+
+def _instants(dataset: xr.Dataset) -> list[tuple[int, int]]:
+    """Number and index in time of each instant that is shown."""
+    times = dataset.instant_time.values
+    return [
+        (int(n), int(np.abs(dataset.time.values - t).argmin()))
+        for n, t in zip(dataset.instant.values, times, strict=True)
+    ]
+
+
+def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple[int, Line2D]]:
+    """One line for each instant, in the cycle's looks."""
+    lines = []
+    for number in dataset.instant.values:
+        (line,) = axes.plot(dataset[along], dataset[name].sel(instant=number), label=str(number))
+        lines.append((int(number), line))
+    axes.axhline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    return lines
+
+
+def _bound(line: Line2D) -> dict[str, Any]:
+    """The look of what bounds a line."""
+    colour = line.get_color()
+    return {"color": colour, "linestyle": "-", "linewidth": 0.7, "alpha": 0.45, "marker": ""}
+
+
+def _mark(axes: Axes, number: int, x: float, y: float, **options: Any) -> None:
+    """The number of an instant in a disc."""
+    disc = {"boxstyle": "circle,pad=0.18", "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
+    axes.text(x, y, str(number), ha="center", va="center", fontsize=8, bbox=disc, zorder=5, **options)
+
+
+def _time_axis(axes: Axes, dataset: xr.Dataset) -> None:
+    end = float(dataset.time[-1])
+    axes.set_xlim(0.0, end)
+    tick_in_pi(axes.xaxis, 0.0, end)
+    axes.set_xlabel(r"$\omega_1 t$")

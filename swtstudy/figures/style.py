@@ -1,0 +1,77 @@
+"""The look of figures: legible in print, with any colour vision and in greyscale; the user may change it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from cycler import cycler
+from matplotlib import rcParamsDefault
+
+#: What matplotlib takes for a style: a name, a file, rcParams, or several of them.
+Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
+
+#: Okabe and Ito's colours, told apart with any colour vision; without the yellow.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00")
+#: As many as colours have in common no factor with, so that no pair repeats early.
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
+#: Lines whose dashes repeat have markers, one kind for each repetition.
+MARKERS = ("", "o", "s", "^", "D", "v", "X")
+
+_LINES = range(math.lcm(len(COLOURS), len(DASHES)))
+
+#: rcParams of every figure, but for those that the user has changed.
+STYLE: dict[str, Any] = {
+    "axes.prop_cycle": cycler(
+        color=[COLOURS[i % len(COLOURS)] for i in _LINES],
+        linestyle=[DASHES[i % len(DASHES)] for i in _LINES],
+        marker=[MARKERS[i // len(DASHES)] for i in _LINES],
+    ),
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "axes.titlelocation": "left",
+    "axes.titlesize": "medium",
+    "grid.color": "0.9",
+    "grid.linewidth": 0.6,
+    "image.cmap": "cividis",
+    "legend.frameon": False,
+    "legend.handlelength": 2.8,
+    "lines.linewidth": 1.6,
+    "lines.markersize": 4.0,
+    "pdf.fonttype": 42,  # publishers refuse the default, Type 3
+    "savefig.dpi": 150,
+    "svg.hashsalt": "swtstudy",  # the same figure gives the same file
+}
+
+
+@contextmanager
+def styled(style: Style | None = None) -> Iterator[None]:
+    """The package's look while a figure is drawn or saved.
+
+    Parameters
+    ----------
+    style
+        A matplotlib style of one's own, which goes over everything else. Without one, every rcParam that
+        differs from matplotlib's default stays as it is: a matplotlibrc or ``plt.style.use`` is honoured.
+
+    Raises
+    ------
+    OSError
+        If there is no such style.
+    """
+    import matplotlib.style
+
+    own: Any = {name: value for name, value in STYLE.items() if _untouched(name)}
+    with ExitStack() as stack:
+        stack.enter_context(matplotlib.rc_context(own))
+        if style is not None:
+            stack.enter_context(matplotlib.style.context(style))
+        yield
+
+
+def _untouched(name: Any) -> bool:
+    return bool(matplotlib.rcParams[name] == rcParamsDefault[name])

@@ -1,0 +1,49 @@
+"""Where s is least and greatest along a dimension."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.mistakes import nearest
+
+
+def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
+    """Least and greatest s along a dimension, and where.
+
+    Parameters
+    ----------
+    dataset
+        Results.
+    dim
+        A dimension of s.
+
+    Returns
+    -------
+    xarray.Dataset
+        minimum, maximum and ratio (greatest over least) of s, and the places at_minimum and at_maximum, over
+        the other dimensions. Points that are NaN do not count; where all are, so is the result.
+
+    Raises
+    ------
+    ValueError
+        If s has no such dimension.
+    """
+    if dim not in dataset.s.dims:
+        raise ValueError(
+            f"found {dim!r}, no dimension of s; allowed: {nearest(dim, map(str, dataset.s.dims))}"
+        )
+    parts: dict[str, xr.DataArray] = {}
+    for name, index in (
+        ("minimum", dataset.s.fillna(np.inf).argmin(dim)),
+        ("maximum", dataset.s.fillna(-np.inf).argmax(dim)),
+    ):
+        value = dataset.s.isel({dim: index}).drop_vars(dim)
+        place = dataset[dim].isel({dim: index}).drop_vars(dim)
+        place = place.where(value.notnull()) if place.dtype.kind == "f" else place
+        parts[name] = value.assign_attrs(long_name=f"{name} of s along {dim}", units="1", symbol="s")
+        words = {"long_name": f"{dim} at the {name} of s"}
+        parts[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
+    words = {"long_name": f"maximum over minimum of s along {dim}", "units": "1"}
+    parts["ratio"] = (parts["maximum"] / parts["minimum"]).assign_attrs(words)
+    return xr.Dataset(parts)

@@ -1,0 +1,81 @@
+"""Slices of results at named values, written as in a study file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.figures.words import value_words
+from swtstudy.grid.values import Value, read_value
+from swtstudy.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Distance at which a value counts as the one that was asked for, in the unit of its parameter.
+TOLERANCE = 1e-6
+#: Values of an axis that a message lists one by one.
+_LISTED = 12
+
+
+def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float = TOLERANCE) -> xr.Dataset:
+    """The part of results at given values of its parameters.
+
+    Parameters
+    ----------
+    dataset
+        Results, as from `solve`, `run` or `open_results`.
+    places
+        By name a single value, whose dimension becomes a scalar coordinate, or a sequence of values, which
+        keeps it. Values are written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
+    tolerance
+        Largest distance from the nearest value there, in the unit of the parameter.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every name and value that is not there, and what is.
+    """
+    mistakes: list[Mistake] = []
+    chosen: dict[str, Any] = {}
+    for name, raw in places.items():
+        if name not in dataset.coords or name not in PARAMETERS:
+            known = [str(known) for known in dataset.coords if known in PARAMETERS]
+            mistakes.append(Mistake(name, "no parameter of these results", nearest(name, known)))
+            continue
+        several = isinstance(raw, list | tuple | range | np.ndarray) and np.ndim(raw) > 0
+        elements: Iterable[object] = raw if several else [raw]  # type: ignore[assignment]
+        found = [_index(dataset[name], element, tolerance, mistakes) for element in elements]
+        if name in dataset.dims:
+            chosen[name] = found if several else found[0]
+    if mistakes:
+        raise StudyError(mistakes)
+    return dataset.isel(chosen)
+
+
+def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mistake]) -> int:
+    """Place of a value along its coordinate; a mistake and 0 if it is not there."""
+    name = str(there.name)
+    try:
+        value: Value = read_value(PARAMETERS[name], raw.item() if isinstance(raw, np.generic) else raw)
+    except ValueError as error:
+        mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
+        return 0
+    known = np.atleast_1d(there.values)
+    distance = (
+        np.where(known == value, 0.0, np.inf) if isinstance(value, str) else np.abs(known - float(value))
+    )
+    index = int(distance.argmin())
+    if not distance[index] <= tolerance:
+        mistakes.append(Mistake(name, f"{literal(raw)}, which is not there", _listed(name, known)))
+    return index
+
+
+def _listed(name: str, values: np.ndarray) -> str:
+    words = [value_words(name, value) for value in values.tolist()]
+    if len(words) > _LISTED:
+        words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
+    return ", ".join(words)

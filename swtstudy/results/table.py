@@ -1,0 +1,42 @@
+"""Results as a tidy table."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+
+def to_table(dataset: xr.Dataset) -> pd.DataFrame:
+    """Results as a table: one row a point, one column a parameter or a result, flags in words.
+
+    Parameters
+    ----------
+    dataset
+        Results.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The dimensions in their order, the parameters with a single value, and the results.
+    """
+    import pandas as pd
+
+    dims = list(map(str, dataset.dims))
+    fixed = [str(name) for name, values in dataset.coords.items() if not values.dims]
+    shape = tuple(dataset.sizes.values())
+    columns = {}
+    for name in [*dims, *fixed, *map(str, dataset.data_vars)]:
+        values = dataset[name].broadcast_like(dataset) if dims else dataset[name]
+        flat = np.broadcast_to(values.transpose(*dims).values, shape).ravel()
+        meanings = dataset[name].attrs.get("flag_meanings")
+        if meanings is not None:
+            # xarray's own operations leave NaN where there is nothing.
+            codes = np.where(np.isfinite(flat), flat, -1).astype(int)
+            flat = pd.Categorical.from_codes(codes, meanings.split())
+        columns[name] = flat
+    return pd.DataFrame(columns)

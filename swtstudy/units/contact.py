@@ -1,0 +1,206 @@
+"""A real contact and its non-dimensional parameters (eqs. 1, 2, 19–21)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.profiles import Profile, make_profile
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.units.moduli import Moduli
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.units.life import FatigueConstants
+
+#: Radii at which the largest pressure is looked for.
+_RADII = 4001
+
+
+@dataclass(frozen=True)
+class PhysicalContact:
+    """A real contact, in any consistent set of units, such as N, mm and MPa.
+
+    Attributes
+    ----------
+    moduli
+        Of the two bodies.
+    radius
+        R.
+    depth
+        Mean indentation depth δ0.
+    friction, frequency_ratio, phase, profile
+        As in `swtstudy.parameters.PARAMETERS`.
+    normal_amplitude, tangential_amplitude
+        δA and uA, lengths.
+    shape
+        Lengths of the profile by name: flat_radius b; waviness_amplitude h, wavelength λ.
+    """
+
+    moduli: Moduli
+    radius: float
+    depth: float
+    friction: float
+    normal_amplitude: float
+    tangential_amplitude: float
+    frequency_ratio: Fraction
+    phase: float
+    profile: str
+    shape: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def length_scale(self) -> float:
+        """a_H = √(R δ0)."""
+        return math.sqrt(self.radius * self.depth)
+
+    @property
+    def stress_scale(self) -> float:
+        """E* √(δ0/R), the unit of every stress."""
+        return self.moduli.normal * math.sqrt(self.depth / self.radius)
+
+    @property
+    def swt_scale(self) -> float:
+        """SWT0 = E* δ0/R of the half-space with E* (eq. 19)."""
+        return self.moduli.normal * self.depth / self.radius
+
+    @property
+    def contact_radius(self) -> float:
+        """a at the mean depth δ0."""
+        return self.length_scale * float(self._profile().radius(np.ones((1, 1)))[0, 0])
+
+    @property
+    def normal_force(self) -> float:
+        """Force at the mean depth δ0: 2 E* ∫ (δ0 − g) dξ over the springs."""
+        edge = self._profile().radius(np.ones((1, 1)))
+        half = float(self._profile().half_load(edge)[0, 0])
+        return 2.0 * half * self.moduli.normal * self.depth * self.length_scale
+
+    @property
+    def mean_pressure(self) -> float:
+        """Force over π a² at the mean depth."""
+        return self.normal_force / (math.pi * self.contact_radius**2)
+
+    @property
+    def peak_pressure(self) -> float:
+        """Largest pressure at the mean depth, p0 of a paraboloid; inf at the edge of a truncated one."""
+        if self.profile == "truncated_paraboloid" and self.shape["flat_radius"] > 0.0:
+            return math.inf
+        edge = self._profile().radius(np.ones((1, 1)))
+        r = edge * np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII))[None]
+        outer = self._profile().primitives(r).outer(edge[:, :, None])[0]
+        return self.stress_scale * float(outer.max()) / math.pi
+
+    def _profile(self) -> Profile:
+        shape = {name: np.array([value]) for name, value in self._shape_parameters().items()}
+        return make_profile(self.profile, shape, np.ones(1))
+
+    def _shape_parameters(self) -> dict[str, float]:
+        units = _shape_units(self.depth, self.radius, self.shape.get("waviness_amplitude", 0.0))
+        return {name: value / units[name] if value else 0.0 for name, value in self.shape.items()}
+
+    def parameters(self, body: int = 0) -> dict[str, Any]:
+        """The non-dimensional parameters, for `swtstudy.solve` and all others.
+
+        Parameters
+        ----------
+        body
+            0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
+            and the stress beneath them on that of the body itself alone.
+        """
+        slip = self.friction * self.moduli.normal * self.depth
+        tangential = self.moduli.tangential * self.tangential_amplitude
+        return {
+            "poisson_ratio": self.moduli.poisson[body],
+            "friction": self.friction,
+            "normal_amplitude": self.normal_amplitude / self.depth,
+            "frequency_ratio": self.frequency_ratio,
+            "tangential_amplitude": tangential / slip if slip else tangential and math.inf,
+            "phase": self.phase,
+            "profile": self.profile,
+            **self._shape_parameters(),
+        }
+
+    def with_parameters(self, **parameters: Any) -> PhysicalContact:
+        """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake in the parameters.
+        """
+        if "poisson_ratio" in parameters:
+            raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
+        grid, mistakes = read_grid({**self.parameters(), **parameters}, {})
+        if grid is None:
+            raise StudyError(mistakes)
+        values = grid.fixed
+        profile, friction = str(values["profile"]), float(values["friction"])
+        names = PROFILE_SHAPES[profile]
+        h = float(values["waviness_amplitude"]) * self.depth if "waviness_amplitude" in names else 0.0
+        units = _shape_units(self.depth, self.radius, h)
+        slip = friction * self.moduli.normal * self.depth / self.moduli.tangential
+        return replace(
+            self,
+            friction=friction,
+            normal_amplitude=float(values["normal_amplitude"]) * self.depth,
+            tangential_amplitude=float(values["tangential_amplitude"]) * slip,
+            frequency_ratio=Fraction(values["frequency_ratio"]),
+            phase=float(values["phase"]),
+            profile=profile,
+            shape={name: float(values[name]) * units[name] for name in names},
+        )
+
+    def swt(self, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
+        """SWT of a body, in the unit of stress of the moduli, from s (eq. 19).
+
+        Also from non-local values, or from s_local of `swtstudy.swt_field`.
+        """
+        return np.asarray(s, dtype=float) * self.swt_scale * self.moduli.swt_share(body)
+
+    def solve(self, rtol: float = 1e-4) -> xr.Dataset:
+        """s and SWT of both bodies.
+
+        Returns
+        -------
+        xarray.Dataset
+            What `swtstudy.solve` gives, over the dimension body (1, 2), and SWT in the unit of stress of the
+            moduli and critical_position in that of the lengths.
+        """
+        import xarray as xr
+
+        from swtstudy.solving import solve
+
+        bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
+        dataset = xr.concat(
+            bodies, xr.DataArray([1, 2], dims="body", name="body"), coords="different", compat="equals"
+        )
+        share = np.array([self.moduli.swt_share(body) for body in (0, 1)])
+        dataset["SWT"] = (dataset.s * xr.DataArray(self.swt_scale * share, dims="body")).assign_attrs(
+            long_name="Smith-Watson-Topper parameter of the body", units="unit of stress of the moduli"
+        )
+        dataset["critical_position"] = (dataset.critical_x * self.length_scale).assign_attrs(
+            long_name="position of the critical point", units="unit of length"
+        )
+        return dataset
+
+    def cycles(self, constants: FatigueConstants, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
+        """Cycles to the initiation of a crack in a body; mind the caveat of `FatigueConstants.cycles`."""
+        return constants.cycles(self.swt(s, body))
+
+
+def _shape_units(depth: float, radius: float, h: float) -> dict[str, float]:
+    """What the lengths of a profile are measured in."""
+    return {
+        "flat_radius": math.sqrt(radius * depth),
+        "waviness_amplitude": depth,
+        "wavelength": math.sqrt(h * radius),
+    }

@@ -1,0 +1,86 @@
+"""From SWT to cycles: the SWT–life relation of the strain–life constants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+#: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
+_STEPS = 60
+
+
+@dataclass(frozen=True)
+class FatigueConstants:
+    """Strain–life constants of a material, after Basquin, Coffin and Manson.
+
+    ε_a = (σf′/E) (2N)^b + εf′ (2N)^c
+
+    Attributes
+    ----------
+    young_modulus, strength
+        E and σf′ in the same unit of stress, > 0.
+    strength_exponent
+        b < 0.
+    ductility
+        εf′ > 0.
+    ductility_exponent
+        c < 0.
+    """
+
+    young_modulus: float
+    strength: float
+    strength_exponent: float
+    ductility: float
+    ductility_exponent: float
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            sign = -1.0 if name.endswith("exponent") else 1.0
+            if not (np.isfinite(value) and sign * value > 0.0):
+                allowed = "a negative number" if sign < 0.0 else "a positive number"
+                raise ValueError(f"{name}: found {value!r}; allowed: {allowed}")
+
+    def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
+        """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
+        reversals = 2.0 * np.asarray(cycles, dtype=float)
+        b, c = self.strength_exponent, self.ductility_exponent
+        elastic = self.strength**2 / self.young_modulus * reversals ** (2.0 * b)
+        return np.asarray(elastic + self.strength * self.ductility * reversals ** (b + c))
+
+    def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
+        """Cycles N to the initiation of a crack at a given SWT; inf where it is 0, NaN where it is NaN.
+
+        The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
+        contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
+        averages over a volume, or from a critical distance (`swtstudy.nonlocal_swt`), whose size depends on
+        the material. The SWT parameter also has one fixed sensitivity to the mean stress, about 0.29, which
+        a material need not have.
+
+        Parameters
+        ----------
+        swt
+            SWT in the unit of stress of the constants.
+
+        Examples
+        --------
+        >>> steel = FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
+        >>> float(steel.cycles(steel.swt(1e5)).round())
+        100000.0
+        """
+        swt = np.asarray(swt, dtype=float)
+        elastic, plastic = self.strength**2 / self.young_modulus, self.strength * self.ductility
+        slopes = np.array([2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent])
+        with np.errstate(divide="ignore"):
+            target = np.log(swt)
+            level = np.log(np.array([elastic, plastic]))
+        # Each term alone gives too short a life: from there Newton's steps only go up.
+        x = np.max((target[..., None] - level) / slopes, axis=-1)
+        known = np.isfinite(x)
+        for _ in range(_STEPS):
+            terms = np.exp(level + slopes * np.where(known, x, 0.0)[..., None])
+            total = terms.sum(axis=-1)
+            step = (np.log(total) - np.where(known, target, 0.0)) * total / (terms * slopes).sum(axis=-1)
+            x = np.where(known, x - step, x)
+        return np.asarray(0.5 * np.exp(x))

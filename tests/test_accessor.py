@@ -1,0 +1,174 @@
+"""ds.swt on results of solve, run and open_results, before and after xarray's own operations."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import stand_in
+import xarray as xr
+from made_up import made_up
+
+import swtstudy
+from swtstudy import Study, run
+from swtstudy.results.normalise import normalised, normalised_error
+
+STUDY = """
+title = "Panels"
+[axes]
+phase = [0, "pi"]
+frequency_ratio = ["1/2", 1, "3/2"]
+flat_radius = {start = 0, stop = 2, num = 5}
+[fixed]
+profile = "rounded_punch"
+[figure]
+x = "flat_radius"
+hue = "frequency_ratio"
+panels = "phase"
+y = ["s", "s/s(b=0)"]
+"""
+
+
+@pytest.fixture
+def dataset(tmp_path):
+    run(Study.from_text(STUDY), tmp_path / "study.nc", solver=stand_in.smooth)
+    return swtstudy.open_results(tmp_path / "study.nc")
+
+
+def test_slices_are_written_as_in_a_study(dataset):
+    one = dataset.swt.slice(phase="pi", frequency_ratio="3/2", flat_radius=0.5)
+    assert one.s.item() == dataset.s.values[1, 2, 1]
+    assert one.phase.item() == np.pi
+    several = dataset.swt.slice(frequency_ratio=["3/2", 0.5])
+    assert several.frequency_ratio.values.tolist() == [1.5, 0.5]
+    # A scalar coordinate may be named too; it must be the value.
+    assert one.swt.slice(phase="pi", profile="rounded_punch").identical(one)
+    assert dataset.swt.slice(phase=3.1, tolerance=0.1).phase.item() == np.pi
+
+
+@pytest.mark.parametrize(
+    ("places", "words"),
+    [
+        ({"phase": "pi/2"}, r"phase: found 'pi/2', which is not there; allowed: 0, π$"),
+        ({"phase": 3.1}, "not there"),
+        ({"phase": "2*"}, "ends too early"),
+        ({"fase": 0}, "did you mean phase"),
+        ({"waviness_amplitude": 0}, "no parameter of these results"),
+        ({"profile": "paraboloid"}, "allowed: rounded punch"),
+        ({"profile": "cone"}, "no such profile"),
+        ({"s": 0}, "no parameter"),
+        ({"flat_radius": [0, 3]}, "found 3"),
+    ],
+)
+def test_what_is_not_there_is_named(dataset, places, words):
+    with pytest.raises(ValueError, match=words):
+        dataset.swt.slice(**places)
+
+
+def test_all_that_is_not_there_is_named_at_once(dataset):
+    with pytest.raises(swtstudy.StudyError) as caught:
+        dataset.swt.slice(phase=1, flat_radius=[0.1, 0.2], friction="x")
+    assert len(caught.value.mistakes) == 4
+
+
+def test_normalised_is_s_over_s_there(dataset):
+    ratio = dataset.swt.normalised("b=0")
+    np.testing.assert_array_equal(ratio, dataset.s / dataset.s.isel(flat_radius=0).drop_vars("flat_radius"))
+    xr.testing.assert_identical(ratio, dataset.swt.normalised("flat_radius=0"))
+    assert dataset.swt.normalised("ψ=pi").dims == dataset.s.dims
+    with pytest.raises(ValueError, match="not there"):
+        dataset.swt.normalised("b=3")
+    with pytest.raises(ValueError, match="not a quantity"):
+        dataset.swt.normalised("b")
+
+
+def test_errors_of_ratios_add_up(dataset):
+    dataset["s_error"] = 0.01 * dataset.s
+    error = normalised_error(dataset, "s/s(b=0)")
+    assert (error.isel(flat_radius=0) == 0).all()
+    expected = 0.02 * normalised(dataset, "s/s(b=0)").isel(flat_radius=slice(1, None))
+    np.testing.assert_allclose(error.isel(flat_radius=slice(1, None)), expected)
+
+
+def test_extrema_and_where():
+    phase = np.linspace(0, np.pi, 37)
+    dataset = made_up(
+        lambda phase, friction: 2 + friction * np.cos(phase - 1), phase=phase, friction=[0.5, 1.0]
+    )
+    found = dataset.swt.extrema("phase")
+    assert found.minimum.dims == ("friction",)
+    np.testing.assert_allclose(found.at_maximum, phase[np.abs(phase - 1).argmin()])
+    np.testing.assert_allclose(found.at_minimum, np.pi)
+    np.testing.assert_array_equal(found.ratio, found.maximum / found.minimum)
+    dataset.s[:, 0] = np.nan
+    dataset.s[-1, 1] = np.nan
+    found = dataset.swt.extrema("phase")
+    assert np.isnan(found.minimum[0])
+    assert np.isnan(found.at_minimum[0])
+    assert found.at_minimum[1] == phase[-2]
+    with pytest.raises(ValueError, match="did you mean phase"):
+        dataset.swt.extrema("fase")
+
+
+def test_extrema_over_names():
+    dataset = made_up(
+        lambda profile, phase: (profile == "rounded_punch") + 0 * phase,
+        profile=["paraboloid", "rounded_punch"],
+        phase=[0.0, 1.0],
+    )
+    assert (dataset.swt.extrema("profile").at_maximum == "rounded_punch").all()
+
+
+def test_a_tidy_table(dataset):
+    table = dataset.swt.to_table()
+    assert len(table) == 30
+    assert list(table.columns[:3]) == ["phase", "frequency_ratio", "flat_radius"]
+    row = table[(table.phase > 3) & (table.frequency_ratio == 1.5) & (table.flat_radius == 0.5)]
+    assert row.s.item() == dataset.s.values[1, 2, 1]
+    assert set(table.regime) <= set(dataset.regime.attrs["flag_meanings"].split())
+    assert (table.profile == "rounded_punch").all()
+    assert len(dataset.isel(phase=0, frequency_ratio=0, flat_radius=0).swt.to_table()) == 1
+
+
+def test_tables_and_figures_after_xarrays_operations(dataset):
+    masked = dataset.where(dataset.s > dataset.s.median())
+    table = masked.swt.to_table()
+    assert table.regime.isna().sum() == masked.s.isnull().sum() > 0
+    joined = xr.concat([dataset.isel(phase=[0]), dataset.isel(phase=[1])], "phase")
+    for one in (masked, joined, dataset[["s"]], dataset.sortby("flat_radius", ascending=False), 2 * dataset):
+        figure = one.assign_attrs(dataset.attrs).swt.figure()
+        assert len(figure.axes[0].lines) == 3
+        assert one.swt.extrema("flat_radius").ratio.shape == (2, 3)
+        assert one.swt.slice(phase="pi").swt.normalised("b=0").shape == (3, 5)
+
+
+def test_figures(dataset):
+    assert len(dataset.swt.figure().axes) == 4
+    # What has been sliced away leaves the layout.
+    assert len(dataset.swt.slice(phase=0).swt.figure().axes) == 2
+    assert len(dataset.swt.slice(phase=0, frequency_ratio=1).swt.figure().axes[0].lines) == 1
+    assert (
+        len(
+            dataset.sel(flat_radius=slice(0.5, None))[["s", "s_error"]]
+            .swt.panels("flat_radius", "phase", "frequency_ratio")
+            .axes
+        )
+        == 3
+    )
+    with pytest.raises(ValueError, match="no place for frequency_ratio"):
+        dataset.swt.panels("phase", panels="flat_radius")
+    with pytest.raises(ValueError, match="not a dimension"):
+        dataset.swt.slice(flat_radius=0).swt.figure()
+
+
+def test_results_of_solve():
+    dataset = swtstudy.solve(phase=[0, 1], rtol=1e-2)
+    assert dataset.swt.slice(phase=1).s.ndim == 0
+    with pytest.raises(ValueError, match="no figure"):
+        dataset.swt.figure()
+
+
+@pytest.mark.parametrize("first", ["import xarray", "import swtstudy; swtstudy.open_results"])
+def test_the_accessor_is_there_without_being_asked_for(first):
+    code = f"{first}\nimport swtstudy, xarray\nxarray.Dataset().swt"
+    subprocess.run([sys.executable, "-c", code], check=True)

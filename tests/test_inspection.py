@@ -1,0 +1,94 @@
+"""One point explained: its numbers against the solver and the textbook method, and its picture."""
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.springs import spring_forces
+from swtstudy.mechanics.body import nodes_at
+from swtstudy.mechanics.textbook import march_springs
+
+SCENES = {
+    "Table 1": {},
+    "gross slip": {"phase": 1.4},
+    "two periods": {"frequency_ratio": "3/2", "phase": 0.4},
+    "no normal oscillation": {"normal_amplitude": 0},
+    "lift-off": {"normal_amplitude": 1.5, "phase": 0.6},
+    "rounded": {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 0.5},
+    "truncated": {"profile": "truncated_paraboloid", "flat_radius": 0.7},
+    "wavy": {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5, "phase": 2.6},
+}
+
+
+@pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
+def test_the_stress_cycle_makes_s(parameters):
+    point = swtstudy.inspect_point(**parameters)
+    strain = point.normal_strain
+    s = float(point.s)
+    assert float(point.normal_stress.max() * (strain.max() - strain.min()) / 2) == pytest.approx(s, rel=1e-4)
+    assert float(point.s_local.sel(x=point.shown_x)) == pytest.approx(s, rel=1e-4)
+    assert float(point.s_local.max()) == pytest.approx(s, rel=1e-3)
+    assert 2 <= point.sizes["instant"] <= 4
+    assert (np.diff(point.instant_time) > 0).all()
+    assert (abs(point.traction) <= 0.3 * point.pressure + 1e-6).all()
+    assert (abs(point.force) <= point.compression + 1e-12).all()
+
+
+@pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
+def test_springs_are_those_of_the_clip_rule(parameters):
+    scene = read_scene(parameters)
+    protocol = scene.cycle.protocol
+    instant = np.linspace(0.0, 2.0 * np.pi, 20001)
+    depth, u = (f(instant[None])[0] for f in (protocol.depth, protocol.displacement))
+    radius = np.linspace(0.0, float(scene.profile.radius(np.array([[depth.max()]]))[0, 0]), 40)
+    w, tau = march_springs(scene.profile.depth(radius[None])[0], depth, u)
+    some = slice(None, None, 400)
+    found = spring_forces(scene, nodes_at(scene, instant[some]), radius)
+    np.testing.assert_allclose(found[0], w[some], atol=1e-9)
+    np.testing.assert_allclose(found[1], tau[some], atol=1e-3)
+
+
+def test_what_always_sticks():
+    # With δA = 0 the stick zone is Cattaneo's: (c/a)² = 1 − U.
+    point = swtstudy.inspect_point(normal_amplitude=0, tangential_amplitude=0.4)
+    assert float(point.permanent_stick_radius) == pytest.approx(np.sqrt(0.6))
+    assert float(point.least_radius) == float(point.largest_radius) == pytest.approx(1.0)
+    assert np.isnan(swtstudy.inspect_point(phase=1.4).permanent_stick_radius)
+
+
+def test_the_picture_has_six_panels():
+    figure = swtstudy.inspect(frequency_ratio="3/2", phase=0.4)
+    assert len(figure.axes) == 7  # two y axes in the panel of the stress cycle
+    assert "3/2" in figure.get_suptitle()
+    assert [axes.get_title("left")[:3] for axes in figure.axes[:6]] == [
+        "(A)",
+        "(B)",
+        "(C)",
+        "(D)",
+        "(E)",
+        "(F)",
+    ]
+    numbers = {text.get_text() for text in figure.axes[0].texts} & set("1234")
+    assert numbers == set("1234")
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [
+        {"profile": "truncated_paraboloid", "flat_radius": 1, "friction": 1.2, "phase": 1.5},
+        {"tangential_amplitude": 0, "normal_amplitude": 0},
+        {"friction": 0},
+    ],
+)
+def test_extremes_are_drawn_too(parameters):
+    figure = swtstudy.inspect(**parameters, style={"font.size": 7})
+    assert figure.axes[0].xaxis.label.get_fontsize() == 7
+    assert ("not finite" in figure.get_suptitle()) == (parameters.get("friction") == 1.2)
+
+
+def test_mistakes_are_named():
+    with pytest.raises(ValueError, match="did you mean friction"):
+        swtstudy.inspect(frictoin=0.1)
+    with pytest.raises(ValueError, match="phase"):
+        swtstudy.inspect(phase=[0, 1])
