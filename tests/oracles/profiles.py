@@ -65,24 +65,27 @@ class Indenter:
     def outer(
         self, r: float, radius: float, weight: Callable[[float], float] = one, start: float = 0.0
     ) -> tuple[float, float]:
-        """Π = ∫ g′ dξ/√(ξ²−r²) and V = ∫ √(ξ²−r²) g′ dξ, over v = √(ξ² − max(r, b)²)."""
+        """Π = ∫ g′ dξ/u and W = ∫ g′ dξ/(ξ+u), u = √(ξ²−r²), over v = √(ξ² − max(r, b)²)."""
         b, low = self.flat_radius, max(r, self.flat_radius)
         if radius <= max(low, start):
             return 0.0, 0.0
         first, last = (np.sqrt(max(end**2 - low**2, 0.0)) for end in (start, radius))
         near = np.sqrt(abs(r - b) * (r + b))
 
-        def kernel(v: float, power: int) -> float:
+        def kernel(v: float, share: float) -> float:
             xi, other = np.hypot(v, low), np.hypot(v, near)
             if r < b:
-                return self.weighted_slope(v) / xi * other**power * weight(xi)
-            return self.weighted_slope(other) / other * v ** (power + 1) / xi * weight(xi)
+                return self.weighted_slope(v) / xi / (other + share * xi) * weight(xi)
+            # 1 for Π, where v cancels.
+            factor = v / (v + share * xi) if share else 1.0
+            return self.weighted_slope(other) / other * factor / xi * weight(xi)
 
         # Next to the face's edge the integrand turns within v ~ near: geometric steps.
         steps = np.geomspace(max(near, 1e-9), last, 12) if 0.0 < near < last else np.array([last])
         ends = np.concatenate([[first], steps[steps > first]])
         pressure, load = (
-            sum(integral(partial(kernel, power=n), *pair) for pair in pairwise(ends)) for n in (-1, 1)
+            sum(integral(partial(kernel, share=share), *pair) for pair in pairwise(ends))
+            for share in (0.0, 1.0)
         )
         return pressure, load
 

@@ -32,8 +32,8 @@ class Primitives(ABC):
     def outer(self, radius: FloatArray) -> FloatArray:
         """Integrals over the springs outside r up to ``radius``, shape (2, n, X, …).
 
-        Π = ∫ g′ dξ/√(ξ²−r²) (pressure, traction) and V = ∫ √(ξ²−r²) g′ dξ (load), ξ from
-        max(r, b) to radius; 0 where the radius is smaller.
+        Π = ∫ g′ dξ/v (pressure, traction) and W = ∫ g′ dξ/(ξ+v) (the springs' part in the load inside r,
+        over 2 r²), v = √(ξ²−r²), ξ from max(r, b) to radius; 0 where the radius is smaller.
         """
 
 

@@ -25,8 +25,11 @@ class ParaboloidPrimitives(Primitives):
 
     def outer(self, radius: FloatArray) -> FloatArray:
         r = align(self.position, radius)
-        v = np.sqrt(np.maximum(radius * radius - r * r, 0.0))
-        return np.stack([2.0 * v, (2.0 / 3.0) * v**3])
+        radius = np.maximum(radius, r)
+        v = np.sqrt(radius * radius - r * r)
+        # ∫ (ξ − v) g′ dξ/r² without the difference of large numbers.
+        inside = (2.0 / 3.0) * (radius + v * v / (radius + v) - r)
+        return np.stack([2.0 * v, inside])
 
 
 class Paraboloid(Profile):

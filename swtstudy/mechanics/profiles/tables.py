@@ -41,10 +41,11 @@ class InnerTable:
 
 
 class OuterTable:
-    """Π and V as series: in v = √(ξ² − r²), or, about a flat face, in ω with ε = √|r² − b²|.
+    """Π and W as series: in v = √(ξ² − r²), or, about a flat face, in ω with ε = √|r² − b²|.
 
     For r > b: v = ε sinh ω; for r < b: √(ξ² − b²) = ε sinh ω. Then dΠ = (m/ξ) dω, which takes the
-    logarithmic singularity at r = b out of the integrand.
+    logarithmic singularity at r = b out of the integrand. Without a face W turns within v ~ r, so that it has
+    fewer digits next to the axis, where swt is never largest.
 
     Parameters
     ----------
@@ -72,11 +73,12 @@ class OuterTable:
         node = self.span[..., None] * 0.5 * (1.0 + cumulative.nodes(count))
         rise = self.scale[..., None] * np.sinh(node) if self.has_face else node
         radius = np.sqrt(self.low2[..., None] + rise * rise)
-        v2 = radius * radius - position[..., None] ** 2
+        r = position[..., None]
+        v = np.sqrt(np.maximum((radius - r) * (radius + r), 0.0))
         m = profile.weighted_slope(radius) / radius
         if not self.has_face:
             m = m / radius
-        values = 0.5 * self.span[..., None] * np.stack([m, m * v2])
+        values = 0.5 * self.span[..., None] * np.stack([m, m * v / (radius + v)])
         self.series = cumulative.running_integral(values)
 
     def _abscissa(self, radius: FloatArray, low2: FloatArray, scale: FloatArray) -> FloatArray:
