@@ -48,7 +48,7 @@ def test_a_larger_sample_extends_a_smaller_one():
         ({"s_body": 1.1, "normal": np.array([0.8, 0.6, 0.0])}, "plane_through_y"),
         ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.0])}, "symmetry_line"),
         ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.1])}, "surface"),
-        ({"s": np.nan}, "not_finite"),
+        ({"s_surface": np.nan}, "not_finite"),
     ],
 )
 def test_verdicts(changes, verdict):

@@ -54,7 +54,7 @@ def test_field_on_the_surface_is_that_of_the_line(profile):
     r = np.array([[0.05, 0.3, 0.51, 0.9, 1.3, 1.7]])
     nodes = nodes_at(scene, instant)
     index = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
-    line = SurfaceLine(scene.cycle, scene.profile, r, 40)
+    line = SurfaceLine(scene.cycle, scene.profile, r, 9.0)
     history = line.history(Nodes(nodes.interval[None], instant[None], index))
     expected = stresses(history, scene.poisson_ratio, scene.friction, 1.0)
     field = swtstudy.stress_field(r[0], 0.0, 0.0, time=2 * instant, **parameters)

@@ -14,7 +14,7 @@ from swtstudy.mechanics.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
 
 #: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
-#: the last one for points to which the solver gives no finite s.
+#: the last one for points without a finite s, or whose maximum is where the pressure has no bound.
 VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
 
 #: Relative excess of the body's maximum that counts; s itself is asked for to a tenth of this.
@@ -62,7 +62,7 @@ class Finding:
     @property
     def verdict(self) -> str:
         """The first of the solver's assumptions that the body's maximum breaks."""
-        if not np.isfinite(self.s):
+        if not np.isfinite(self.s_surface):
             return "not_finite"
         _, y, z = self.position
         if self.excess <= TOLERANCE:
@@ -80,7 +80,7 @@ def audit_point(row: Sequence[float]) -> Finding:
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
-    if not np.isfinite(s):
+    if not np.isfinite(solved[1]):
         return Finding(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
     with np.errstate(all="ignore"):

@@ -45,12 +45,19 @@ def solve(rtol: float, **texts: str | None) -> None:
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     dataset = solve_grid(rtol=rtol, **parameters)
     dims = list(map(str, dataset.s.dims))
-    click.echo("\t".join([*dims, "s", "s_error", "critical_x", "critical_angle", "regime"]))
     places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
-    columns = ("s", "s_error", "critical_x", "critical_angle", "regime")
+    columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
+    click.echo("\t".join([*dims, *columns]))
     rows = zip(*(dataset[name].values.ravel() for name in columns), strict=True)
-    for place, (s, error, x, angle, regime) in zip(places, rows, strict=True):
-        numbers = (f"{s:.6f}", f"{error:.1e}", f"{x:.5f}", f"{angle:.2f}", REGIMES[int(regime)])
+    for place, (s, error, surface, x, angle, regime) in zip(places, rows, strict=True):
+        numbers = (
+            f"{s:.6f}",
+            f"{error:.1e}",
+            f"{surface:.6f}",
+            f"{x:.5f}",
+            f"{angle:.2f}",
+            REGIMES[int(regime)],
+        )
         click.echo("\t".join([*map(_short, place), *numbers]))
 
 

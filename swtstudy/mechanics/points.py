@@ -62,7 +62,7 @@ class Solution:
         Index into `REGIMES`.
     s_surface
         s over the circle on the surface through the critical point and all planes: s itself where the line
-        y = 0 is enough, –.
+        y = 0 is enough, NaN where the critical point is at the edge r = b of a truncated paraboloid, –.
     """
 
     s: FloatArray

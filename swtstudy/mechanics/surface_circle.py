@@ -50,10 +50,13 @@ def circle_gain(
     -------
     gain, angle
         Shape (n,): the relative excess, 0 where the line has the maximum, and where on the circle it is, rad
-        from the line; over all plane orientations, at the instants that make swt on the line.
+        from the line; over all plane orientations, at the instants that make swt on the line. NaN where the
+        maximum is at the edge of a flat face itself: on that circle the pressure has no bound.
     """
-    gain, angle = np.zeros(len(scene)), np.zeros(len(scene))
-    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (np.abs(position) > 0.0))
+    r, flat = np.abs(position), scene.profile.flat_radius
+    at_edge = (flat > 0.0) & (r == flat)
+    gain, angle = (np.where(at_edge, np.nan, 0.0) for _ in range(2))
+    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (r > 0.0) & ~at_edge)
     if rows.size:
         some = scene.take(rows)
         history, normal = _decisive_history(some, position[rows], double_angle[rows])
