@@ -33,6 +33,7 @@ _FIGURE_DESCRIPTIONS = {
     "panels": "Axis whose values are the panels side by side.",
     "y": 'One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.',
     "title": "Title over the figure.",
+    "regimes": "Whether lines are marked where a regime of the contact begins.",
 }
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
