@@ -16,6 +16,7 @@ STYLES = {
     "FFT half-space (tamaas), same contact": ("#009E73", "^", "-"),
     "plane loop in Python, at the critical point": ("#CC79A7", "v", ":"),
 }
+SYMBOLS = {"δA/δ0": r"\delta_A/\delta_0", "ω2/ω1": r"\omega_2/\omega_1", "b/a_H": "b/a_H", "ψ": r"\psi"}
 
 
 def chart(curves: dict[str, dict[str, list[Sample]]], references: dict[str, float]) -> Figure:
@@ -36,7 +37,7 @@ def chart(curves: dict[str, dict[str, list[Sample]]], references: dict[str, floa
             errors = [max(abs(sample.s / references[title] - 1.0), SMALLEST_ERROR) for sample in samples]
             seconds = [sample.seconds for sample in samples]
             axes.loglog(seconds, errors, line, color=colour, marker=marker, markersize=4.5, label=method)
-        axes.set_title(title, fontsize="medium")
+        axes.set_title(_in_symbols(title), fontsize="medium")
         axes.grid(color="0.9", linewidth=0.6)
     for axes in panels[-1]:
         axes.set_xlabel("processor time a value, s")
@@ -45,3 +46,9 @@ def chart(curves: dict[str, dict[str, list[Sample]]], references: dict[str, floa
     handles, labels = panels[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False)
     return figure
+
+
+def _in_symbols(title: str) -> str:
+    for plain, symbol in SYMBOLS.items():
+        title = title.replace(plain, f"${symbol}$")
+    return title
