@@ -31,6 +31,17 @@ class Study:
         Layout of the figure, or None.
     text
         The study file as it was read; goes into the archive.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> study = swtstudy.Study.from_text('''
+    ... title = "Three phases"
+    ... [axes]
+    ... phase = { start = 0, stop = "pi", num = 3 }
+    ... ''')
+    >>> study.grid.shape, study.rtol
+    ((3,), 0.0001)
     """
 
     title: str
