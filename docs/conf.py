@@ -16,9 +16,9 @@ version = release = swtstudy.__version__
 
 extensions = [
     "build_steps.checked_by",
+    "build_steps.mathml",
     "myst_nb",
     "sphinx.ext.autodoc",
-    "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
 ]
 exclude_patterns = ["build_steps", "generated/*.md"]
@@ -26,12 +26,15 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 # The notebook is shown with the outputs that are committed; a test holds them against a run.
 nb_execution_mode = "off"
-default_role = "code"
+default_role = "py:obj"
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say shapes and units
 napoleon_google_docstring = False
 napoleon_use_ivar = True
+html_math_renderer = "mathml"
 html_theme = "furo"
+html_static_path = ["static"]
+html_css_files = ["tables.css"]
 html_title = f"swtstudy {release}"
 html_show_copyright = False
 

@@ -7,7 +7,7 @@ from swtstudy.cli import main
 
 def commands() -> str:
     """What ``--help`` prints, command by command."""
-    group = click.Context(main, info_name="swtstudy")
+    group = main.make_context("swtstudy", [], resilient_parsing=True)
     parts = [f"```text\n{main.get_help(group)}\n```\n"]
     for name in main.list_commands(group):
         command = main.commands[name]

@@ -27,6 +27,7 @@ _SECTIONS = {
 
 #: Files to which the README links, by the page that shows them.
 _PAGES = {
+    "docs/index.md": "index.md",
     "results/accuracy.md": "accuracy.md",
     "results/audit_parameter_box.md": "accuracy.md",
     "results/field_speed.md": "accuracy.md",

@@ -20,7 +20,7 @@ def study_file() -> str:
             "## Top of the file\n",
             _table(plain, required),
             f"## `[fixed]`\n\n{keys['fixed']['description']}\n",
-            _table(keys["fixed"]["properties"], set()),
+            _parameters(keys["fixed"]["properties"]),
             f"## `[axes]`\n\n{keys['axes']['description']} The names and ranges of their values are those of "
             "`[fixed]`. A range has\n",
             _table(parts["RangeTable"]["properties"], set(parts["RangeTable"]["required"])),
@@ -43,8 +43,16 @@ def _table(entries: dict[str, Any], required: set[str]) -> str:
     return table(_HEAD, rows)
 
 
+def _parameters(entries: dict[str, Any]) -> str:
+    """The meaning of a parameter says already what it may be."""
+    rows = ((f"`{name}`", entry["description"], _default(entry)) for name, entry in entries.items())
+    return table(("key", "meaning and values", "default"), rows)
+
+
 def _default(entry: dict[str, Any]) -> str:
     value = entry.get("default")
+    if isinstance(value, float):
+        return f"`{value:.6g}`"
     return "–" if value is None else f"`{json.dumps(value, ensure_ascii=False)}`"
 
 

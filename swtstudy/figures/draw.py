@@ -82,7 +82,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
     rows = len(layout.y)
     beside = layout.hue is not None or layout.kind != "lines"
     size = (_PANEL_WIDTH * len(columns) + _LEGEND_WIDTH * beside, _PANEL_HEIGHT * rows)
-    figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
+    figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
     sharey: Any = "row" if layout.kind == "lines" else "all"
     axes = figure.subplots(rows, len(columns), sharex=True, sharey=sharey, squeeze=False)
     for row, y in enumerate(layout.y):

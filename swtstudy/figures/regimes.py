@@ -22,7 +22,11 @@ def mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str
         name = regimes[place]
         if name != regimes[place - 1]:
             at = place - 1 if name == "not_finite" else place
-            words = "not finite from here on" if name == "not_finite" else f"{name.replace('_', ' ')} begins"
+            words = (
+                "not finite from here on"
+                if name == "not_finite"
+                else f"{name.replace('_', '-' if name == 'lift_off' else ' ')} begins"
+            )
             style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markersize": 5}
             axes.plot(x[at : at + 1], s[at : at + 1], marker=MARKS[name], color=colour, label=words, **style)
 
