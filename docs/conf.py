@@ -34,7 +34,7 @@ napoleon_use_ivar = True
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_static_path = ["static"]
-html_css_files = ["tables.css"]
+html_css_files = ["style.css"]
 html_title = f"swtstudy {release}"
 html_show_copyright = False
 

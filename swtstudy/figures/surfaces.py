@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -50,7 +50,7 @@ def draw_contours(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarM
         label = "least $s$" if kind == "minimum" else "greatest $s$"
         unbroken = np.where(leaps, np.nan, places)
         # Over the frame: an extremum may lie on it.
-        over = {"marker": "", "clip_on": False, "zorder": 3}
+        over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}
         axes.plot(unbroken, places[vertical], color="white", linewidth=3.4, **over)
         axes.plot(unbroken, places[vertical], color="#B22222", label=label, **look, **over)
         _label_places(axes, places, x, vertical)
