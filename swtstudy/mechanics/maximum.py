@@ -125,10 +125,11 @@ class _Climb:
         """From the first look at the scene, for its finer division."""
         peak = local_maxima(look.swt)
         point, side, column = peak
-        hot = gather(look.hot_intervals(scene, *peak), split.cycle.number[point])
+        angle, hot = look.closer(scene, *peak)
+        hot = gather(hot, split.cycle.number[point])
         centre, top, change = np.zeros((3, len(point)))
         width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
-        angle, settled = look.double_angle[peak], np.zeros(len(point), dtype=bool)
+        settled = np.zeros(len(point), dtype=bool)
         x_sign = np.where(side == 0, 1.0, -1.0)
         return cls(point, x_sign, column, hot, angle, centre, width, top, change, rounds, settled)
 

@@ -23,7 +23,9 @@ from swtstudy.mechanics.zoom import TimeBrackets
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
 #: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
-HOT = 0.35
+HOT = 0.5
+#: Planes that are tried where the first look finds a local maximum.
+CLOSER_PLANES = 72
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
 
@@ -103,10 +105,10 @@ class FirstLook:
     end: FloatArray
     history: History
 
-    def hot_intervals(
+    def closer(
         self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
-    ) -> NDArray[np.bool_]:
-        """Intervals of the cycle that can hold an extreme at single positions, shape (m, i).
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """A closer look at single positions, on more planes.
 
         Parameters
         ----------
@@ -114,22 +116,31 @@ class FirstLook:
             The n points.
         point, side, column
             Shape (m,): index of the positions.
+
+        Returns
+        -------
+        double_angle
+            Shape (m,): 2θ of the best plane, rad.
+        hot
+            Shape (m, i): intervals of the cycle that can hold an extreme.
         """
         pieces = (v[point, column] for v in vars(self.history).values())
         x_sign = np.where(side == 0, 1.0, -1.0)[:, None]
         planes = scene.take(point).planes(History(*pieces), x_sign)
-        stress, strain = planes.on_plane(self.double_angle[point, side, column])
-        hot = np.zeros(stress.shape, dtype=bool)
-        for curve in (stress, strain, -strain):
-            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
-            hot |= curve >= high - HOT * (high - low)
+        _, angle = coarse_swt(planes, CLOSER_PLANES)
+        hot = np.zeros(planes.stress.shape[1:], dtype=bool)
+        for plane in (angle, self.double_angle[point, side, column]):
+            stress, strain = planes.on_plane(plane)
+            for curve in (stress, strain, -strain):
+                high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
+                hot |= curve >= high - HOT * (high - low)
         kept = np.zeros((len(point), scene.cycle.begin.shape[1]), dtype=bool)
         row, instant = np.nonzero(hot)
         begin, end = (v[point[row], column[row], instant, None] for v in (self.begin, self.end))
         low, high = scene.cycle.begin[point[row]], scene.cycle.end[point[row]]
         hit, interval = np.nonzero(np.minimum(high, end) - np.maximum(low, begin) > NO_STRETCH)
         kept[row[hit], interval] = True
-        return kept
+        return angle, kept
 
 
 def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
@@ -214,7 +225,7 @@ def _refine_from(
     planes = scene.planes(line.history(nodes), side)
     inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
     angle, other = _best_planes(planes, inside, starts)
-    found, elsewhere = (np.stack(_extremes([planes] * 3, at), axis=-1) for at in (angle, other))
+    found, elsewhere = (np.stack(_likely_extremes(planes, inside, at), axis=-1) for at in (angle, other))
     # Neighbouring nodes have the same bracket.
     apart = (np.abs(found - elsewhere) > 1).any(axis=-1)
     node = gather(number, found)
@@ -282,6 +293,21 @@ def _curves(parts: list[PlaneHistory], angle: FloatArray) -> list[FloatArray]:
 def _extremes(parts: list[PlaneHistory], angle: FloatArray) -> list[NDArray[np.intp]]:
     """Samples of largest σ_n, largest ε_n, smallest ε_n."""
     return [curve.argmax(axis=-1) for curve in _curves(parts, angle)]
+
+
+def _likely_extremes(
+    planes: PlaneHistory, inside: NDArray[np.bool_], angle: FloatArray
+) -> list[NDArray[np.intp]]:
+    """Nodes beside the extremes, by the parabola through each node inside of a stretch and its neighbours."""
+    best = []
+    for curve in _curves([planes] * 3, angle):
+        likely = curve.copy()
+        left, middle, right = curve[..., :-2], curve[..., 1:-1], curve[..., 2:]
+        peaked = inside[..., 1:-1] & (middle >= left) & (middle >= right)
+        _, rise = parabola(left[peaked], middle[peaked], right[peaked])
+        likely[..., 1:-1][peaked] += rise
+        best.append(likely.argmax(axis=-1))
+    return best
 
 
 def _active(parts: list[PlaneHistory], at: list[NDArray[np.intp]]) -> tuple[FloatArray, FloatArray]:
