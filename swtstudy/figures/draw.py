@@ -75,8 +75,9 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
-    from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    from swtstudy.figures.figure import Figure
 
     columns = _slices(dataset, layout.panels)
     rows = len(layout.y)
