@@ -28,6 +28,10 @@ LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
 CHANGE_SHARE = 0.03
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
 SETTLED, LEAST_ERROR = 0.3, 0.1
+#: Two local maxima whose heights differ by less, relative, are both followed.
+TWIN = 0.01
+#: Positions nearer than this share of their range lie side by side.
+SIDE_BY_SIDE = 1e-4
 #: Values closer than this are equal, relative.
 TIE = 1e-12
 
@@ -56,7 +60,7 @@ class Accuracy:
         digits = -np.log10(rtol)
         # A zoom gains a factor of 30.
         zooms = max(int(np.ceil(0.5 * digits)) + int(digits > 5.0), 1)
-        return cls(Resolution(3, zooms, digits + 1.0), Resolution(4, zooms + 1, digits + 2.5), rtol)
+        return cls(Resolution(4, zooms, digits + 1.0), Resolution(5, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
         """The same with twice the instants."""
@@ -121,9 +125,9 @@ class _Climb:
     settled: NDArray[np.bool_]
 
     @classmethod
-    def start(cls, split: Scene, look: FirstLook, scene: Scene) -> _Climb:
+    def start(cls, split: Scene, look: FirstLook, scene: Scene, positions: Positions) -> _Climb:
         """From the first look at the scene, for its finer division."""
-        peak = local_maxima(look.swt)
+        peak = local_maxima(look.swt, positions.r)
         point, side, column = peak
         angle, hot = look.closer(scene, *peak)
         hot = gather(hot, split.cycle.number[point])
@@ -135,6 +139,10 @@ class _Climb:
 
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
         return _Climb(*(values[index] for values in vars(self).values()))
+
+    def joined(self, other: _Climb) -> _Climb:
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return _Climb(*(np.concatenate(pair) for pair in both))
 
     def brackets(self, positions: Positions) -> PositionBrackets:
         return PositionBrackets.around(positions, self.point, self.column)
@@ -163,12 +171,13 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     """First look, local search and check."""
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     positions = positions_of_first_look(split.cycle, scene.profile)
-    climb = _Climb.start(split, first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES), scene)
+    look = first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
+    climb = _Climb.start(split, look, scene, positions)
     for _ in range(LARGEST_ROUND_COUNT):
         active = np.flatnonzero(~climb.settled)
         if not active.size:
             break
-        _step(split, positions, climb, active, accuracy)
+        climb = climb.joined(_step(split, positions, climb, active, accuracy))
         largest = np.zeros(len(scene))
         np.maximum.at(largest, climb.point, climb.top)
         share = CANDIDATE_SHARES[climb.rounds.clip(0, len(CANDIDATE_SHARES) - 1)]
@@ -187,8 +196,13 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _step(
     scene: Scene, positions: Positions, climb: _Climb, active: NDArray[np.intp], accuracy: Accuracy
-) -> None:
-    """Look around the centres of the active local maxima, move there and narrow the search."""
+) -> _Climb:
+    """Look around the centres of the active local maxima, move there and narrow the search.
+
+    Returns
+    -------
+    Other local maxima that this look has found between the same neighbours.
+    """
     now = climb.take(active)
     brackets = now.brackets(positions)
     c = _look(now.centre, now.width)
@@ -220,19 +234,52 @@ def _step(
     small = np.maximum(CHANGE_SHARE * change, rise) <= SETTLED * accuracy.tolerance * top
     enough = now.rounds + 1 >= LEAST_ROUND_COUNT
     climb.settled[active] = ~outermost & small & enough & (flat | ~stays)
+    row, second = _other_peaks(values, best, accuracy.tolerance)
+    row, second = (index[now.rounds[row] == 0] for index in (row, second))
+    twins = now.take(row)
+    return replace(
+        twins,
+        angle=angles[row, second],
+        centre=c[row, second],
+        width=twins.width * SHRINKING,
+        top=values[row, second],
+        change=values[row, second],
+        rounds=twins.rounds + 1,
+    )
 
 
-def local_maxima(swt: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+def _other_peaks(
+    values: FloatArray, best: NDArray[np.intp], tolerance: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Row and column of local maxima of each row, shape (m, k), that are almost as high as the best."""
+    padded = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
+    peak = (1.0 - tolerance) * values > np.maximum(padded[:, 2:], padded[:, :-2])
+    high = values >= (1.0 - TWIN) * pick(values, best)[:, None]
+    row, column = np.nonzero(peak & high & (np.arange(values.shape[1]) != best[:, None]))
+    return row, column
+
+
+def local_maxima(
+    swt: FloatArray, r: FloatArray
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
     """Point, side and column of the local maxima that may hold the largest swt.
 
     Parameters
     ----------
     swt
-        Shape (n, 1 or 2, X), at ascending positions on one or both sides.
+        Shape (n, 1 or 2, X), on one or both sides.
+    r
+        Shape (n, X): the positions, ascending; shorter rows repeat their first one.
     """
-    padded = np.pad(swt, ((0, 0), (0, 0), (1, 1)), constant_values=-1.0)
     largest = swt.max(axis=(1, 2), keepdims=True)
-    peak = (swt >= padded[..., 2:]) & (swt > padded[..., :-2]) & (swt >= CANDIDATE_SHARES[0] * largest)
+    # Of two cusps side by side, each has its own neighbour on the other side.
+    gap = np.diff(r)
+    close = (gap > 0.0) & (gap < SIDE_BY_SIDE * (r.max(axis=1) - r[:, 0])[:, None])
+    least = np.where(close, 1.0 - TWIN, 1.0)[:, None]
+    above = np.pad(swt[..., :-1] >= least * swt[..., 1:], ((0, 0), (0, 0), (0, 1)), constant_values=True)
+    before = (swt[..., 1:] > swt[..., :-1]) | (close[:, None] & (swt[..., 1:] >= least * swt[..., :-1]))
+    before = np.pad(before, ((0, 0), (0, 0), (1, 0)), constant_values=True)
+    peak = above & before & (swt >= CANDIDATE_SHARES[0] * largest)
     # A point without tension anywhere keeps one bracket all the same.
     peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
     point, side, column = np.nonzero(peak)

@@ -24,10 +24,12 @@ SPREAD = 24
 SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
-#: Depths of cusps nearer than this are one.
-SAME_DEPTH = 1e-13
+#: Depths of cusps nearer than this, in the amplitudes of the motion, are one.
+SAME_DEPTH = 1e-9
 #: Share of the range below which a stretch between cusps is none.
 NO_STRETCH = 1e-12
+#: Angles α nearer than this to 0 or π are an end of the stretch.
+END = 1e-9
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
     largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
     depth = np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
     depth = np.sort(depth, axis=1)
-    new = np.diff(depth, axis=1, prepend=0.0) > SAME_DEPTH
+    motion = np.minimum(cycle.protocol.normal_amplitude + cycle.protocol.tangential_amplitude, 1.0)
+    new = np.diff(depth, axis=1, prepend=0.0) > SAME_DEPTH * motion[:, None]
     new[:, -1] = True
     radius = profile.radius(packed(new, depth)[0])
     largest = radius.max(axis=1, keepdims=True)
@@ -165,8 +168,11 @@ class PositionBrackets:
 
     @property
     def is_corner(self) -> NDArray[np.bool_]:
-        """Shape (m,): whether two stretches meet at c = 0, so that swt may have a cusp there."""
-        return np.asarray((self.low[:, 0] != self.low[:, 1]) | (self.alpha[:, 0] != self.alpha[:, 1]))
+        """Shape (m,): whether a stretch ends at c = 0, so that swt may have a cusp there."""
+        at_end = (self.alpha[:, 0] <= END) | (self.alpha[:, 1] >= np.pi - END)
+        return np.asarray(
+            at_end | (self.low[:, 0] != self.low[:, 1]) | (self.alpha[:, 0] != self.alpha[:, 1])
+        )
 
     def radius(self, c: FloatArray) -> FloatArray:
         """Positions r at c, shape (m, k)."""

@@ -225,7 +225,7 @@ def _refine_from(
     planes = scene.planes(line.history(nodes), side)
     inside = (number % (resolution.nodes + 1) % resolution.nodes) > 0
     angle, other = _best_planes(planes, inside, starts)
-    found, elsewhere = (np.stack(_likely_extremes(planes, inside, at), axis=-1) for at in (angle, other))
+    found, elsewhere = (np.stack(_extremes([planes] * 3, at), axis=-1) for at in (angle, other))
     # Neighbouring nodes have the same bracket.
     apart = (np.abs(found - elsewhere) > 1).any(axis=-1)
     node = gather(number, found)
@@ -293,21 +293,6 @@ def _curves(parts: list[PlaneHistory], angle: FloatArray) -> list[FloatArray]:
 def _extremes(parts: list[PlaneHistory], angle: FloatArray) -> list[NDArray[np.intp]]:
     """Samples of largest σ_n, largest ε_n, smallest ε_n."""
     return [curve.argmax(axis=-1) for curve in _curves(parts, angle)]
-
-
-def _likely_extremes(
-    planes: PlaneHistory, inside: NDArray[np.bool_], angle: FloatArray
-) -> list[NDArray[np.intp]]:
-    """Nodes beside the extremes, by the parabola through each node inside of a stretch and its neighbours."""
-    best = []
-    for curve in _curves([planes] * 3, angle):
-        likely = curve.copy()
-        left, middle, right = curve[..., :-2], curve[..., 1:-1], curve[..., 2:]
-        peaked = inside[..., 1:-1] & (middle >= left) & (middle >= right)
-        _, rise = parabola(left[peaked], middle[peaked], right[peaked])
-        likely[..., 1:-1][peaked] += rise
-        best.append(likely.argmax(axis=-1))
-    return best
 
 
 def _active(parts: list[PlaneHistory], at: list[NDArray[np.intp]]) -> tuple[FloatArray, FloatArray]:
