@@ -8,6 +8,7 @@ from build_steps.commands import commands
 from build_steps.gallery import gallery
 from build_steps.parameters import parameters
 from build_steps.study_file import study_file
+from build_steps.three_mistakes import three_mistakes
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -47,6 +48,7 @@ def generate(folder: Path) -> None:
         "gallery": gallery(ROOT),
         "parameters": parameters(),
         "study_file": study_file(),
+        "three_mistakes": three_mistakes(),
     }
     for name, text in texts.items():
         write_if_new(folder / f"{name}.md", text)
