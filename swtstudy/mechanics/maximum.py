@@ -140,6 +140,14 @@ class _Climb:
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> _Climb:
         return _Climb(*(values[index] for values in vars(self).values()))
 
+    def without_followers(self, moved: NDArray[np.bool_]) -> _Climb:
+        """Without those that have just moved to a position around which another one searches."""
+        order = np.lexsort((moved, self.column, self.side, self.point))
+        key = np.stack([self.point, self.side, self.column])[:, order]
+        same = np.zeros(len(order), dtype=bool)
+        same[1:] = (key[:, 1:] == key[:, :-1]).all(axis=0)
+        return self.take(order[~(same & moved[order])])
+
     def joined(self, other: _Climb) -> _Climb:
         both = zip(vars(self).values(), vars(other).values(), strict=True)
         return _Climb(*(np.concatenate(pair) for pair in both))
@@ -177,7 +185,9 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
         active = np.flatnonzero(~climb.settled)
         if not active.size:
             break
-        climb = climb.joined(_step(split, positions, climb, active, accuracy))
+        before = climb.column.copy()
+        twins = _step(split, positions, climb, active, accuracy)
+        climb = climb.without_followers(climb.column != before).joined(twins)
         largest = np.zeros(len(scene))
         np.maximum.at(largest, climb.point, climb.top)
         share = CANDIDATE_SHARES[climb.rounds.clip(0, len(CANDIDATE_SHARES) - 1)]
