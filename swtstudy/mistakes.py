@@ -68,6 +68,12 @@ def nearest(name: str, known: Iterable[str]) -> str:
     'did you mean friction? known: friction, phase'
     """
     known = list(known)
-    close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
-    hint = f"did you mean {close[0]}? " if close else ""
+    close = meant(name, known)
+    hint = f"did you mean {close}? " if close else ""
     return f"{hint}known: {', '.join(known)}"
+
+
+def meant(name: str, known: Iterable[str]) -> str | None:
+    """The known name that an unknown one comes near to, if any."""
+    close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
+    return close[0] if close else None

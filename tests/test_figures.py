@@ -195,6 +195,12 @@ def test_lines_differ_in_greyscale():
     assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 
 
+def test_a_notebook_shows_a_figure_without_pyplot(panels):
+    formatters = pytest.importorskip("IPython.core.formatters")
+    # Of its own, a formatter knows nothing of matplotlib.
+    assert formatters.PNGFormatter()(draw(panels)).startswith(b"\x89PNG")
+
+
 def test_pyplot_is_not_touched():
     package = Path(sys.modules["swtstudy"].__file__).parent
     assert not any(

@@ -291,6 +291,15 @@ def _alive(process: int) -> bool:
         return False
 
 
+def test_an_archive_of_before_a_quantity_came_says_so(line, tmp_path):
+    path = tmp_path / "line.nc"
+    run(line, path, solver=stand_in.smooth, workers=1).drop_vars("s_surface").to_netcdf(path)
+    with pytest.raises(
+        ValueError, match=r"line.nc: an archive of another version .* without s_surface; move"
+    ):
+        run(line, path, solver=stand_in.smooth, workers=1)
+
+
 def test_a_file_that_is_no_archive_is_not_replaced(line, tmp_path):
     path = tmp_path / "line.nc"
     path.write_bytes(b"precious")

@@ -217,6 +217,12 @@ def test_every_mistake_is_reported_at_once():
     }
 
 
+def test_the_figure_is_not_blamed_for_a_misspelt_axis(small_text):
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(small_text.replace("normal_amplitude = [", "normal_amplitud = ["))
+    assert [mistake.key for mistake in caught.value.mistakes] == ["axes.normal_amplitud"]
+
+
 def test_a_syntax_error_is_one_message():
     with pytest.raises(
         StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML$"

@@ -33,6 +33,20 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
         If there is no such file.
     ArchiveError
         A ValueError, if the file is not an archive of swtstudy.
+
+    Examples
+    --------
+    >>> import tempfile, swtstudy
+    >>> study = swtstudy.Study.from_text('''
+    ... title = "Two amplitudes"
+    ... rtol = 1e-2
+    ... axes.tangential_amplitude = [0.5, "5/6"]
+    ... ''')
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     computed = swtstudy.run(study, f"{folder}/mine.nc")
+    ...     found = swtstudy.open_results(f"{folder}/mine.nc")
+    >>> found.swt.slice(tangential_amplitude="5/6").s.round(2).item()
+    0.16
     """
     path = Path(path)
     if partial or not path.exists():

@@ -47,6 +47,9 @@ def records_of(dataset: xr.Dataset) -> Records:
     ArchiveError
         If something that belongs to an archive is not there.
     """
+    lacking = [item.name for item in fields(Solution) if item.name not in dataset]
+    if lacking:
+        raise ArchiveError(f"an archive of another version of swtstudy, without {', '.join(lacking)}")
     points = unique_points(grid_of(dataset))
     at = np.zeros(len(points.table), np.int64)
     at[points.index] = np.arange(len(points.index))

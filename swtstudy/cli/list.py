@@ -13,11 +13,14 @@ def list_studies() -> None:
 
     They come with the package; each name can be the STUDY of other commands.
     """
+    from swtstudy.runner.plan import LARGEST_GRID
     from swtstudy.study.definition import Study
     from swtstudy.study.shipped import shipped_folder, shipped_studies
 
     studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies), default=0)
     for name, study in studies.items():
-        click.echo(f"{name:<{width}}  {study.grid.size:6d} points  {study.title}")
+        size = study.grid.size
+        points = "for swtstudy audit" if size > LARGEST_GRID else f"{size:11d} points"
+        click.echo(f"{name:<{width}}  {points}  {study.title}")
     click.echo(f"files: {shipped_folder()}")

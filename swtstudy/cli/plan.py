@@ -49,7 +49,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     lines = [
         study.title,
         f"  archive            {target}{'' if target.exists() else ' (not there yet)'}",
-        f"  panels             {count} of {grid.size // count} points",
+        f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
         f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
         f"  there already      {distinct - todo}",
         f"  to be computed     {todo} ({shared} of them with the contact solution of another)",

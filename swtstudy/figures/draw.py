@@ -75,14 +75,15 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
-    from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    from swtstudy.figures.figure import Figure
 
     columns = _slices(dataset, layout.panels)
     rows = len(layout.y)
     beside = layout.hue is not None or layout.kind != "lines"
     size = (_PANEL_WIDTH * len(columns) + _LEGEND_WIDTH * beside, _PANEL_HEIGHT * rows)
-    figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
+    figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
     sharey: Any = "row" if layout.kind == "lines" else "all"
     axes = figure.subplots(rows, len(columns), sharex=True, sharey=sharey, squeeze=False)
     for row, y in enumerate(layout.y):

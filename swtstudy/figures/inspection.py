@@ -67,8 +67,9 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
         tangential force; tractions; the stress cycle on the critical plane; swt along the surface. Numbers
         mark the same instants in all of them.
     """
-    from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    from swtstudy.figures.figure import Figure
 
     with styled(style):
         figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.style import COLOURS
+from swtstudy.figures.style import COLOURS, DASHES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,7 +56,8 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
     shown = [name for name in names if float(abs(dataset[name]).max()) > 1e-9 * largest]
     for index, name in enumerate(shown):
         words = f"${dataset[name].attrs['symbol']}$"
-        axes.plot(dataset.time, dataset[name], color=COLOURS[index], linestyle="-", label=words)
+        look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)]}
+        axes.plot(dataset.time, dataset[name], label=words, **look)
     axes.set_xlabel(r"$\omega_1 t$ in rad")
     axes.set_ylabel(r"stress over $E^* \sqrt{\delta_0/R}$")
     axes.set_xlim(float(dataset.time.min()), float(dataset.time.max()))

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 #: What marks the point at which a regime begins; of "not_finite", the last point before it.
 MARKS = {"stick": "D", "partial_slip": "^", "gross_slip": "o", "lift_off": "s", "not_finite": "x"}
+_WORDS = {"not_finite": "not finite from here on", "lift_off": "lift-off begins"}
 #: A logarithmic axis pays from this ratio of its ends on.
 LOG_RATIO = 100.0
 
@@ -22,7 +23,7 @@ def mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str
         name = regimes[place]
         if name != regimes[place - 1]:
             at = place - 1 if name == "not_finite" else place
-            words = "not finite from here on" if name == "not_finite" else f"{name.replace('_', ' ')} begins"
+            words = _WORDS.get(name, f"{name.replace('_', ' ')} begins")
             style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markersize": 5}
             axes.plot(x[at : at + 1], s[at : at + 1], marker=MARKS[name], color=colour, label=words, **style)
 

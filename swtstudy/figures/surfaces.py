@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -48,10 +48,11 @@ def draw_contours(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarM
         # The curve is broken where the extremum leaps from one place to another.
         leaps = np.abs(np.diff(places, prepend=places[0])) > 0.25 * np.ptp(surface[x].values)
         label = "least $s$" if kind == "minimum" else "greatest $s$"
-        axes.plot(np.where(leaps, np.nan, places), places[vertical], color="white", marker="", linewidth=3.4)
-        axes.plot(
-            np.where(leaps, np.nan, places), places[vertical], color="#B22222", marker="", label=label, **look
-        )
+        unbroken = np.where(leaps, np.nan, places)
+        # Over the frame: an extremum may lie on it.
+        over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}
+        axes.plot(unbroken, places[vertical], color="white", linewidth=3.4, **over)
+        axes.plot(unbroken, places[vertical], color="#B22222", label=label, **look, **over)
         _label_places(axes, places, x, vertical)
     axes.grid(False)
     for axis, name in ((axes.xaxis, x), (axes.yaxis, vertical)):
@@ -70,7 +71,7 @@ def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> No
         side = "left" if share < 0.04 else "right" if share > 0.96 else "center"
         box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
         at = value, float(places[vertical][index])
-        axes.text(*at, words, fontsize="x-small", ha=side, va="center", bbox=box)
+        axes.text(*at, words, fontsize="x-small", ha=side, va="center", bbox=box, zorder=4)
 
 
 def draw_cells(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarMappable:

@@ -57,14 +57,16 @@ def markdown(outcomes: Sequence[Outcome]) -> str:
         statement = outcome.statement
         word = verdict(outcome)
         cells = (
-            statement.place,
-            statement.sentence,
-            statement.criterion,
-            _measured(outcome),
+            *map(_escaped, (statement.place, statement.sentence, statement.criterion, _measured(outcome))),
             word if word == "holds" else f"**{word}**",
         )
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
+
+
+def _escaped(cell: str) -> str:
+    """Without the signs that Markdown would take for its own."""
+    return cell.replace("|", "\\|").replace("*", "\\*")
 
 
 def _measured(outcome: Outcome) -> str:

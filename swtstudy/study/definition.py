@@ -11,7 +11,8 @@ from typing import Any
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Range, read_grid
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.mistakes import Mistake, StudyError, meant
+from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import FigureLayout, check_figure
 
 
@@ -31,6 +32,17 @@ class Study:
         Layout of the figure, or None.
     text
         The study file as it was read; goes into the archive.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> study = swtstudy.Study.from_text('''
+    ... title = "Three phases"
+    ... [axes]
+    ... phase = { start = 0, stop = "pi", num = 3 }
+    ... ''')
+    >>> study.grid.shape, study.rtol
+    ((3,), 0.0001)
     """
 
     title: str
@@ -99,7 +111,9 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str) -> Study:
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
-        names = list(raw["axes"]) if isinstance(raw.get("axes"), dict) else []
+        # A misspelt axis counts as the one that was meant: the figure shall not be blamed for it.
+        axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
+        names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
 
         def report(key: str, found: str, allowed: str) -> None:
             mistakes.append(Mistake(key, found, allowed, source))

@@ -38,8 +38,6 @@ _FIGURE_DESCRIPTIONS = {
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
 
-_SHAPES = {name: profile for profile, names in PROFILE_SHAPES.items() for name in names}
-
 
 def study_schema() -> dict[str, Any]:
     """The JSON schema of study files: their structure, and the table of parameters."""
@@ -101,8 +99,11 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
 
 
 def _words(parameter: Parameter) -> str:
-    owner = f"; of the {_SHAPES[parameter.name].replace('_', ' ')}" if parameter.name in _SHAPES else ""
-    return f"{parameter.meaning}: {parameter.allowed}{owner}"
+    owners = [
+        profile.replace("_", " ") for profile, names in PROFILE_SHAPES.items() if parameter.name in names
+    ]
+    of = f"; of the {' and the '.join(owners)}" if owners else ""
+    return f"{parameter.meaning}: {parameter.allowed}{of}"
 
 
 def _without_titles(part: Any) -> Any:

@@ -58,7 +58,7 @@ def physical(
     flat_radius, waviness_amplitude, wavelength
         b, h, λ: lengths of profiles that have them.
     similar
-        Largest |β| of Dundurs at which the bodies count as similar (eq. 1).
+        Largest magnitude of Dundurs' β at which the bodies count as similar (eq. 1).
 
     Returns
     -------
@@ -71,7 +71,8 @@ def physical(
 
     Examples
     --------
-    >>> contact = physical(
+    >>> import swtstudy
+    >>> contact = swtstudy.physical(
     ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=200.0,
     ...     friction=0.5, tangential_amplitude=0.002,
     ... )

@@ -1,0 +1,75 @@
+"""The reference of study files, from their JSON schema."""
+
+import json
+from typing import Any
+
+from build_steps.markdown import table
+from swtstudy.study.schema import study_schema
+
+_HEAD = ("key", "meaning", "value", "default")
+
+
+def study_file() -> str:
+    """One table for each table of a study file."""
+    schema = study_schema()
+    keys, parts = schema["properties"], schema["$defs"]
+    required = set(schema.get("required", ()))
+    plain = {name: entry for name, entry in keys.items() if name not in ("fixed", "axes", "figure")}
+    return "\n".join(
+        [
+            "## Top of the file\n",
+            _table(plain, required),
+            f"## `[fixed]`\n\n{keys['fixed']['description']}\n",
+            _parameters(keys["fixed"]["properties"]),
+            f"## `[axes]`\n\n{keys['axes']['description']} The names and ranges of their values are those of "
+            "`[fixed]`. A range has\n",
+            _table(parts["RangeTable"]["properties"], set(parts["RangeTable"]["required"])),
+            f"## `[figure]`\n\n{keys['figure']['description']}\n",
+            _table(parts["FigureTable"]["properties"], set(parts["FigureTable"]["required"])),
+        ]
+    )
+
+
+def _table(entries: dict[str, Any], required: set[str]) -> str:
+    rows = (
+        (
+            f"`{name}`",
+            entry["description"],
+            _value(entry),
+            "required" if name in required else _default(entry),
+        )
+        for name, entry in entries.items()
+    )
+    return table(_HEAD, rows)
+
+
+def _parameters(entries: dict[str, Any]) -> str:
+    """The meaning of a parameter says already what it may be."""
+    rows = ((f"`{name}`", entry["description"], _default(entry)) for name, entry in entries.items())
+    return table(("key", "meaning and values", "default"), rows)
+
+
+def _default(entry: dict[str, Any]) -> str:
+    value = entry.get("default")
+    if isinstance(value, float):
+        return f"`{value:.6g}`"
+    return "–" if value is None else f"`{json.dumps(value, ensure_ascii=False)}`"
+
+
+def _value(entry: dict[str, Any]) -> str:
+    """What a value may be, in words."""
+    if "enum" in entry:
+        names = entry["enum"]
+        return ", ".join(f"`{name}`" for name in names) if len(names) <= 5 else "name of an axis"
+    if "anyOf" in entry:
+        return " or ".join(_value(each) for each in entry["anyOf"] if each.get("type") != "null")
+    if entry.get("type") == "array":
+        return f"a list of {_value(entry['items'])}s"
+    kinds = entry.get("type", "any")
+    words = " or ".join(_WORDS.get(kind, kind) for kind in ([kinds] if isinstance(kinds, str) else kinds))
+    limits = [f"{sign} {entry[key]:g}" for key, sign in _LIMITS.items() if key in entry]
+    return " ".join([words, ", ".join(limits)]).strip()
+
+
+_WORDS = {"string": "text", "boolean": "true or false"}
+_LIMITS = {"exclusiveMinimum": ">", "minimum": "≥", "maximum": "≤"}

@@ -1,0 +1,41 @@
+"""Sphinx: pages in MyST Markdown; what the package or the README already says is generated, never retyped."""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+
+from build_steps.generate import generate  # noqa: E402
+
+import swtstudy  # noqa: E402
+
+project = "swtstudy"
+author = "The swtstudy developers"
+version = release = swtstudy.__version__
+
+extensions = [
+    "build_steps.checked_by",
+    "build_steps.mathml",
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+]
+exclude_patterns = ["build_steps", "generated/*.md"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+# The notebook is shown with the outputs that are committed; a test holds them against a run.
+nb_execution_mode = "off"
+default_role = "py:obj"
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # docstrings say shapes and units
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+html_math_renderer = "mathml"
+html_theme = "furo"
+html_static_path = ["static"]
+html_css_files = ["style.css"]
+html_title = f"swtstudy {release}"
+html_show_copyright = False
+
+generate(HERE / "generated")
