@@ -24,6 +24,8 @@ FIRST_WIDTH, SHRINKING = 0.25, 0.2
 #: How the width shrinks while the best position is the outermost one.
 WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT, LARGEST_ROUND_COUNT = 2, 9
+#: Local maxima times squared intervals of the cycle that one look takes at a time: its memory is bounded.
+PART_SIZE = 400_000
 #: Share of the last round's change that the next one would make at most.
 CHANGE_SHARE = 0.03
 #: Error left to the search over x, and least error that is claimed, as shares of the tolerance.
@@ -181,13 +183,17 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     positions = positions_of_first_look(split.cycle, scene.profile)
     look = first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
     climb = _Climb.start(split, look, scene, positions)
+    largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)
     for _ in range(LARGEST_ROUND_COUNT):
         active = np.flatnonzero(~climb.settled)
         if not active.size:
             break
         before = climb.column.copy()
-        twins = _step(split, positions, climb, active, accuracy)
-        climb = climb.without_followers(climb.column != before).joined(twins)
+        parts = np.array_split(active, -(-active.size // largest_part))
+        twins = [_step(split, positions, climb, part, accuracy) for part in parts]
+        climb = climb.without_followers(climb.column != before)
+        for some in twins:
+            climb = climb.joined(some)
         largest = np.zeros(len(scene))
         np.maximum.at(largest, climb.point, climb.top)
         share = CANDIDATE_SHARES[climb.rounds.clip(0, len(CANDIDATE_SHARES) - 1)]

@@ -93,16 +93,19 @@ class FirstLook:
     ----------
     swt, double_angle
         Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad.
-    begin, end
-        Shape (n, X, T): ends of the interval of the cycle in which each instant is.
+    interval
+        Shape (n, X, T): interval of the cycle in which each instant of `history` is, or whose mirror image.
+    first, last
+        Shape (n, 2, i): intervals of the whole cycle that each interval, and its mirror image, is made of.
     history
-        What was seen there.
+        What was seen there; where both sides are alike, the second half is the mirror image of the first.
     """
 
     swt: FloatArray
     double_angle: FloatArray
-    begin: FloatArray
-    end: FloatArray
+    interval: NDArray[np.intp]
+    first: NDArray[np.intp]
+    last: NDArray[np.intp]
     history: History
 
     def closer(
@@ -134,13 +137,14 @@ class FirstLook:
             for curve in (stress, strain, -strain):
                 high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
                 hot |= curve >= high - HOT * (high - low)
-        kept = np.zeros((len(point), scene.cycle.begin.shape[1]), dtype=bool)
         row, instant = np.nonzero(hot)
-        begin, end = (v[point[row], column[row], instant, None] for v in (self.begin, self.end))
-        low, high = scene.cycle.begin[point[row]], scene.cycle.end[point[row]]
-        hit, interval = np.nonzero(np.minimum(high, end) - np.maximum(low, begin) > NO_STRETCH)
-        kept[row[hit], interval] = True
-        return angle, kept
+        count = self.interval.shape[-1]
+        at = point[row], instant // count, self.interval[point[row], column[row], instant % count]
+        # Ranges of intervals, as steps up and down.
+        steps = np.zeros((len(point), scene.cycle.begin.shape[1] + 1), dtype=np.intp)
+        np.add.at(steps, (row, self.first[at]), 1)
+        np.add.at(steps, (row, self.last[at] + 1), -1)
+        return angle, np.cumsum(steps, axis=1)[:, :-1] > 0
 
 
 def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
@@ -163,17 +167,19 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     line = SurfaceLine(cycle, scene.profile, position, resolution.digits)
     nodes, _ = cosine_nodes(cycle, stretches(cycle, scene.profile.depth(position)), resolution.nodes)
     history = line.history(nodes)
-    flat = nodes.index.reshape(len(scene), -1)
-    interval = gather(nodes.interval, flat)
-    begin, end = (gather(v, interval).reshape(nodes.index.shape) for v in (cycle.begin, cycle.end))
+    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(nodes.index.shape)
+    # An interval of the first half may reach beyond it, and its mirror image into several.
+    begin, end = (np.stack([v, v + np.pi], axis=1)[..., None] for v in (cycle.begin, cycle.end))
+    first = (scene.cycle.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
+    last = np.maximum((scene.cycle.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
+    first, last = (np.minimum(v, scene.cycle.begin.shape[1] - 1) for v in (first, last))
     if mirrored:
         history = history.with_mirror_image()
-        begin, end = (np.concatenate([v, v + np.pi], axis=-1) for v in (begin, end))
     sides = (
         coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
     )
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    return FirstLook(swt, angle, begin, end, history)
+    return FirstLook(swt, angle, interval, first, last, history)
 
 
 def refine(
