@@ -24,6 +24,8 @@ COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TERMS = (1, 2, 4, 8, 16, 32, 64)
 REPEATS, SOME = 3, 64
+#: Points in a call, p and q, whose memory is measured.
+BATCHES = ((1, 1, 1), (64, 1, 1), (4096, 1, 1), (64, 1, 4), (2, 1, 64), (2, 32, 1))
 START_UP = {
     "python -c pass": ["-c", "pass"],
     "swtstudy --help": ["-m", "swtstudy", "--help"],
@@ -31,8 +33,9 @@ START_UP = {
     "import swtstudy and the first value": ["-c", "import swtstudy; swtstudy.solve(phase=0.3)"],
 }
 PEAK = (
-    "import resource, sys; from scaling import batch; from swtstudy.mechanics import solve_points;"
-    "solve_points(batch(int(sys.argv[1]))); print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+    "import sys; from scaling import batch; from swtstudy.mechanics import solve_points;"
+    "solve_points(batch(*map(int, sys.argv[1:])));"
+    "print(next(line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM')))"
 )
 
 
@@ -71,12 +74,11 @@ def start_up(arguments: list[str]) -> float:
     return float(np.median(times))
 
 
-def peak_memory(count: int) -> float:
-    """Largest memory of a process that solves so many points in one call, MB."""
-    run = subprocess.run(
-        [sys.executable, "-c", PEAK, str(count)], check=True, capture_output=True, text=True, cwd="studies"
-    )
-    return float(run.stdout)
+def peak_memory(*arguments: int) -> float:
+    """Largest memory of a process that solves a `batch` in one call, MB."""
+    command = [sys.executable, "-c", PEAK, *map(str, arguments)]
+    run = subprocess.run(command, check=True, capture_output=True, text=True, cwd="studies")
+    return float(run.stdout) / 1024
 
 
 def main() -> None:
@@ -100,13 +102,13 @@ def main() -> None:
         axes.set_xlabel(words)
         axes.set_title(f"∝ x^{exponent:.2f} at the end", fontsize="small")
         axes.grid(color="0.9", linewidth=0.6)
-        lines += [f"| {words} | " + " | ".join(f"{value:.3g}" for value in x) + " |"]
+        lines += [f"| {words} | " + " | ".join(f"{value:.4g}" for value in x) + " |"]
         lines += ["|---" * (len(x) + 1) + "|"]
         lines += ["| ms a value | " + " | ".join(f"{value:.3g}" for value in y) + " |", ""]
         lines += [f"Over the second half of the samples the cost grows like the power {exponent:.2f}.", ""]
     panels[0].set_ylabel("ms a value")
-    lines += ["| points in a call | peak memory of the process, MB |", "|---|---|"]
-    lines += [f"| {count} | {peak_memory(count):.0f} |" for count in COUNTS[::2]]
+    lines += ["| points in a call, p, q | peak memory of the process, MB |", "|---|---|"]
+    lines += [f"| {n}, {p}, {q} | {peak_memory(n, p, q):.0f} |" for n, p, q in BATCHES]
     lines += ["", "| start-up (median of 5 processes) | s |", "|---|---|"]
     lines += [f"| {words} | {start_up(arguments):.2f} |" for words, arguments in START_UP.items()]
     RESULTS.mkdir(exist_ok=True)

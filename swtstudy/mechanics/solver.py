@@ -17,8 +17,10 @@ from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.surface_circle import circle_gain
 from swtstudy.mechanics.swt_line import Scene
 
-#: Points times turning instants of one batch: enough to hide the interpreter, and the memory is bounded.
+#: Points times turning instants of one batch: enough to hide the interpreter.
 BATCH_SIZE = 1600
+#: The same with the square of the turning instants, which are instants and positions: the memory is bounded.
+BATCH_SQUARES = 60_000
 #: So many batches may share the contact solutions that are held at a time.
 SHARING = 8
 
@@ -72,7 +74,7 @@ def _batches(points: Points) -> Iterator[tuple[NDArray[np.intp], Cycle]]:
     ratio = np.stack([points.p, points.q])[:, order]
     for group in np.split(order, np.flatnonzero((np.diff(ratio, axis=1) != 0).any(axis=0)) + 1):
         turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
-        size = max(BATCH_SIZE // turns, 1)
+        size = max(min(BATCH_SIZE // turns, BATCH_SQUARES // turns**2), 1)
         for sharing in _split(group, SHARING * size):
             # One contact solution for all profiles.
             protocol, load = _shared_protocols(points, sharing)
