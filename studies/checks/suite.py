@@ -1,0 +1,31 @@
+"""How long the paper's suite takes: Figures 3 to 8 at rtol 1e-4 on 2 workers, archives included, figures not.
+
+python studies/checks/suite.py > results/suite.txt
+"""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+
+from swtstudy import Study, run
+
+FIGURES = range(3, 9)
+
+
+def main() -> None:
+    total_points, total = 0, 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        for number in FIGURES:
+            study = Study.from_toml(f"studies/figure{number}.toml")
+            begin = time.perf_counter()
+            dataset = run(study, Path(folder) / f"figure{number}.nc")
+            seconds = time.perf_counter() - begin
+            total_points, total = total_points + dataset.s.size, total + seconds
+            print(f"figure {number}: {dataset.s.size:5d} values in {seconds:5.1f} s", flush=True)
+    print(f"all:      {total_points:5d} values in {total:5.1f} s, {1e3 * total / total_points:.1f} ms a value")
+
+
+if __name__ == "__main__":
+    main()
