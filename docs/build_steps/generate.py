@@ -19,7 +19,7 @@ _SECTIONS = {
     "readme_studies": "Studies and figures",
     "readme_physical": "Physical units",
     "readme_long_runs": "Studies that run long",
-    "readme_accuracy": "How accurate",
+    "readme_accuracy": "How fast and how accurate",
     "readme_field": "The field beneath the contact",
     "readme_line": "Where the surface line is enough",
     "readme_stability": "Stable where methods fail",
@@ -30,8 +30,10 @@ _SECTIONS = {
 _PAGES = {
     "docs/index.md": "index.md",
     "results/accuracy.md": "accuracy.md",
+    "results/accuracy_speed.md": "accuracy.md",
     "results/audit_parameter_box.md": "accuracy.md",
     "results/field_speed.md": "accuracy.md",
+    "results/scaling.md": "accuracy.md",
     "results/statements.md": "statements.md",
     "studies/explore.ipynb": "generated/explore.ipynb",
 }

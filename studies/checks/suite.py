@@ -24,7 +24,9 @@ def main() -> None:
             seconds = time.perf_counter() - begin
             total_points, total = total_points + dataset.s.size, total + seconds
             print(f"figure {number}: {dataset.s.size:5d} values in {seconds:5.1f} s", flush=True)
-    print(f"all:      {total_points:5d} values in {total:5.1f} s, {1e3 * total / total_points:.1f} ms a value")
+    print(
+        f"all:      {total_points:5d} values in {total:5.1f} s, {1e3 * total / total_points:.1f} ms a value"
+    )
 
 
 if __name__ == "__main__":

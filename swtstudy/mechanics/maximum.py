@@ -14,7 +14,7 @@ from swtstudy.mechanics.positions import PositionBrackets, Positions, positions_
 from swtstudy.mechanics.swt_line import FirstLook, Resolution, Scene, first_look, refine
 
 #: Planes that the first look tries.
-SCAN_PLANES = 20
+SCAN_PLANES = 24
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, digits=3.5)
 #: Local maxima below these shares of the largest are not followed, after the first look and each round.
 CANDIDATE_SHARES = np.array([0.85, 0.97, 0.995, 0.999])

@@ -1,0 +1,50 @@
+"""Points whose largest swt is one of several narrow maxima, all of which a search along the line once missed.
+
+The values are those of an independent solver (a compiled march of the springs with product integration,
+searched densely), to 1e-8.
+"""
+
+from __future__ import annotations
+
+import pytest
+from scenes import points
+
+from swtstudy.mechanics import solve_points
+
+# Profile, then ν, μ, δA/δ0, amplitude, ψ, p, q, the profile's lengths, and s.
+CASES = [
+    ("paraboloid", (0.37, 0.45, 0.95, 0.9, 0.5235987755993461, 1, 1), {}, 0.3067967778),
+    ("paraboloid", (0.17, 0.1, 0.675, 0.925, 0.06981317007907506, 5, 1), {}, 0.0626786823),
+    (
+        "rounded_punch",
+        (0.47, 0.775, 0.85, 0.05, 1.1344640137959652, 2, 1),
+        {"flat_radius": 0.4},
+        0.0357302665,
+    ),
+    (
+        "wavy_paraboloid",
+        (0.46, 0.575, 0.375, 0.775, 0.5235987755993461, 3, 2),
+        {"waviness_amplitude": 0.015, "wavelength": 8.0},
+        0.5552813462,
+    ),
+    (
+        "wavy_paraboloid",
+        (0.02, 0.9, 0.15, 0.775, 0.3141592653589793, 5, 4),
+        {"waviness_amplitude": 0.085, "wavelength": 8.0},
+        1.1069920896,
+    ),
+    # Gross slip: next to the singular edge, at ln(1/ε) of some 31.
+    (
+        "truncated_paraboloid",
+        (0.3, 0.95, 0.75, 5 / 6, 1.5, 1, 1),
+        {"flat_radius": 1.0},
+        2.0695997068,
+    ),
+]
+
+
+@pytest.mark.parametrize(("profile", "values", "lengths", "s"), CASES)
+def test_the_largest_of_narrow_maxima(profile, values, lengths, s):
+    found = solve_points(points(profile, *values, **lengths), 1e-4)
+    assert found.s[0] == pytest.approx(s, rel=1e-4)
+    assert found.s_error[0] <= 2e-4 * s
