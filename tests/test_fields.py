@@ -59,7 +59,7 @@ def test_field_on_the_surface_is_that_of_the_line(profile):
     expected = stresses(history, scene.poisson_ratio, scene.friction, 1.0)
     field = swtstudy.stress_field(r[0], 0.0, 0.0, time=2 * instant, **parameters)
     for name, values in zip(("xx", "yy", "zz", "xz"), expected, strict=True):
-        np.testing.assert_allclose(field[f"sigma_{name}"], values[0].T, rtol=0, atol=5e-7)
+        np.testing.assert_allclose(field[f"sigma_{name}"], values[0].T, rtol=0, atol=3e-8)
 
 
 @pytest.mark.parametrize("profile", ALL_PROFILES)

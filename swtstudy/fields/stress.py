@@ -10,9 +10,8 @@ from swtstudy.fields.places import as_given, read_places, read_time
 from swtstudy.mechanics.body import Body
 from swtstudy.mechanics.field.punch import COMPONENTS
 
-#: Cells of a profile that is not a paraboloid: stresses to 1e-8 p0 at depths of more than 0.03 a_H; and with
-#: more cells to 5e-8 p0 nearer to the surface and on it.
-_CELLS, _DEEP, _CELLS_NEAR_SURFACE = 200, 0.03, 800
+#: Cells that give the stress to 1e-8 p0 at depths, in a_H, of more than so much: more towards the surface.
+_CELLS = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
 
 
 def stress_field(
@@ -45,7 +44,8 @@ def stress_field(
     scene = read_scene(parameters)
     places = read_places(x, y, z)
     instants, nodes = read_time(scene, time)
-    cells = _CELLS if float(places[2].min()) > _DEEP else _CELLS_NEAR_SURFACE
+    least_depth = float(places[2].min())
+    cells = next(count for depth, count in _CELLS if least_depth > depth)
     history = Body.of(scene, nodes, cells).stress(*(place.values for place in places))
     dims = (*instants.dims, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape, *places[0].shape, 6)
