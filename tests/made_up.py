@@ -1,4 +1,4 @@
-"""Made-up results for the tests of the statements."""
+"""Made-up results and a study for the tests."""
 
 from __future__ import annotations
 
@@ -13,6 +13,23 @@ from swtstudy.grid.canonical import COLUMNS
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
+
+#: A study with a figure of two panels and two rows.
+PANELS = """
+title = "Panels"
+[axes]
+phase = [0, "pi"]
+frequency_ratio = ["1/2", 1, "3/2"]
+flat_radius = {start = 0, stop = 2, num = 5}
+[fixed]
+profile = "rounded_punch"
+[figure]
+x = "flat_radius"
+hue = "frequency_ratio"
+panels = "phase"
+y = ["s", "s/s(flat_radius=0)"]
+title = "A title"
+"""
 
 
 def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset:

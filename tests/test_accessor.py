@@ -7,31 +7,16 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from made_up import made_up
+from made_up import PANELS, made_up
 
 import swtstudy
 from swtstudy import Study, run
 from swtstudy.results.normalise import normalised, normalised_error
 
-STUDY = """
-title = "Panels"
-[axes]
-phase = [0, "pi"]
-frequency_ratio = ["1/2", 1, "3/2"]
-flat_radius = {start = 0, stop = 2, num = 5}
-[fixed]
-profile = "rounded_punch"
-[figure]
-x = "flat_radius"
-hue = "frequency_ratio"
-panels = "phase"
-y = ["s", "s/s(b=0)"]
-"""
-
 
 @pytest.fixture
 def dataset(tmp_path):
-    run(Study.from_text(STUDY), tmp_path / "study.nc", solver=stand_in.smooth)
+    run(Study.from_text(PANELS), tmp_path / "study.nc", solver=stand_in.smooth)
     return swtstudy.open_results(tmp_path / "study.nc")
 
 

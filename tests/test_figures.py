@@ -4,6 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
+from made_up import PANELS
 
 from swtstudy import Study, run
 from swtstudy.figures.draw import draw
@@ -12,22 +13,6 @@ from swtstudy.figures.style import STYLE
 from swtstudy.figures.words import value_words
 from swtstudy.results.normalise import normalised
 from swtstudy.study.figure import FigureLayout
-
-PANELS = """
-title = "Panels"
-[axes]
-phase = [0, "pi"]
-frequency_ratio = ["1/2", 1, "3/2"]
-flat_radius = {start = 0, stop = 2, num = 5}
-[fixed]
-profile = "rounded_punch"
-[figure]
-x = "flat_radius"
-hue = "frequency_ratio"
-panels = "phase"
-y = ["s", "s/s(flat_radius=0)"]
-title = "A title"
-"""
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from swtstudy.mechanics.points import Points, Solution
 def cheap(points: Points, rtol: float) -> Solution:
     """Next to no work: what a run takes with it is the runner's own."""
     s = 0.1 + 0.01 * points.normal_amplitude * np.cos(points.phase) + points.friction
-    return Solution(s, rtol * s, 1 + points.phase, np.sin(points.phase), np.ones(len(points), np.int8))
+    return Solution(s, rtol * s, 1 + points.phase, np.sin(points.phase), np.ones(len(points), np.int8), s)
 
 
 def logged(log: str, points: Points, rtol: float) -> Solution:

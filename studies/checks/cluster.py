@@ -16,21 +16,9 @@ import time
 from pathlib import Path
 
 import xarray as xr
+from two_thousand import STUDY, same_values
 
 from swtstudy import Study, open_results, run
-
-STUDY = """
-title = "2,000 points"
-rtol = 1e-4
-[axes]
-phase = {start = 0, stop = 3, num = 100}
-friction = {start = "0.05", stop = 1, num = 20}
-"""
-
-
-def same(one: xr.Dataset, other: xr.Dataset) -> None:
-    """Everything but the provenance is the same, to the last bit."""
-    xr.testing.assert_equal(one.drop_attrs().drop_vars("run"), other.drop_attrs().drop_vars("run"))
 
 
 def killed_worker(folder: Path, expected: xr.Dataset, seconds: float) -> None:
@@ -48,7 +36,7 @@ def killed_worker(folder: Path, expected: xr.Dataset, seconds: float) -> None:
         found = run(Study.from_text(STUDY), folder / "local-cluster.nc", client=client)
         print(f"LocalCluster, worker {victim} killed half way: {time.perf_counter() - begin:.1f} s")
         assert timer.finished.is_set()
-    same(found, expected)
+    same_values(found, expected)
     print("  the very values of the undisturbed run")
 
 
@@ -70,7 +58,7 @@ def separate_processes(folder: Path, expected: xr.Dataset) -> None:
         done = subprocess.run(command, **{**options, "stderr": None}, stdout=subprocess.PIPE, text=True)
         print(f"swtstudy run study.toml --scheduler {address}: exit code {done.returncode}")
         print("  " + done.stdout.strip())
-        same(open_results(folder / "results" / "study.nc"), expected)
+        same_values(open_results(folder / "results" / "study.nc"), expected)
         print("  the very values of the undisturbed run")
     finally:
         for process in reversed(processes):

@@ -19,6 +19,7 @@ from typing import Any
 
 import xarray as xr
 from cheap import cheap, logged
+from two_thousand import STUDY, same_values
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
@@ -30,14 +31,6 @@ WORKERS = 2
 
 #: Chunks that the pool of local workers is given at once.
 IN_FLIGHT = 2 * WORKERS
-
-RUN = """
-title = "2,000 points"
-rtol = 1e-4
-[axes]
-phase = {start = 0, stop = 3, num = 100}
-friction = {start = "0.05", stop = 1, num = 20}
-"""
 
 WRITE = """
 title = "An archive that takes a while to write"
@@ -78,11 +71,6 @@ def workers_of(process: int) -> list[int]:
         return []
 
 
-def same_values(one: xr.Dataset, other: xr.Dataset) -> None:
-    """Everything but the provenance is the same, to the last bit."""
-    xr.testing.assert_equal(one.drop_attrs().drop_vars("run"), other.drop_attrs().drop_vars("run"))
-
-
 def computed(log: Path) -> int:
     """Points that were ever computed to the end."""
     return sum(map(int, log.read_text().split())) if log.exists() else 0
@@ -96,7 +84,7 @@ def largest_chunk(log: Path) -> int:
 def kills_of_runs(folder: Path, dice: random.Random) -> None:
     """Kill runs of 2,000 points, again and again, and let each end."""
     begin = time.perf_counter()
-    expected = run(Study.from_text(RUN), folder / "undisturbed.nc")
+    expected = run(Study.from_text(STUDY), folder / "undisturbed.nc")
     seconds = time.perf_counter() - begin
     print(f"undisturbed run of {expected.s.size} points on {WORKERS} workers: {seconds:.1f} s")
     print(
@@ -127,7 +115,7 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
                 f"({saved - before:3d} more), {lost:3d} lost, at most {bound:3d} were in flight",
                 flush=True,
             )
-        final = run(Study.from_text(RUN), path, solver=partial(logged, str(log)))
+        final = run(Study.from_text(STUDY), path, solver=partial(logged, str(log)))
         same_values(final, expected)
         assert not parts_folder(path).exists()
         print(f"run {rounds} ends with the very values of the undisturbed one, nothing else is left")
@@ -136,7 +124,7 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
 
 def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> None:
     """Start a run, and kill it, or first one of its workers, at a random moment after its first block."""
-    process = start("run", RUN, path, log)
+    process = start("run", STUDY, path, log)
     at = computed(log)
     while computed(log) == at and process.poll() is None:
         time.sleep(0.01)
