@@ -94,24 +94,26 @@ def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
     assert loads(table) == 3
 
 
-def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads():
+def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monkeypatch):
+    monkeypatch.setattr("swtstudy.runner.plan._BLOCK_SIZE", 256)
     phases = [i / 10 for i in range(5)]
-    axes = {"phase": phases, "friction": [i / 10 for i in range(1, 13)], "frequency_ratio": [1, "1/4"]}
+    axes = {"phase": phases, "friction": [i / 25 for i in range(1, 26)], "frequency_ratio": [1, "1/4"]}
     table = unique_points(grid_of(**axes)).table
     blocks = np.split(table, block_ends(table)[:-1])
     assert all(len(np.unique(block[:, :3], axis=0)) == 1 for block in blocks)
-    assert {len(block) for block in blocks} == {24, 12}  # two loads with a ratio of 1, one with 1/4
+    # Two and three loads with a ratio of 1; with 1/4 one, and cuts where that would be too small a block.
+    assert [len(block) for block in blocks] == [50, 75, 25, 25, 43, 32]
     assert sum(map(len, blocks)) == len(table)
 
 
 def test_a_load_that_is_larger_than_a_block_is_cut():
-    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
-    assert np.diff(block_ends(table), prepend=0).tolist() == [32, 32, 32, 4]
+    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 601)])).table
+    assert np.diff(block_ends(table), prepend=0).tolist() == [150, 150, 150, 150]
 
 
 def test_a_split_chunk_is_the_same_points():
-    table = unique_points(grid_of(friction=[i / 100 for i in range(1, 101)])).table
-    (chunk,) = chunks(table, np.ones(100, bool), lambda: 1e9)
+    table = unique_points(grid_of(friction=[i / 10 for i in range(1, 71)])).table
+    (chunk,) = chunks(table, np.ones(70, bool), lambda: 1e9)
     parts = list(chunk.split())
-    assert [len(part) for part in parts] == [32, 32, 32, 4]
-    assert [part.rows.tolist() for part in parts[3].split()] == [[96], [97], [98], [99]]
+    assert [len(part) for part in parts] == [35, 35]
+    assert [part.rows.tolist() for part in parts[1].split()] == [list(range(35, 52)), list(range(52, 70))]

@@ -19,7 +19,11 @@ from swtstudy.runner import records, work
 from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
 
-LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 4, num = 400}\n'
+#: Long cycles, so that a block has some thirty points.
+LINE = (
+    'title = "t"\nrtol = 1e-3\n[fixed]\nfrequency_ratio = "1/15"\n'
+    '[axes]\nfriction = {start = "0.01", stop = 4, num = 400}\n'
+)
 #: So many that a run of the slow stand-in does not end before it is stopped.
 LONG = LINE.replace("num = 400", "num = 3000")
 
@@ -153,9 +157,10 @@ def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
     # One block a chunk: the pace is taken for very slow.
     monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)
     with pytest.raises(Stopped):
-        run(line, path, solver=stand_in.Interrupting(320), workers=1)
+        run(line, path, solver=stand_in.Interrupting(280), workers=1)
+    # Ten of fourteen blocks.
     assert len(list(parts_folder(path).glob("*.npz"))) == 3 + 1
-    assert len(read_parts(parts_folder(path))) == 320
+    assert len(read_parts(parts_folder(path))) == 285
     assert np.isfinite(run(line, path, solver=stand_in.smooth, workers=1).s).all()
 
 

@@ -48,8 +48,8 @@ class Chunk:
         return f"points-{self.rows[0]}-{len(self)}"
 
     def split(self) -> Iterator[Chunk]:
-        """Its blocks, or the points of its only block, as chunks of their own."""
-        lengths = self.lengths if len(self.lengths) > 1 else (1,) * len(self)
+        """Its blocks, or the halves of its only block, as chunks of their own."""
+        lengths = self.lengths if len(self.lengths) > 1 else (len(self) // 2, -(-len(self) // 2))
         start = 0
         for length in lengths:
             part = slice(start, start + length)
@@ -98,21 +98,27 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     start = 0
     for length in chunk.lengths:
         block = chunk.table[start : start + length]
-        try:
-            solutions.append(_checked(block, rtol, solver))
-        except Exception:
-            # One of them fails: the others shall not.
-            for offset in range(length):
-                try:
-                    solutions.append(_checked(block[offset : offset + 1], rtol, solver))
-                except Exception as error:
-                    solutions.append(blank(1))
-                    messages[start + offset] = f"{type(error).__name__}: {error}"
+        solutions += _kept_apart(block, rtol, solver, start, messages)
         start += length
     failed = np.zeros(len(chunk), bool)
     failed[list(messages)] = True
     seconds = time.perf_counter() - begin
     return Result(chunk.rows, joined(solutions), failed, messages, seconds, SOLVER_VERSION)
+
+
+def _kept_apart(
+    table: FloatArray, rtol: float, solver: Solver, start: int, messages: dict[int, str]
+) -> list[Solution]:
+    """Solve points; where one fails, the others do not. Its message goes to its number from ``start``."""
+    try:
+        return [_checked(table, rtol, solver)]
+    except Exception as error:
+        if len(table) == 1:
+            messages[start] = f"{type(error).__name__}: {error}"
+            return [blank(1)]
+    half = len(table) // 2
+    first = _kept_apart(table[:half], rtol, solver, start, messages)
+    return first + _kept_apart(table[half:], rtol, solver, start + half, messages)
 
 
 def given_up(chunk: Chunk, message: str) -> Result:

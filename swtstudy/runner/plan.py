@@ -22,8 +22,11 @@ _FAMILY = slice(0, _Q + 1)
 #: Columns that make the load.
 _LOAD = slice(1, _PHASE + 1)
 
-#: Bounds of the points in a block. A block of 32 costs per point as little as a larger one.
-_SMALLEST_BLOCK, _LARGEST_BLOCK = 4, 32
+#: Points in a block, times their weight: about a second of work. In small blocks each point costs more.
+_BLOCK_SIZE = 512
+_SMALLEST_BLOCK = 4
+#: Points that are worth more than one block: then there are as many for one of two workers as for the other.
+_WORTH_SHARING = 64
 
 #: More grid points than this do not fit into the memory of one machine (about 0.3 kB each).
 LARGEST_GRID = 10**9
@@ -86,25 +89,20 @@ def block_ends(table: FloatArray) -> IntArray:
     A block has one profile and one frequency ratio, and ends between two loads where it can: points with
     the same load share their contact solution.
     """
-    ends: list[int] = []
-    # Last row of each stretch of the same family, and of the same load.
-    family_end = _stretch_ends(table[:, _FAMILY])
     load_end = _stretch_ends(table[:, : _PHASE + 1])
-    load_begin = np.concatenate([[0], load_end[:-1]])[
-        np.searchsorted(load_end, np.arange(len(table)), "right")
-    ]
-    sizes = np.clip(64 // weights(table), _SMALLEST_BLOCK, _LARGEST_BLOCK).tolist()
-    start, family = 0, 0
-    while start < len(table):
-        while family_end[family] <= start:
-            family += 1
-        stop = min(start + sizes[start], int(family_end[family]))
-        # Only a cut that keeps at least half of the wanted size is worth it.
-        if stop < family_end[family] and load_begin[stop] - start >= sizes[start] / 2:
-            stop = int(load_begin[stop])
-        ends.append(stop)
-        start = stop
-    return np.array(ends, np.int64)
+    load_begin = np.append(0, load_end)
+    ends, begin = [], 0
+    for end in _stretch_ends(table[:, _FAMILY]).tolist():
+        length = end - begin
+        size = max(_BLOCK_SIZE // int(weights(table[begin:end]).max(initial=1)), _SMALLEST_BLOCK)
+        share = 2 if length >= _WORTH_SHARING else 1
+        count = max(share * -(-length // (share * size)), 1)
+        cuts = begin + length * np.arange(1, count + 1) // count
+        # Where the last load begins; but not at the cost of half a block.
+        between = load_begin[np.searchsorted(load_end, cuts, "right")]
+        ends.append(np.where(cuts - between <= length / count / 2.0, between, cuts))
+        begin = end
+    return np.concatenate(ends)
 
 
 def _stretch_ends(columns: FloatArray) -> IntArray:
