@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.contact import GROWTH, Cycle
 from swtstudy.mechanics.protocol import Protocol
 
 Array = NDArray[np.float64]
@@ -28,12 +28,8 @@ def protocol(
 def front_at(cycle: Cycle, instants: Array) -> tuple[Array, Array, NDArray[np.intp], NDArray[np.intp]]:
     """Slip front, sense of slip, piece in which the front lies, and interval, of the first cycle."""
     interval = np.minimum(np.searchsorted(cycle.end[0], instants, side="left"), cycle.end.shape[1] - 1)
-    depth = np.maximum(cycle.protocol.depth(instants[None]), 0.0)
-    displacement = cycle.protocol.displacement(instants[None])
-    senses = cycle.forward, cycle.backward
-    found = slip_front(cycle.protocol, cycle.memory, *senses, interval[None], depth, displacement)
-    front, sign, piece = (values[0] for values in found)
-    return front, sign, piece, interval
+    states = cycle.states(interval[None], instants[None])
+    return states.front[0], states.sign[0], states.piece[0], interval
 
 
 def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:

@@ -21,7 +21,7 @@ from swtstudy.mechanics.swt_line import Resolution, Scene, refine
 
 def scene_of(batch: Points) -> Scene:
     loads = batch.normal_amplitude, batch.tangential_amplitude, batch.phase
-    cycle = split_at_breakpoints(solve_cycle(Protocol(*loads, int(batch.p[0]), int(batch.q[0]))))
+    cycle = split_at_breakpoints(solve_cycle(Protocol(*loads, int(batch.p[0]), int(batch.q[0]))))[0]
     profile = make_profile(batch.profile, batch.shape, 1.0 + batch.normal_amplitude)
     return Scene(cycle, profile, batch.poisson_ratio, batch.friction)
 

@@ -8,7 +8,7 @@ import numpy as np
 from histories import INSTANTS, history_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.body import scene_of
 from swtstudy.mechanics.textbook import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
@@ -32,7 +32,7 @@ def _model(side: int, width: float, nu: float):
 def half_space_s(point: Points, side: int) -> float:
     """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
     nu, mu = point.poisson_ratio.item(), point.friction.item()
-    profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
+    profile = scene_of(point).profile
     largest = float(profile.radius(profile.largest_depth)[0])
     width = 2.0 * WIDTH * largest
     radius = np.linspace(1e-3, 1.01, RADII) * largest

@@ -9,7 +9,6 @@ import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import read_time
-from swtstudy.mechanics.contact import slip_front
 
 #: In the order of the flag values.
 STATES = ("open", "stick", "forward_slip", "backward_slip")
@@ -38,17 +37,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     instants, nodes = read_time(scene, time)
     radius = xr.DataArray(np.atleast_1d(np.asarray(r, dtype=float)), dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    depth = np.maximum(cycle.protocol.depth(nodes.instant[None]), 0.0)
-    displacement = cycle.protocol.displacement(nodes.instant[None])
-    front, sign, _ = slip_front(
-        cycle.protocol,
-        cycle.memory,
-        cycle.forward,
-        cycle.backward,
-        nodes.interval[None],
-        depth,
-        displacement,
-    )
+    states = cycle.states(nodes.interval[None], nodes.instant[None])
+    depth, front, sign = states.depth, states.front, states.sign
     at = profile.depth(radius.values[None])[0]
     slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
     state = np.where(at < front[0][:, None], 1, np.where(at < depth[0][:, None], slips, 0)).astype(np.int8)

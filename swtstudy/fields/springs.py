@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.body import TimeNodes
-from swtstudy.mechanics.contact import GROWTH, slip_front
+from swtstudy.mechanics.contact import held_offset
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
 
@@ -28,24 +28,14 @@ def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[F
         Shape (T, X): w in δ0, and τ = G* u_MDR/(μ E* δ0), |τ| ≤ w.
     """
     cycle = scene.cycle
-    depth = np.maximum(cycle.protocol.depth(nodes.instant[None]), 0.0)
-    u = cycle.protocol.displacement(nodes.instant[None])
-    senses = cycle.forward, cycle.backward
-    front, sign, _ = slip_front(cycle.protocol, cycle.memory, *senses, nodes.interval[None], depth, u)
-    depth, u, front, sign = (values[0][:, None] for values in (depth, u, front, sign))
-    memory = cycle.memory.take((np.zeros_like(nodes.interval), nodes.interval))
-    at = scene.profile.depth(radius[None])[0]
-    piece = np.maximum((memory.start[:, None] <= at[:, None]).sum(axis=-1) - 1, 0)
-    start, offset, slope, branch = (
-        np.take_along_axis(values, piece, axis=1)
-        for values in (memory.start, memory.offset, memory.slope, memory.branch)
+    states = cycle.states(nodes.interval[None], nodes.instant[None])
+    depth, u, front, sign = (
+        values[0][:, None] for values in (states.depth, states.displacement, states.front, states.sign)
     )
-    distance = np.where(np.isfinite(start), at - start, 0.0)
-    line = offset + np.where(slope == GROWTH, 0.0, slope) * distance
-    grown = cycle.protocol.displacement(
-        cycle.protocol.touch_down(np.broadcast_to(at, branch.shape).reshape(1, -1), branch.reshape(1, -1))
-    ).reshape(branch.shape)
-    stuck = u - np.where(slope == GROWTH, grown, line)
+    at = scene.profile.depth(radius[None])[0]
+    piece = np.maximum((cycle.memory.start[0, nodes.interval, None] <= at[:, None]).sum(axis=-1) - 1, 0)
+    pieces = cycle.memory.take((np.zeros_like(piece)[None], nodes.interval[:, None], piece))
+    stuck = u - held_offset(cycle.protocol, pieces, np.broadcast_to(at, (1, *piece.shape)))[0]
     compression = np.maximum(depth - at, 0.0)
     force = np.where(at < front, stuck, sign * compression)
     return compression, np.where(compression > 0.0, force, 0.0)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.gather import packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import Protocol, stick_depth, turning_instants
+from swtstudy.mechanics.roots import Brackets
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
@@ -53,6 +54,25 @@ class Memory:
 
 
 @dataclass(frozen=True)
+class SlipStates:
+    """Contact states at instants, arrays of shape (n, …).
+
+    Attributes
+    ----------
+    depth, displacement
+        δ ≥ 0 and u.
+    front, sign, piece
+        See `slip_front`.
+    """
+
+    depth: FloatArray
+    displacement: FloatArray
+    front: FloatArray
+    sign: FloatArray
+    piece: NDArray[np.intp]
+
+
+@dataclass(frozen=True)
 class Cycle:
     """The stationary cycle of n protocols, cut into i intervals between turning instants.
 
@@ -66,7 +86,7 @@ class Cycle:
     begin, end
         Shape (n, i): first and last instants of the intervals, φ in [0, 2π], ascending.
     number
-        Shape (n, i): number of the interval in `solve_cycle`'s division.
+        Shape (n, i): number of the interval in the division from which it was selected.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
     forward, backward
@@ -97,6 +117,21 @@ class Cycle:
         chosen = self.take_intervals(index, interval)
         empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
+
+    def numbered(self, which: NDArray[np.bool_], count: int) -> NDArray[np.bool_]:
+        """Some of the intervals, shape (n, i), by their numbers in a division of ``count``, (n, count)."""
+        row, interval = np.nonzero(which)
+        result = np.zeros((len(which), count), dtype=bool)
+        result[row, self.number[row, interval]] = True
+        return result
+
+    def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
+        """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
+        depth = np.maximum(self.protocol.depth(instant), 0.0)
+        u = self.protocol.displacement(instant)
+        senses = self.forward, self.backward
+        front, sign, piece = slip_front(self.protocol, self.memory, *senses, interval, depth, u)
+        return SlipStates(depth, u, front, sign, piece)
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""
@@ -253,10 +288,38 @@ def _front_in_piece(
     front = np.where(steep > 0.0, start + fall / np.where(steep > 0.0, steep, 1.0), end)
     grown = active & (slope == GROWTH) & (piece >= 0)
     if np.any(grown):
-        where = np.nonzero(grown)
-        one, of_piece = protocol.take(where[0]), at[where]
-        branch = memory.branch.take(of_piece)
-        low = one.touch_down(start[where], branch)
-        high = one.touch_down(memory.stop.take(of_piece), branch)
-        front[where] = one.depth(one.slip_line_instant(sense, target[where], low, high))
+        pieces = np.flatnonzero((memory.slope == GROWTH) & np.isfinite(memory.start))
+        number = np.empty(memory.slope.size, dtype=np.intp)
+        number[pieces] = np.arange(pieces.size)
+        brackets = _growth_brackets(protocol, memory, sense, pieces).take(number[at[grown]])
+        one = protocol.take(np.nonzero(grown)[0])
+        front[grown] = one.depth(one.slip_line_instant(sense, target[grown], brackets))
     return np.where(piece < 0, -np.inf, front)
+
+
+def _growth_brackets(protocol: Protocol, memory: Memory, sense: float, pieces: NDArray[np.intp]) -> Brackets:
+    """Instants at which growths, pieces numbered along the flattened memory, began and ended."""
+    one = protocol.take(pieces // (memory.slope.size // len(protocol)))
+    branch = memory.branch.take(pieces)
+    low, high = (one.touch_down(v.take(pieces), branch) for v in (memory.start, memory.stop))
+    return one.slip_line_brackets(sense, low, high)
+
+
+def held_offset(protocol: Protocol, pieces: Memory, depth: FloatArray) -> FloatArray:
+    """o(G) of the springs at ``depth`` where they stick, each in its own piece.
+
+    Parameters
+    ----------
+    protocol
+        n protocols.
+    pieces
+        One piece for each spring, shape (n, …).
+    depth
+        Shape (n, …).
+    """
+    grown = pieces.slope == GROWTH
+    distance = np.where(np.isfinite(pieces.start), depth - pieces.start, 0.0)
+    held = pieces.offset + np.where(grown, 0.0, pieces.slope) * distance
+    if np.any(grown):
+        held = np.where(grown, protocol.displacement(protocol.touch_down(depth, pieces.branch)), held)
+    return held

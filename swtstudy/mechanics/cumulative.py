@@ -1,6 +1,6 @@
 """Running integrals of smooth functions, as Chebyshev series on [−1, 1].
 
-A table holds the series of ∫_{−1}^{y} f dy′ along its last axis, so that any number of upper limits cost a
+A table holds the series of ∫_{−1}^{y} f dy′ along its first axis, so that any number of upper limits cost a
 short recurrence each, whatever the integrand cost.
 """
 
@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
@@ -38,34 +39,38 @@ def running_integral(values: FloatArray) -> FloatArray:
 
     Returns
     -------
-    Shape (…, count + 1), coefficients of T_0, T_1, …
+    Shape (count + 1, …), coefficients of T_0, T_1, …
     """
     # Not a matrix product: its rounding depends on the batch's size, and so would every tie that it decides.
-    return np.einsum("...i,ij->...j", values, _integration_matrix(values.shape[-1]))
+    return np.einsum("...i,ij->j...", values, _integration_matrix(values.shape[-1]))
 
 
-def evaluate(series: FloatArray, y: FloatArray) -> FloatArray:
+def evaluate(series: FloatArray, y: FloatArray, column: NDArray[np.intp] | None = None) -> FloatArray:
     """Value of the series at y by Clenshaw's recurrence.
 
     Parameters
     ----------
     series
-        Shape (…, k); its leading axes broadcast against y.
+        Shape (k, …), k ≥ 2; its other axes broadcast against y.
     y
         Abscissae in [−1, 1].
+    column
+        Which series along the last axis belongs to each y; all of them, in order, by default.
     """
-    if series.shape[-1] < 3:
-        return np.asarray(series[..., 0] + y * series[..., 1])
+
+    def coefficient(k: int) -> FloatArray:
+        return series[k] if column is None else series[k].take(column, axis=-1)
+
     twice = 2.0 * y
-    latest = np.broadcast_to(series[..., -1], np.broadcast_shapes(series.shape[:-1], y.shape)).copy()
-    later = series[..., -2] + twice * latest
-    spare = np.empty_like(later)
-    for k in range(series.shape[-1] - 3, 0, -1):
+    last = coefficient(-1)
+    later = np.broadcast_to(last, np.broadcast_shapes(last.shape, y.shape)).copy()
+    latest, spare = np.zeros_like(later), np.empty_like(later)
+    for k in range(len(series) - 2, 0, -1):
         np.multiply(twice, later, out=spare)
         spare -= latest
-        spare += series[..., k]
+        spare += coefficient(k)
         latest, later, spare = later, spare, latest
     np.multiply(y, later, out=spare)
     spare -= latest
-    spare += series[..., 0]
+    spare += coefficient(0)
     return spare

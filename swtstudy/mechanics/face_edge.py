@@ -24,16 +24,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
-from swtstudy.mechanics.critical_plane import best_angle, parabola, product
+from swtstudy.mechanics.critical_plane import climb_over_planes, product
 from swtstudy.mechanics.gather import pick
 from swtstudy.mechanics.instants import cosine_nodes, split_at_breakpoints, stretches
-from swtstudy.mechanics.maximum import LEAST_ERROR, Accuracy, Maximum
+from swtstudy.mechanics.local_search import Accuracy
+from swtstudy.mechanics.maximum import LEAST_ERROR, Maximum
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
 from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.protocol import Protocol, turning_instants
 from swtstudy.mechanics.surface_stress import SurfaceLine
 from swtstudy.mechanics.swt_line import Scene
+from swtstudy.mechanics.vertex import parabola
 
 #: Below this friction swt falls towards r = b from where the search over x ends.
 LEAST_FRICTION = 0.8
@@ -83,10 +85,10 @@ def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDAr
 def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt at 0 < ε ≤ `NEAREST` of n truncated paraboloids that slide, μ < 1."""
     # The instant at which the front arrives at G = 0 is a breakpoint.
-    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
     n = len(scene)
     rows = np.arange(n)
-    found = Maximum(*(np.zeros(n) for _ in range(4)))
+    found = Maximum.unknown(n, 0.0)
     radius = scene.profile.radius(scene.profile.largest_depth)
     flat = scene.profile.flat_radius
     nearest = -np.log(NEAREST * np.minimum(radius - flat, flat) / flat)
@@ -109,9 +111,7 @@ def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
             check = _swt(scene, there, side, start, 2 * steps, digits)[0][:, 0]
             error = np.abs(check - swt[rows, best]) + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * check
             larger = check > found.swt
-            new = check, error, side * flat, angle[rows, best]
-            for old, values in zip(vars(found).values(), new, strict=True):
-                old[larger] = values[larger]
+            found = found.put(larger, Maximum(check, error, side * flat, angle[rows, best]).take(larger))
     return found
 
 
@@ -132,18 +132,7 @@ def _swt(
     inside = (number % (steps + 1) % steps > 0) & (number // (steps + 1) % 3 == 0)
     history = SurfaceLine(scene.cycle, edge, position, digits).history(nodes)
     planes = scene.planes(history, side)
-    angle = np.full(distance.shape, start)
-    for _ in range(ANGLE_ROUND_COUNT):
-        stress, strain = planes.on_plane(angle)
-        peak, high, low = (
-            np.stack([pick(part, at) for part in parts])
-            for parts, at in (
-                (planes.stress, stress.argmax(axis=-1)),
-                (planes.strain, strain.argmax(axis=-1)),
-                (planes.strain, strain.argmin(axis=-1)),
-            )
-        )
-        angle = best_angle(peak, high - low, angle)
+    angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     stress, strain = planes.on_plane(angle)
     return product(_top(stress, inside), _top(strain, inside), -_top(-strain, inside)), angle
 

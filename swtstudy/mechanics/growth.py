@@ -8,6 +8,7 @@ integral is exact to rounding.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,9 @@ from swtstudy.mechanics.profiles.base import Profile
 
 #: Chebyshev nodes for each oscillation of u while the ground grows.
 NODES_PER_OSCILLATION = 1.6
+
+#: Densities at abscissae of some ranges, see `_RunningIntegrals`.
+Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
 
 
 class GrowthIntegrals:
@@ -63,36 +67,14 @@ class GrowthIntegrals:
         self.position = position[:, :, None]
         self.flat = profile.flat_radius[:, None, None]
         low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
-        y = np.sin(0.25 * np.pi * (1.0 + cumulative.nodes(count)))
-        share, rate = y * y, 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
-
-        def slope(radius: FloatArray) -> FloatArray:
-            instant = cycle.protocol.touch_down(profile.depth(radius), branch[:, None, :, None])
-            du, dd = cycle.protocol.displacement_rate(instant), cycle.protocol.depth_rate(instant)
-            # At a common turning point of u and δ the ratio is bounded by 1, as everywhere in stick.
-            ratio = np.divide(du, dd, out=np.zeros_like(du), where=np.abs(dd) > 1e-300)
-            return -np.clip(ratio, -1.0, 1.0)
-
-        r, b = self.position[..., None], self.flat[..., None]
-        self.inner_low, inner_high = self._inner_angle(low), self._inner_angle(high)
-        self.inner_span = inner_high - self.inner_low
-        angle = self.inner_low[..., None] + self.inner_span[..., None] * share
-        radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
-        # Under a flat face there are no springs inside r.
-        rate_inside = np.where(r > b, rate, 0.0) * self.inner_span[..., None]
-        density = profile.weighted_slope(radius) * slope(radius) * rate_inside
-        first = density * 2.0 / r
-        inner = np.stack([first, first * (radius / r) ** 2])
-
-        self.outer_low, outer_high = self._outer_root(low), self._outer_root(high)
-        self.outer_span = outer_high - self.outer_low
-        root = self.outer_low[..., None] + self.outer_span[..., None] * share
-        radius = np.sqrt(root * root + r * r)
-        gap = np.sqrt(np.maximum(radius * radius - b * b, 1e-300))
-        outer = profile.weighted_slope(radius) / (radius * gap) * slope(radius)
-        values = np.concatenate([inner, (outer * rate * self.outer_span[..., None])[None]])
-        #: Shape (3, n, X, k, count + 1): series for T1, T3 and Π.
-        self.series = cumulative.running_integral(values)
+        self.cycle, self.profile, self.branch = cycle, profile, branch
+        self.inner, self.outer = (
+            _RunningIntegrals(abscissa(low), abscissa(high), density, count)
+            for abscissa, density in (
+                (self._inner_angle, self._inner_density),
+                (self._outer_root, self._outer_density),
+            )
+        )
 
     def _inner_angle(self, radius: FloatArray) -> FloatArray:
         r, b = self.position, self.flat
@@ -101,6 +83,27 @@ class GrowthIntegrals:
 
     def _outer_root(self, radius: FloatArray) -> FloatArray:
         return np.sqrt(np.maximum(radius**2 - self.position**2, 0.0))
+
+    def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
+        """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
+        r, b = self.position[at[:2]], self.flat[at[0], 0]
+        radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
+        # Under a flat face there are no springs inside r.
+        first = np.where(r > b, 2.0 / r, 0.0) * self._weighted_growth(at, radius)
+        return np.stack([first, first * (radius / r) ** 2])
+
+    def _outer_density(self, at: tuple[NDArray[np.intp], ...], root: FloatArray) -> FloatArray:
+        """Density of Π over the root, shape (1, m, nodes)."""
+        r, b = self.position[at[:2]], self.flat[at[0], 0]
+        radius = np.sqrt(root * root + r * r)
+        gap = np.sqrt(np.maximum(radius * radius - b * b, 1e-300))
+        return (self._weighted_growth(at, radius) / (radius * gap))[None]
+
+    def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
+        """m dτ/dG at the radii of the springs, shape (m, nodes)."""
+        row, _, growth = at
+        depth, slope = self.profile.take(row).depth_and_weighted_slope(radius)
+        return slope * self.cycle.protocol.take(row).growth_slope(depth, self.branch[row, growth, None])
 
     def index(self, cycle: Cycle) -> NDArray[np.intp]:
         """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
@@ -128,19 +131,46 @@ class GrowthIntegrals:
         sine = np.maximum(radius**2 - b2, 0.0) / np.maximum(r2 - b2, 1e-300)
         angle = np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0)))
         root = np.sqrt(np.maximum(radius**2 - r2, 0.0))
-        inner = _share(angle, self.inner_low.take(at), self.inner_span.take(at))
-        outer = _share(root, self.outer_low.take(at), self.outer_span.take(at))
-        series = self.series.reshape(3, -1, self.series.shape[-1]).take(at, axis=1)
-        both = cumulative.evaluate(series[:2], inner)
-        return np.concatenate([both, cumulative.evaluate(series[2:], outer)])
+        return np.concatenate([self.inner.up_to(at, angle), self.outer.up_to(at, root)])
+
+
+class _RunningIntegrals:
+    """Running integrals over ranges, most of which are empty.
+
+    Parameters
+    ----------
+    low, high
+        Shape S: ends of the ranges.
+    density
+        From the index of m ranges and abscissae (m, nodes) in them to c densities there, (c, m, nodes).
+    count
+        Number of nodes.
+    """
+
+    def __init__(self, low: FloatArray, high: FloatArray, density: Density, count: int) -> None:
+        self.low, self.span = low, high - low
+        at = np.nonzero(self.span > 0.0)
+        low, span = low[at][:, None], self.span[at][:, None]
+        y = np.sin(0.25 * np.pi * (1.0 + cumulative.nodes(count)))
+        # The sin² map.
+        rate = 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
+        #: Shape (count + 1, c, m).
+        self.series = cumulative.running_integral(density(at, low + span * (y * y)) * (rate * span))
+        self.column = np.zeros(self.span.shape, dtype=np.intp)
+        self.column[at] = np.arange(len(span))
+
+    def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
+        """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
+        result = np.zeros((self.series.shape[1], len(at)))
+        some = np.flatnonzero(self.span.take(at) > 0.0)
+        if some.size:
+            at = at[some]
+            part = np.clip((abscissa[some] - self.low.take(at)) / self.span.take(at), 0.0, 1.0)
+            y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
+            result[:, some] = cumulative.evaluate(self.series, y, self.column.take(at))
+        return result
 
 
 def _identity(memory: Memory) -> FloatArray:
     """A number of its own for every growth: depths are below 4π."""
     return memory.start + 2.0 * memory.branch
-
-
-def _share(value: FloatArray, low: FloatArray, span: FloatArray) -> FloatArray:
-    """Abscissa in [−1, 1] of the sin² map."""
-    part = np.divide(value - low, span, out=np.zeros_like(value), where=span > 0.0)
-    return np.arcsin(np.sqrt(np.clip(part, 0.0, 1.0))) * (4.0 / np.pi) - 1.0

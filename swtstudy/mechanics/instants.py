@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact import GROWTH, Cycle
+from swtstudy.mechanics.contact import Cycle, held_offset
 from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import filled_rows
@@ -145,15 +145,8 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     high, at = cycle.end[:, None], depth[:, :, None]
     piece = np.maximum((memory.start[:, None] < at[..., None]).sum(axis=-1) - 1, 0)
     row = np.arange(len(depth))[:, None, None]
-    where = row, np.arange(piece.shape[2]), piece
-    start, slope = memory.start[where], memory.slope[where]
-    held = memory.offset[where] + np.where(slope == GROWTH, 0.0, slope) * np.where(
-        np.isfinite(start), at - start, 0.0
-    )
-    grown = slope == GROWTH
-    if np.any(grown):
-        deep = np.broadcast_to(at, grown.shape)
-        held = np.where(grown, protocol.displacement(protocol.touch_down(deep, memory.branch[where])), held)
+    pieces = memory.take((row, np.arange(piece.shape[2]), piece))
+    held = held_offset(protocol, pieces, np.broadcast_to(at, piece.shape))
     in_contact = at < np.maximum(protocol.depth(cycle.begin), 0.0)[:, None]
 
     first = np.broadcast_to(high, held.shape).copy()
@@ -164,10 +157,15 @@ def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
     return first
 
 
-def split_at_breakpoints(cycle: Cycle) -> Cycle:
+def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
     """The same cycle with its intervals cut where a slip front passes a breakpoint of the memory.
 
     The front changes its speed there, and with it the stress at every x outside of it.
+
+    Returns
+    -------
+    The finer division, numbered anew, and the interval of the cycle that each of its intervals is a part of,
+    shape (n, i).
     """
     memory = cycle.memory
     n = len(memory.start)
@@ -184,7 +182,8 @@ def split_at_breakpoints(cycle: Cycle) -> Cycle:
     parent = (middle[:, :, None] >= cycle.end[:, None]).sum(axis=-1)
     parent = np.minimum(parent, cycle.end.shape[1] - 1)
     finer = cycle.take_intervals(np.arange(n), parent)
-    return replace(finer, begin=edges[:, :-1], end=edges[:, 1:])
+    number = np.broadcast_to(np.arange(parent.shape[1]), parent.shape)
+    return replace(finer, begin=edges[:, :-1], end=edges[:, 1:], number=number), parent
 
 
 def _slip_line_passes(
@@ -199,4 +198,6 @@ def _slip_line_passes(
     hit = np.nonzero(allowed & (first[:, None] < goal) & (goal < last[:, None]))
     row, _, interval = hit
     low, high = cycle.begin[row, interval], cycle.end[row, interval]
-    return hit, protocol.take(row).slip_line_instant(sense, goal[hit], low, high)
+    slipping = protocol.take(row)
+    brackets = slipping.slip_line_brackets(sense, low, high)
+    return hit, slipping.slip_line_instant(sense, goal[hit], brackets)

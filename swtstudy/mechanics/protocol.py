@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.mechanics.roots import monotone_roots
+from swtstudy.mechanics.roots import Brackets, Function, monotone_roots
 
 
 @dataclass(frozen=True)
@@ -69,29 +69,55 @@ class Protocol:
 
         ``branch`` is 2πk for the branch −π/2 ≤ qφ + ψ − 2πk ≤ π/2.
         """
-        d, psi = (_expand(v, depth) for v in (self.normal_amplitude, self.phase))
+        return self._on_branch(self._sine(depth), branch)
+
+    def growth_slope(self, depth: FloatArray, branch: FloatArray) -> FloatArray:
+        """dτ/dG = −u̇/δ̇ that growth in stick leaves at the depth, on a branch as of `touch_down`."""
+        sine = self._sine(depth)
+        d = _expand(self.normal_amplitude, depth)
+        depth_rate = self.q * d * np.sqrt(1.0 - sine * sine)
+        rate = self.displacement_rate(self._on_branch(sine, branch))
+        # At a common turning point of u and δ the ratio is bounded by 1, as everywhere in stick.
+        ratio = np.divide(rate, depth_rate, out=np.zeros_like(rate), where=depth_rate > 1e-300)
+        return -np.clip(ratio, -1.0, 1.0)
+
+    def _sine(self, depth: FloatArray) -> FloatArray:
+        """sin(qφ + ψ) at the instants φ with the depth."""
+        d = _expand(self.normal_amplitude, depth)
         # Amplitudes below this do not move δ at all.
         sine = np.divide(depth - 1.0, d, out=np.zeros_like(depth), where=d > 1e-300)
-        return (np.arcsin(np.clip(sine, -1.0, 1.0)) + branch - psi) / self.q
+        return np.clip(sine, -1.0, 1.0)
+
+    def _on_branch(self, sine: FloatArray, branch: FloatArray) -> FloatArray:
+        return (np.arcsin(sine) + branch - _expand(self.phase, sine)) / self.q
+
+    def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
+        """Ranges of instants, each of shape (n,), in which the slip line sense·u − δ is monotone."""
+        return Brackets.of(self._slip_line(sense), low, high)
 
     def slip_line_instant(
-        self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
+        self, sense: float, goal: FloatArray, brackets: Brackets, tolerance: float = 1e-5
     ) -> FloatArray:
-        """Instant in [low, high] at which the slip line sense·u − δ, monotone there, has the value goal.
+        """Instant at which the slip line has the value goal, of shape (n,), in each of n brackets.
 
-        All arrays of shape (n,). Where the goal is not reached, the nearer end.
+        Where the goal is not reached, the nearer end.
         """
         if self.p == self.q:
-            return self._harmonic_instant(sense, goal, low, high)
+            return self._harmonic_instant(sense, goal, brackets.low, brackets.high)
+        return monotone_roots(self._slip_line(sense), goal, brackets, tolerance)
+
+    def _slip_line(self, sense: float) -> Function:
+        """The slip line sense·u − δ of the protocols, and two derivatives."""
 
         def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
-            one = self.take(active)
-            u, depth = sense * one.displacement(instant), one.depth(instant)
-            slope = sense * one.displacement_rate(instant) - one.depth_rate(instant)
-            bend = self.q**2 * (depth - 1.0) - self.p**2 * u
-            return u - depth - goal[active], slope, bend
+            d, psi = self.normal_amplitude[active], self.phase[active]
+            u, ground = sense * self.tangential_amplitude[active], self.q * instant + psi
+            own = self.p * instant
+            u_sine, depth_sine = u * np.sin(own), d * np.sin(ground)
+            slope = self.p * u * np.cos(own) - self.q * d * np.cos(ground)
+            return u_sine - depth_sine - 1.0, slope, self.q**2 * depth_sine - self.p**2 * u_sine
 
-        return monotone_roots(line, low, high)
+        return line
 
     def _harmonic_instant(
         self, sense: float, goal: FloatArray, low: FloatArray, high: FloatArray
@@ -207,8 +233,8 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
         u_rate, depth_rate = one.displacement_rate(instant), one.depth_rate(instant)
         return u_rate - sign * depth_rate, slope, sign * q * q * depth_rate - p * p * u_rate
 
-    roots = np.mod(monotone_roots(rate, low, high), 2.0 * np.pi)
-    return filled_rows(row, roots, len(protocol), 2.0 * np.pi)
+    roots = monotone_roots(rate, np.zeros(len(row)), Brackets.of(rate, low, high))
+    return filled_rows(row, np.mod(roots, 2.0 * np.pi), len(protocol), 2.0 * np.pi)
 
 
 def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:

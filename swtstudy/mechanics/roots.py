@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,32 +17,66 @@ LARGEST_STEP_COUNT = 60
 Function = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray, FloatArray]]
 
 
+@dataclass(frozen=True)
+class Brackets:
+    """Ranges in which functions are monotone, arrays of shape (n,).
+
+    Attributes
+    ----------
+    low, high
+        Ends of the ranges.
+    at_low, at_high
+        The functions' values there.
+    slope_low, slope_high
+        Their derivatives there.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    at_low: FloatArray
+    at_high: FloatArray
+    slope_low: FloatArray
+    slope_high: FloatArray
+
+    @classmethod
+    def of(cls, function: Function, low: FloatArray, high: FloatArray) -> Brackets:
+        """The brackets [low, high], each of shape (n,)."""
+        every = np.arange(low.size)
+        (at_low, slope_low, _), (at_high, slope_high, _) = function(low, every), function(high, every)
+        return cls(low, high, at_low, at_high, slope_low, slope_high)
+
+    def take(self, index: NDArray[np.intp]) -> Brackets:
+        """The brackets at ``index``, repetitions allowed."""
+        return Brackets(*(values[index] for values in vars(self).values()))
+
+
 def monotone_roots(
-    function: Function, low: FloatArray, high: FloatArray, tolerance: float = 1e-5
+    function: Function, goal: FloatArray, brackets: Brackets, tolerance: float = 1e-5
 ) -> FloatArray:
-    """Root of a monotone function inside each bracket: Halley's method, safeguarded by bisection.
+    """Where monotone functions reach a goal: Halley's method, safeguarded by bisection.
 
     Parameters
     ----------
     function
         Values, first and second derivatives.
-    low, high
-        Shape (n,): ends of the brackets. Where the function does not change sign between them, the end
-        nearer to the root is returned.
+    goal
+        Shape (n,).
+    brackets
+        n brackets. Where the goal is not between the values at the ends, the nearer end is returned.
     tolerance
-        Size of the last step; the error of the root is about its cube.
+        Size of the last step; the error is about its cube.
 
     Returns
     -------
-    Roots, shape (n,).
+    Abscissae, shape (n,).
     """
-    active = np.arange(low.size)
-    at_low, at_high = function(low, active), function(high, active)
-    rising = at_high[0] >= at_low[0]
-    root = low + (high - low) * _first_guess(low, high, at_low, at_high)
-    result = root.copy()
+    low, high = brackets.low, brackets.high
+    rising = brackets.at_high >= brackets.at_low
+    root = low + (high - low) * _first_guess(goal, brackets)
+    active, result = np.arange(low.size), root.copy()
     for _ in range(LARGEST_STEP_COUNT):
         value, slope, bend = function(root, active)
+        value = value - goal
         below = (value < 0.0) == rising
         low, high = np.where(below, root, low), np.where(below, high, root)
         denominator = 2.0 * slope * slope - value * bend
@@ -55,26 +90,24 @@ def monotone_roots(
         going = np.abs(new - root) > tolerance
         if not np.any(going):
             break
-        active, rising = active[going], rising[going]
+        active, rising, goal = active[going], rising[going], goal[going]
         root, low, high = new[going], low[going], high[going]
     return result
 
 
-def _first_guess(
-    low: FloatArray,
-    high: FloatArray,
-    at_low: tuple[FloatArray, FloatArray, FloatArray],
-    at_high: tuple[FloatArray, FloatArray, FloatArray],
-) -> FloatArray:
-    """Root of the monotone rational quadratic that has the values and slopes at both ends, in [0, 1].
+def _first_guess(goal: FloatArray, brackets: Brackets) -> FloatArray:
+    """Where the monotone rational quadratic with these values and slopes reaches the goal, in [0, 1].
 
     Gregory & Delbourgo, IMA J. Numer. Anal. 1982, 2, 123: its slopes may vanish, and its inverse is the
     solution of a quadratic equation.
     """
-    span = at_high[0] - at_low[0]
+    span = brackets.at_high - brackets.at_low
     safe = np.where(span != 0.0, span, 1.0)
-    level = np.clip(-at_low[0] / safe, 0.0, 1.0)
-    first, last = (np.maximum(end[1] * (high - low) / safe, 0.0) for end in (at_low, at_high))
+    level = np.clip((goal - brackets.at_low) / safe, 0.0, 1.0)
+    width = brackets.high - brackets.low
+    first, last = (
+        np.maximum(slope * width / safe, 0.0) for slope in (brackets.slope_low, brackets.slope_high)
+    )
     excess = (first + last - 2.0) * level
     a, b = 1.0 - first + excess, first - excess
     return np.clip(

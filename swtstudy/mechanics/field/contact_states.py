@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.contact import GROWTH, Cycle
 from swtstudy.mechanics.field.slope_cells import SlopeCells, graded_radii, slope_cells
 from swtstudy.mechanics.field.superposition import stress_history
 from swtstudy.mechanics.points import FloatArray
@@ -60,17 +60,9 @@ def contact_states(
         the breakpoints make. With 200 the stress in the interior is accurate to 1e-8 p0.
     """
     protocol = cycle.protocol
-    depth = np.maximum(protocol.depth(instant[None]), 0.0)
     memory = cycle.memory.take((np.zeros_like(interval), interval))
-    front, sign, _ = slip_front(
-        protocol,
-        cycle.memory,
-        cycle.forward,
-        cycle.backward,
-        interval[None],
-        depth,
-        protocol.displacement(instant[None]),
-    )
+    states = cycle.states(interval[None], instant[None])
+    depth, front, sign = states.depth, states.front, states.sign
     grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
     branches = np.unique(memory.branch[grown])
     starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
@@ -93,8 +85,9 @@ def contact_states(
     shares = [np.where(touching, line, 0.0), *(stuck_growth & (branch == b) for b in branches)]
 
     def weighted_slopes(ξ: FloatArray) -> FloatArray:
-        m = profile.weighted_slope(ξ[None])[0]
-        return np.stack([m, *(m * _growth_slope(cycle, profile, ξ, b) for b in branches)])
+        depth, m = profile.depth_and_weighted_slope(ξ[None])
+        slopes = [cycle.protocol.growth_slope(depth, np.asarray(b)) for b in branches]
+        return np.stack([m[0], *(m[0] * slope[0] for slope in slopes)])
 
     b = float(profile.flat_radius[0])
     tangential_slope = np.stack(shares, axis=1).astype(float)
@@ -131,12 +124,3 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
         if bend < chord.max() / cells**2 or count > 8 * cells:
             return radius
         count *= 2
-
-
-def _growth_slope(cycle: Cycle, profile: Profile, ξ: FloatArray, branch: float) -> FloatArray:
-    """dτ/dG = −u̇/δ̇ at the instant at which the spring at ξ touches down."""
-    instant = cycle.protocol.touch_down(profile.depth(ξ[None]), np.asarray(branch))
-    du, dd = cycle.protocol.displacement_rate(instant), cycle.protocol.depth_rate(instant)
-    # At a common turning point of u and δ the ratio is bounded by 1, as everywhere in stick.
-    ratio = np.divide(du, dd, out=np.zeros_like(du), where=np.abs(dd) > 1e-300)
-    return -np.clip(ratio[0], -1.0, 1.0)

@@ -101,6 +101,10 @@ class Profile(ABC):
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         """m(ξ) = g′(ξ) √(ξ² − b²), regular also where g′ is not."""
 
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`depth` and `weighted_slope` in one."""
+        return self.depth(radius), self.weighted_slope(radius)
+
     @abstractmethod
     def half_load(self, radius: FloatArray) -> FloatArray:
         """∫ ξ g′ dξ from b to ``radius``: half of the normal force over E* δ0 a_H."""

@@ -36,7 +36,7 @@ class InnerTable:
         gap, flat = align(self.gap, radius), align(self.flat, radius)
         share = np.maximum(radius * radius - flat * flat, 0.0) / np.maximum(gap, 1e-300)
         y = np.arcsin(np.sqrt(np.minimum(share, 1.0))) * (4.0 / np.pi) - 1.0
-        series = self.series.reshape(self.series.shape[:3] + (1,) * (radius.ndim - 2) + (-1,))
+        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
         return cumulative.evaluate(series, y)
 
 
@@ -88,7 +88,7 @@ class OuterTable:
     def __call__(self, radius: FloatArray) -> FloatArray:
         low2, scale, span = (align(v, radius) for v in (self.low2, self.scale, self.span))
         y = np.minimum(2.0 * self._abscissa(radius, low2, scale) / span, 2.0) - 1.0
-        series = self.series.reshape(self.series.shape[:3] + (1,) * (radius.ndim - 2) + (-1,))
+        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
         return cumulative.evaluate(series, y)
 
 

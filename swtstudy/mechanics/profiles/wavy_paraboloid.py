@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,9 +46,6 @@ class WavyParaboloid(Profile):
         # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
         level = self.roughness(largest_depth, waviness_amplitude, wavelength).max(initial=0)
         self.phase = ROUGHNESS_STEP * float(level)
-        self._guess_radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
-        # Both ends of √g(ξ) are straight.
-        self._guess_root = np.sqrt(np.maximum(self.depth(self._guess_radius), 0.0))
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, *shape: FloatArray, **named: FloatArray) -> IntArray:
@@ -113,7 +112,7 @@ class WavyParaboloid(Profile):
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
         guess, root = np.empty_like(depth), np.sqrt(depth)
-        for row, (known, radius) in enumerate(zip(self._guess_root, self._guess_radius, strict=True)):
+        for row, (known, radius) in enumerate(zip(*self._guesses, strict=True)):
             guess[row] = np.interp(root[row], known, radius)
         # To the last digit: at a turning point an error of r is an error of its root in time.
         for _ in range(2):
@@ -123,8 +122,18 @@ class WavyParaboloid(Profile):
             guess = np.maximum(guess - step, 0.0)
         return guess
 
+    @cached_property
+    def _guesses(self) -> tuple[FloatArray, FloatArray]:
+        """√g, whose both ends are straight, at radii, each (n, k)."""
+        radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
+        return np.sqrt(np.maximum(self.depth(radius), 0.0)), radius
+
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         return radius * self._with_slope(radius)[1]
+
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        depth, slope = self._with_slope(radius)
+        return depth, radius * slope
 
     def half_load(self, radius: FloatArray) -> FloatArray:
         # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
