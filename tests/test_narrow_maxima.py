@@ -33,6 +33,10 @@ CASES = [
         {"waviness_amplitude": 0.085, "wavelength": 8.0},
         1.1069920896,
     ),
+    # Two planes, each with a maximum of its own, of which one hides beside the flank of the other's.
+    ("paraboloid", (0.3, 0.3, 0.5, 5 / 6, 130 / 180 * 3.141592653589793, 1, 1), {}, 0.1351836488),
+    ("rounded_punch", (0.3, 0.3, 0.75, 5 / 6, 3.141592653589793, 1, 2), {"flat_radius": 0.175}, 0.0931248802),
+    ("rounded_punch", (0.3, 0.3, 0.75, 5 / 6, 3.141592653589793, 1, 2), {"flat_radius": 0.2}, 0.0913278766),
     # Gross slip: next to the singular edge, at ln(1/ε) of some 31.
     (
         "truncated_paraboloid",

@@ -13,7 +13,7 @@ from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.surface_circle import circle_stress
-from swtstudy.mechanics.surface_stress import History, SurfaceLine
+from swtstudy.mechanics.surface_stress import SurfaceLine
 
 
 def contact():
@@ -30,7 +30,7 @@ def test_stress_is_that_of_the_field(r):
     angle = np.linspace(0.0, np.pi, 7)
     line = SurfaceLine(cycle, profile, np.array([[r]]), 8.0)
     history = line.history(Nodes(interval[None], instant[None], np.arange(instant.size)[None, None]))
-    blocks = History(**{name: values[0] for name, values in vars(history).items()})
+    blocks = history.take(0)
     states = contact_states(cycle, profile, interval, instant, cells=200)
     expected = states.stress(r * np.cos(angle), r * np.sin(angle), 0.0, 0.4, 0.3)
     found = circle_stress(blocks, np.array([0.3]), np.array([0.4]), angle[None])[0]

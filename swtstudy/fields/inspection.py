@@ -12,11 +12,12 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body import TimeNodes, nodes_at, time_nodes, together
+from swtstudy.mechanics.first_look import first_look
 from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.protocol import stick_depth
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
-from swtstudy.mechanics.swt_line import Resolution, Scene, first_look
+from swtstudy.mechanics.swt_line import Resolution, Scene
 from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]

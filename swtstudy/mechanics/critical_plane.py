@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from swtstudy.mechanics.gather import pick
 from swtstudy.mechanics.points import FloatArray
 
 NEWTON_STEPS = 3
@@ -53,27 +54,61 @@ class PlaneHistory:
 
 
 def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArray]:
-    """Largest swt over ``count`` equally spaced planes, and the angle 2θ of that plane.
+    """Largest swt over ``count`` equally spaced planes, an even number, and the angle 2θ of that plane.
 
     Returns
     -------
     swt, double_angle
         Shape of the points (…): swt over E* δ0/R, interpolated by a parabola between planes; 2θ in rad.
     """
-    values = []
-    angles = 2.0 * np.pi * np.arange(count) / count
-    for cosine, sine in zip(np.cos(angles), np.sin(angles), strict=True):
-        a, b, c = history.stress
-        largest = (a + b * cosine + c * sine).max(axis=-1)
-        a, b, c = history.strain
-        strain = a + b * cosine + c * sine
-        values.append(product(largest, strain.max(axis=-1), strain.min(axis=-1)))
-    table = np.stack(values)
+    # Extremes over the first axis are the fastest.
+    stress, strain = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.strain))
+    table = np.empty((count, *stress.shape[2:]))
+    step, half = 2.0 * np.pi / count, count // 2
+    curve = np.empty_like(stress[0])
+    for k in range(half):
+        of_stress, of_strain = (b * np.cos(k * step) + c * np.sin(k * step) for _, b, c in (stress, strain))
+        # Half a turn of 2θ further the wave has the other sign.
+        for plane, combine in ((k, np.add), (k + half, np.subtract)):
+            tension = combine(stress[0], of_stress, out=curve).max(axis=0)
+            combine(strain[0], of_strain, out=curve)
+            table[plane] = product(tension, curve.max(axis=0), curve.min(axis=0))
     best = table.argmax(axis=0)
     cell = np.arange(best.size).reshape(best.shape)
-    left, middle, right = (table.take((best + k) % count * best.size + cell) for k in (-1, 0, 1))
-    shift, rise = parabola(left, middle, right)
-    return middle + rise, angles[best] + shift * angles[1]
+    left, right = (table.take((best + k) % count * best.size + cell) for k in (-1, 1))
+    # Two maxima may lie between the same planes.
+    starts = np.stack([best, np.where(left > right, best - 1, best + 1)]) * step
+    angle = climb_over_planes(history, starts, 1)
+    tension, swing = history.on_plane(angle)
+    swt = product(tension.max(axis=-1), swing.max(axis=-1), swing.min(axis=-1))
+    second = (swt[1] > swt[0]).astype(np.intp)
+    return swt.max(axis=0), np.where(second, angle[1], angle[0])
+
+
+def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: int) -> FloatArray:
+    """Planes of locally largest swt, by looking up the instants of the extremes so many times.
+
+    Parameters
+    ----------
+    history
+        At points (…).
+    double_angle
+        2θ to start from, shape (s, …) or (…), rad.
+    rounds
+        Number of times.
+    """
+    for _ in range(rounds):
+        stress, strain = history.on_plane(double_angle)
+        peak, high, low = (
+            np.stack([pick(part, at) for part in parts])
+            for parts, at in (
+                (history.stress, stress.argmax(axis=-1)),
+                (history.strain, strain.argmax(axis=-1)),
+                (history.strain, strain.argmin(axis=-1)),
+            )
+        )
+        double_angle = best_angle(peak, high - low, double_angle)
+    return double_angle
 
 
 def product(stress: FloatArray, high: FloatArray, low: FloatArray) -> FloatArray:
@@ -102,19 +137,3 @@ def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) ->
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
         angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
     return angle
-
-
-def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Vertex of the parabola through three equally spaced values whose middle one is not the least.
-
-    Returns
-    -------
-    shift, rise
-        Abscissa of the vertex in steps from the middle, within [−1, 1], and its value above the middle;
-        0 where there is no maximum.
-    """
-    bend = left - 2.0 * middle + right
-    peaked = bend < 0.0
-    shift = np.where(peaked, 0.5 * (left - right) / np.where(peaked, bend, 1.0), 0.0)
-    inside = np.abs(shift) <= 1.0
-    return np.where(inside, shift, 0.0), np.where(inside, -0.25 * (left - right) * shift, 0.0)

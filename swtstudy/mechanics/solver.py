@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle, solve_cycle
 from swtstudy.mechanics.face_edge import maximum_at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.maximum import Accuracy, Maximum, maximum
+from swtstudy.mechanics.local_search import Accuracy
+from swtstudy.mechanics.maximum import Maximum, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
 from swtstudy.mechanics.profiles import make_profile, resolved_shape, roughness
 from swtstudy.mechanics.protocol import Protocol
@@ -102,17 +103,14 @@ def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol
 
 def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maximum:
     """The maximum of each point of the scene, NaN but for those at ``finite``."""
-    found = Maximum(*(np.full(len(scene), np.nan) for _ in range(4)))
+    found = Maximum.unknown(len(scene), np.nan)
     if finite.size:
-        part = maximum(scene.take(finite), accuracy)
-        for values, one in zip(vars(found).values(), vars(part).values(), strict=True):
-            values[finite] = one
+        found = found.put(finite, maximum(scene.take(finite), accuracy))
     near = finite[may_be_largest(scene.profile, scene.cycle, scene.friction)[finite]]
     if near.size:
         edge = maximum_at_edge(scene.take(near), accuracy)
         higher = edge.swt > found.swt[near]
-        for values, one in zip(vars(found).values(), vars(edge).values(), strict=True):
-            values[near[higher]] = one[higher]
+        found = found.put(near[higher], edge.take(higher))
     return found
 
 

@@ -13,7 +13,6 @@ make swt on the line make it on the circle.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.critical_plane_3d import strain_history
 from swtstudy.mechanics.gather import gather
@@ -65,7 +64,7 @@ def circle_gain(
         off = np.flatnonzero((best > 0) & (base > 0.0))
         if off.size:
             near = _ANGLES[best[off], None] + _CLOSER
-            found = _on_circle(some.take(off), _taken(history, off), normal[off], near)
+            found = _on_circle(some.take(off), history.take(off), normal[off], near)
             top = found.argmax(axis=1), np.arange(off.size)
             gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
             angle[rows[off]] = near[top[::-1]]
@@ -127,14 +126,10 @@ def _decisive_history(
     wide = line.history(brackets.samples())
     parts = (np.split(curve, 3, axis=-1)[k] for k, curve in enumerate(extremes(wide)))
     narrow = line.history(brackets.narrowed(np.stack([p.argmax(axis=-1) for p in parts], axis=-1)).samples())
-    blocks = {
-        name: np.concatenate([getattr(wide, name), getattr(narrow, name)], axis=-1)[:, 0]
-        for name in vars(wide)
-    }
-    for name in ("tangential_1", "tangential_3", "traction"):
-        blocks[name] = blocks[name] * side[:, None]
+    history = wide.joined(narrow).take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
+    history = history.with_tangential_sign(side[:, None])
     θ = 0.5 * double_angle
-    return History(**blocks), np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)
+    return history, np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)
 
 
 def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatArray) -> FloatArray:
@@ -144,7 +139,3 @@ def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatA
     start = np.broadcast_to(normal[:, None], (*angle.shape, 3)).reshape(-1, 3)
     flat = (-1, *stress.shape[-2:])
     return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)
-
-
-def _taken(history: History, rows: NDArray[np.intp]) -> History:
-    return History(**{name: values[rows] for name, values in vars(history).items()})

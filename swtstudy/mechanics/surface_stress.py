@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact import GROWTH, Cycle, slip_front
+from swtstudy.mechanics.contact import GROWTH, Cycle
 from swtstudy.mechanics.gather import gather, packed
 from swtstudy.mechanics.growth import GrowthIntegrals
 from swtstudy.mechanics.instants import Nodes
@@ -45,14 +45,19 @@ class History:
     tangential_3: FloatArray
     traction: FloatArray
 
-    def with_mirror_image(self) -> History:
-        """These instants, and those at which only the sign of the tangential load is another."""
-        normal = self.pressure, self.mean_pressure
-        tangential = self.tangential_1, self.tangential_3, self.traction
-        return History(
-            *(np.concatenate([values, values], axis=-1) for values in normal),
-            *(np.concatenate([values, -values], axis=-1) for values in tangential),
-        )
+    def take(self, *index: NDArray[np.intp] | int) -> History:
+        """The blocks at ``index`` of the leading axes."""
+        return History(*(values[index] for values in vars(self).values()))
+
+    def with_tangential_sign(self, sign: float | FloatArray) -> History:
+        """The same with the tangential load times ±1."""
+        tangential = (sign * v for v in (self.tangential_1, self.tangential_3, self.traction))
+        return History(self.pressure, self.mean_pressure, *tangential)
+
+    def joined(self, other: History) -> History:
+        """These instants, then the other ones."""
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return History(*(np.concatenate(pair, axis=-1) for pair in both))
 
 
 class SurfaceLine:
@@ -109,17 +114,12 @@ class SurfaceLine:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         cycle, profile = self.cycle, self.profile
         n, _, pieces = cycle.memory.start.shape
-        depth = np.maximum(cycle.protocol.depth(nodes.instant), 0.0)
-        displacement = cycle.protocol.displacement(nodes.instant)
-        senses = cycle.forward, cycle.backward
-        front, sign, piece = slip_front(
-            cycle.protocol, cycle.memory, *senses, nodes.interval, depth, displacement
-        )
-        place = nodes.interval * pieces + piece
+        states = cycle.states(nodes.interval, nodes.instant)
+        place = nodes.interval * pieces + states.piece
         slope = gather(cycle.memory.slope.reshape(n, -1), place)
         grown = slope == GROWTH
         slope = np.where(grown, 0.0, slope)
-        front_radius, edge_radius = profile.radius(front), profile.radius(depth)
+        front_radius, edge_radius = profile.radius(states.front), profile.radius(states.depth)
         half_load = profile.half_load(edge_radius)
 
         rows = np.arange(n)[:, None, None]
@@ -128,7 +128,7 @@ class SurfaceLine:
         def at_positions(values: NDArray[T]) -> NDArray[T]:
             return values.ravel().take(at)
 
-        place, sign, slope = at_positions(place), at_positions(sign), at_positions(slope)
+        place, sign, slope = at_positions(place), at_positions(states.sign), at_positions(slope)
         edge = at_positions(edge_radius)
         at_front = self._full_slip(at_positions(front_radius))
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)

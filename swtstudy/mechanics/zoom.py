@@ -13,16 +13,17 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.critical_plane import parabola
 from swtstudy.mechanics.gather import gather, pick
 from swtstudy.mechanics.instants import GAP, NO_STRETCH, Nodes
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.vertex import parabola, polynomial_maximum, powers_from_values
 
 T = TypeVar("T", bound=np.generic)
 
 #: Steps into which each side of a bracket is divided.
 STEPS = 3
 OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
+LAST = 2 * STEPS
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,7 @@ class TimeBrackets:
 
     def samples(self) -> Nodes:
         """The samples of the extremes, index of shape (n, X, e · k)."""
-        c = np.clip(self.centre[..., None] + self.width * OFFSETS, -1.0, 1.0)
+        c = self.centre[..., None] + self.width * OFFSETS
         right = c > 0.0
 
         def side(values: NDArray[T]) -> NDArray[T]:
@@ -112,24 +113,59 @@ class TimeBrackets:
 
     def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
         """The brackets around the best samples, shape (n, X, e)."""
-        centre = np.clip(self.centre + self.width * OFFSETS[best], -1.0, 1.0)
-        return replace(self, centre=centre, width=self.width / STEPS)
+        width = self.width / STEPS
+        centre = np.clip(self.centre + self.width * OFFSETS[best], width - 1.0, 1.0 - width)
+        return replace(self, centre=centre, width=width)
 
-    def vertex(self, curve: FloatArray, extreme: int, best: NDArray[np.intp]) -> FloatArray:
-        """Maximum of a curve over the samples of one extreme, from the parabola through the best of them.
+    def weights_at_peak(self, curve: FloatArray) -> FloatArray:
+        """Weights of the samples that interpolate them at the maximum of each curve.
 
-        Where two stretches meet at the best sample, each side has its own parabola.
+        A polynomial goes through all samples. Where two stretches meet at c = 0, each side has its own.
+
+        Parameters
+        ----------
+        curve
+            Shape (n, X, e, k).
+
+        Returns
+        -------
+        Shape (n, X, e, k).
         """
-        corner = self.corner[:, :, extreme] & (best == STEPS) & (self.centre[:, :, extreme] == 0.0)
-        last = curve.shape[-1] - 1
-        top = pick(curve, best)
-        for lowest, highest in ((1, STEPS - 1), (STEPS + 1, last - 1)):
+        best = curve.argmax(axis=-1)
+        top, place, left = pick(curve, best), best.astype(float), best < STEPS
+        corner = self.corner & (self.centre == 0.0)
+        for lowest, highest in ((1, STEPS - 1), (STEPS + 1, LAST - 1)):
             # Away from a corner both are the parabola around the best sample.
-            middle = np.where(corner, np.clip(best, lowest, highest), np.clip(best, 1, last - 1))
-            left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
-            _, rise = parabola(left, centre, right)
-            top = np.maximum(top, centre + rise)
-        return top
+            middle = np.where(corner, np.clip(best, lowest, highest), np.clip(best, 1, LAST - 1))
+            before, centre, after = (pick(curve, middle + k) for k in (-1, 0, 1))
+            shift, rise = parabola(before, centre, after)
+            higher = centre + rise > top
+            top = np.where(higher, centre + rise, top)
+            place, left = np.where(higher, middle + shift, place), np.where(higher, middle < STEPS, left)
+        power = _POWERS[np.where(corner, np.where(left, 1, 2), 0)]
+        low = np.maximum(place - 1.0, np.where(corner & ~left, STEPS, 0))
+        high = np.minimum(place + 1.0, np.where(corner & left, STEPS, LAST))
+        series = np.moveaxis(np.einsum("...pk,...k->...p", power, curve), -1, 0)
+        u = polynomial_maximum(series, place / STEPS - 1.0, low / STEPS - 1.0, high / STEPS - 1.0)
+        weights = np.einsum("...p,...pk->...k", u[..., None] ** np.arange(LAST + 1), power)
+        # Never below what has been seen.
+        worse = (weights * curve).sum(axis=-1) <= pick(curve, best)
+        return np.where(worse[..., None], np.arange(LAST + 1) == best[..., None], weights)
+
+
+def _interpolation() -> FloatArray:
+    """Matrices from samples to powers of u = −1 … 1: through all samples, and through those on either side.
+
+    Shape (3, k, k).
+    """
+    matrices = np.zeros((3, LAST + 1, LAST + 1))
+    for matrix, used in zip(matrices, (slice(None), slice(STEPS + 1), slice(STEPS, None)), strict=True):
+        powers = powers_from_values(OFFSETS[used])
+        matrix[: len(powers), used] = powers
+    return matrices
+
+
+_POWERS = _interpolation()
 
 
 def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
