@@ -34,9 +34,12 @@ WORKERS = 2
 STALL = 0.05
 
 SLEEP, SPIN = 7e-3, 3e-3
+#: Long cycles make small blocks, so that chunks are cut by their time.
 STUDY = """
 title = "Overhead"
 rtol = 1e-2
+[fixed]
+frequency_ratio = "1/15"
 [axes]
 friction = {start = "0.01", stop = 1, num = %d}
 phase = {start = 0, stop = 3, num = 64}

@@ -23,6 +23,7 @@ T = TypeVar("T", bound=np.generic)
 #: Steps into which each side of a bracket is divided.
 STEPS = 3
 OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
+#: Number of the last sample.
 LAST = 2 * STEPS
 
 
