@@ -100,7 +100,8 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
             before, done = saved, computed(log)
             Path(f"{log}-chunks").unlink(missing_ok=True)
             whom = "a worker" if kills % 3 == 2 else "the parent"
-            kill_one(path, log, whom, dice)
+            if not kill_one(path, log, whom, dice):
+                break  # it was ready before
             kills += 1
             assert not path.exists()
             saved = points_saved(parts_folder(path))
@@ -122,8 +123,11 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
     print(f"{KILLS} kills: {all_lost} points lost, {all_lost / KILLS:.0f} a kill, and never a saved one\n")
 
 
-def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> None:
-    """Start a run, and kill it, or first one of its workers, at a random moment after its first block."""
+def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> bool:
+    """Start a run, and kill it, or first one of its workers, at a random moment after its first block.
+
+    Returns whether it was still there to be killed.
+    """
     process = start("run", STUDY, path, log)
     at = computed(log)
     while computed(log) == at and process.poll() is None:
@@ -136,9 +140,10 @@ def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> None:
         time.sleep(dice.uniform(0, 0.35))
     workers = workers_of(process.pid)
     process.send_signal(signal.SIGKILL)
-    process.wait()
+    killed = process.wait() == -signal.SIGKILL
     while any(Path(f"/proc/{worker}").exists() for worker in workers):
         time.sleep(0.01)  # they end on their own
+    return killed
 
 
 def kills_of_writes(folder: Path, dice: random.Random) -> None:

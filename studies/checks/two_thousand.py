@@ -7,6 +7,8 @@ import xarray as xr
 STUDY = """
 title = "2,000 points"
 rtol = 1e-4
+[fixed]
+frequency_ratio = "1/4"
 [axes]
 phase = {start = 0, stop = 3, num = 100}
 friction = {start = "0.05", stop = 1, num = 20}
