@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 from scenes import points
 from soundness import regime_names, sound
 
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.contact import solve_cycle
+from swtstudy.mechanics import Points, body, solve_points
 from swtstudy.mechanics.critical_plane import product
 from swtstudy.mechanics.face_edge import _swt
-from swtstudy.mechanics.instants import cosine_nodes, split_at_breakpoints, stretches
-from swtstudy.mechanics.profiles import make_profile
-from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_stress import SurfaceLine
-from swtstudy.mechanics.swt_line import Resolution, Scene, refine
+from swtstudy.mechanics.instants import split_at_breakpoints
+from swtstudy.mechanics.swt_line import Look, Resolution, Scene, refine
 
 
 def scene_of(batch: Points) -> Scene:
-    loads = batch.normal_amplitude, batch.tangential_amplitude, batch.phase
-    cycle = split_at_breakpoints(solve_cycle(Protocol(*loads, int(batch.p[0]), int(batch.q[0]))))[0]
-    profile = make_profile(batch.profile, batch.shape, 1.0 + batch.normal_amplitude)
-    return Scene(cycle, profile, batch.poisson_ratio, batch.friction)
+    scene = body.scene_of(batch)
+    return replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
 
 
 def truncated(
@@ -86,9 +82,7 @@ def test_the_limit_agrees_with_the_stress_beside_it(side: float, start: float) -
     position = np.array([[1.0 + np.exp(-18.0)]])
     swt, angle = _swt(scene, -np.log(position - 1.0), side, start, 24, 24)
     # By brute force: all instants, no interpolation.
-    ends = stretches(scene.cycle, scene.profile.depth(position))
-    nodes, _ = cosine_nodes(scene.cycle, ends, 300)
-    planes = scene.planes(SurfaceLine(scene.cycle, scene.profile, position, 24).history(nodes), side)
+    planes = scene.planes(Look.at(scene, position, 300, 24).history, side)
     tops = []
     for double_angle in angle[0, 0] + np.linspace(-0.05, 0.05, 201):
         stress, strain = planes.on_plane(np.array([[double_angle]]))

@@ -289,9 +289,8 @@ def _front_in_piece(
     grown = active & (slope == GROWTH) & (piece >= 0)
     if np.any(grown):
         pieces = np.flatnonzero((memory.slope == GROWTH) & np.isfinite(memory.start))
-        number = np.empty(memory.slope.size, dtype=np.intp)
-        number[pieces] = np.arange(pieces.size)
-        brackets = _growth_brackets(protocol, memory, sense, pieces).take(number[at[grown]])
+        brackets = _growth_brackets(protocol, memory, sense, pieces)
+        brackets = brackets.take(np.searchsorted(pieces, at[grown]))
         one = protocol.take(np.nonzero(grown)[0])
         front[grown] = one.depth(one.slip_line_instant(sense, target[grown], brackets))
     return np.where(piece < 0, -np.inf, front)

@@ -54,12 +54,12 @@ class PlaneHistory:
 
 
 def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArray]:
-    """Largest swt over ``count`` equally spaced planes, an even number, and the angle 2θ of that plane.
+    """Largest swt over all planes, from ``count`` equally spaced ones, an even number.
 
     Returns
     -------
     swt, double_angle
-        Shape of the points (…): swt over E* δ0/R, interpolated by a parabola between planes; 2θ in rad.
+        Shape of the points (…): swt over E* δ0/R on a plane near the best of these, improved once; 2θ in rad.
     """
     # Extremes over the first axis are the fastest.
     stress, strain = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.strain))
@@ -81,8 +81,7 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
     angle = climb_over_planes(history, starts, 1)
     tension, swing = history.on_plane(angle)
     swt = product(tension.max(axis=-1), swing.max(axis=-1), swing.min(axis=-1))
-    second = (swt[1] > swt[0]).astype(np.intp)
-    return swt.max(axis=0), np.where(second, angle[1], angle[0])
+    return swt.max(axis=0), np.where(swt[1] > swt[0], angle[1], angle[0])
 
 
 def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: int) -> FloatArray:

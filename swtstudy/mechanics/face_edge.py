@@ -26,15 +26,14 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact import Cycle
 from swtstudy.mechanics.critical_plane import climb_over_planes, product
 from swtstudy.mechanics.gather import pick
-from swtstudy.mechanics.instants import cosine_nodes, split_at_breakpoints, stretches
+from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.local_search import Accuracy
 from swtstudy.mechanics.maximum import LEAST_ERROR, Maximum
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
 from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.protocol import Protocol, turning_instants
-from swtstudy.mechanics.surface_stress import SurfaceLine
-from swtstudy.mechanics.swt_line import Scene
+from swtstudy.mechanics.swt_line import Look, Scene
 from swtstudy.mechanics.vertex import parabola
 
 #: Below this friction swt falls towards r = b from where the search over x ends.
@@ -126,12 +125,10 @@ def _swt(
     profile = scene.profile
     edge = _Edge(profile.largest_depth, profile.flat_radius, distance)
     position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
-    ends = stretches(scene.cycle, edge.depth(position))
-    nodes, number = cosine_nodes(scene.cycle, ends, steps)
+    look = Look.at(replace(scene, profile=edge), position, steps, digits)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
-    inside = (number % (steps + 1) % steps > 0) & (number // (steps + 1) % 3 == 0)
-    history = SurfaceLine(scene.cycle, edge, position, digits).history(nodes)
-    planes = scene.planes(history, side)
+    inside = look.inside & (look.stretch % 3 == 0)
+    planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     stress, strain = planes.on_plane(angle)
     return product(_top(stress, inside), _top(strain, inside), -_top(-strain, inside)), angle

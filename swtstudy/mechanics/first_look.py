@@ -6,17 +6,17 @@ three extremes can be: the local search looks nowhere else.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.critical_plane import coarse_swt
 from swtstudy.mechanics.gather import gather
-from swtstudy.mechanics.instants import NO_STRETCH, cosine_nodes, stretches
+from swtstudy.mechanics.instants import NO_STRETCH
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.surface_stress import History, SurfaceLine
-from swtstudy.mechanics.swt_line import Resolution, Scene, near_extremes
+from swtstudy.mechanics.surface_stress import History
+from swtstudy.mechanics.swt_line import Look, Resolution, Scene, near_extremes
 
 #: Local maxima below this share of the largest are not followed.
 CANDIDATE_SHARE = 0.85
@@ -106,9 +106,8 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     # For even q, half a common period later δ is the same and u has changed sign: half of it is enough.
     mirrored = scene.cycle.protocol.q % 2 == 0
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
-    line = SurfaceLine(cycle, scene.profile, position, resolution.digits)
-    nodes, _ = cosine_nodes(cycle, stretches(cycle, scene.profile.depth(position)), resolution.nodes)
-    history = line.history(nodes)
+    look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
+    nodes, history = look.nodes, look.history
     interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(nodes.index.shape)
     # An interval of the first half may reach beyond it, and its mirror image into several.
     begin, end = (np.stack([v, v + np.pi], axis=1)[..., None] for v in (cycle.begin, cycle.end))

@@ -68,21 +68,11 @@ class GrowthIntegrals:
         self.flat = profile.flat_radius[:, None, None]
         low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
         self.cycle, self.profile, self.branch = cycle, profile, branch
-        self.inner, self.outer = (
-            _RunningIntegrals(abscissa(low), abscissa(high), density, count)
-            for abscissa, density in (
-                (self._inner_angle, self._inner_density),
-                (self._outer_root, self._outer_density),
-            )
-        )
-
-    def _inner_angle(self, radius: FloatArray) -> FloatArray:
         r, b = self.position, self.flat
-        sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, 1e-300)
-        return np.asarray(np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0))))
-
-    def _outer_root(self, radius: FloatArray) -> FloatArray:
-        return np.sqrt(np.maximum(radius**2 - self.position**2, 0.0))
+        self.inner = _RunningIntegrals(
+            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, count
+        )
+        self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, count)
 
     def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
         """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
@@ -126,11 +116,8 @@ class GrowthIntegrals:
         """
         columns, count = self.position.shape[1], self.count
         at = (row * columns + column) * count + index
-        r2 = self.position.take(row * columns + column) ** 2
-        b2 = self.flat.take(row) ** 2
-        sine = np.maximum(radius**2 - b2, 0.0) / np.maximum(r2 - b2, 1e-300)
-        angle = np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0)))
-        root = np.sqrt(np.maximum(radius**2 - r2, 0.0))
+        r, b = self.position.take(row * columns + column), self.flat.take(row)
+        angle, root = _inner_angle(radius, r, b), _outer_root(radius, r)
         return np.concatenate([self.inner.up_to(at, angle), self.outer.up_to(at, root)])
 
 
@@ -169,6 +156,17 @@ class _RunningIntegrals:
             y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
             result[:, some] = cumulative.evaluate(self.series, y, self.column.take(at))
         return result
+
+
+def _inner_angle(radius: FloatArray, r: FloatArray, b: FloatArray) -> FloatArray:
+    """α of a spring inside r, ξ² = b² + (r² − b²) sin²α; π/2 of one outside."""
+    sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, 1e-300)
+    return np.asarray(np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0))))
+
+
+def _outer_root(radius: FloatArray, r: FloatArray) -> FloatArray:
+    """v = √(ξ² − r²) of a spring outside r; 0 of one inside."""
+    return np.sqrt(np.maximum(radius**2 - r**2, 0.0))
 
 
 def _identity(memory: Memory) -> FloatArray:

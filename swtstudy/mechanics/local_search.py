@@ -21,6 +21,7 @@ from swtstudy.mechanics.vertex import polynomial_maximum, powers_from_values, ve
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
+_POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
 #: How the width shrinks while the best position is the outermost one.
 WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT = 2
@@ -232,7 +233,7 @@ def _other_peaks(
 def _polynomial_maximum(values: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Maximum of the polynomials through the values (m, k) of a first look, near ``c`` of shape (m,)."""
     # Not a matrix product, see `cumulative.running_integral`.
-    series = np.einsum("pk,mk->pm", powers_from_values(FIRST_WIDTH * OFFSETS), values)
+    series = np.einsum("pk,mk->pm", _POWERS, values)
     c = polynomial_maximum(series, c, c - FIRST_WIDTH, c + FIRST_WIDTH)
     return c, np.polynomial.polynomial.polyval(c, series, tensor=False)
 

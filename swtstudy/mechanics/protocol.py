@@ -95,16 +95,14 @@ class Protocol:
         """Ranges of instants, each of shape (n,), in which the slip line sense·u − δ is monotone."""
         return Brackets.of(self._slip_line(sense), low, high)
 
-    def slip_line_instant(
-        self, sense: float, goal: FloatArray, brackets: Brackets, tolerance: float = 1e-5
-    ) -> FloatArray:
+    def slip_line_instant(self, sense: float, goal: FloatArray, brackets: Brackets) -> FloatArray:
         """Instant at which the slip line has the value goal, of shape (n,), in each of n brackets.
 
         Where the goal is not reached, the nearer end.
         """
         if self.p == self.q:
             return self._harmonic_instant(sense, goal, brackets.low, brackets.high)
-        return monotone_roots(self._slip_line(sense), goal, brackets, tolerance)
+        return monotone_roots(self._slip_line(sense), goal, brackets)
 
     def _slip_line(self, sense: float) -> Function:
         """The slip line sense·u − δ of the protocols, and two derivatives."""

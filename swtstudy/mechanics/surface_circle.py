@@ -14,14 +14,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from swtstudy.mechanics.critical_plane import PlaneHistory
 from swtstudy.mechanics.critical_plane_3d import strain_history
-from swtstudy.mechanics.gather import gather
-from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.plane_ascent import climb
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.surface_stress import History, SurfaceLine
-from swtstudy.mechanics.swt_line import Scene
-from swtstudy.mechanics.zoom import TimeBrackets
+from swtstudy.mechanics.surface_stress import History
+from swtstudy.mechanics.swt_line import Look, Scene, extreme_instants, of_extremes, on_plane
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
 SAFE_POISSON_RATIO = 0.35
@@ -111,21 +109,16 @@ def _decisive_history(
     A maximum at x < 0 is mirrored to x > 0.
     """
     r = np.abs(position)[:, None]
-    line = SurfaceLine(scene.cycle, scene.profile, r, _DIGITS)
-    ends = stretches(scene.cycle, scene.profile.depth(r))
-    nodes, number = cosine_nodes(scene.cycle, ends, _TIME_STEPS)
+    look = Look.at(scene, r, _TIME_STEPS, _DIGITS)
     side = np.where(position < 0.0, -1.0, 1.0)
 
-    def extremes(history: History) -> list[FloatArray]:
-        planes = scene.planes(history, side[:, None, None])
-        stress, strain = planes.on_plane(double_angle[:, None])
-        return [stress, strain, -strain]
+    def planes(history: History) -> PlaneHistory:
+        return scene.planes(history, side[:, None, None])
 
-    at = [curve.argmax(axis=-1) for curve in extremes(line.history(nodes))]
-    brackets = TimeBrackets.around(ends, _TIME_STEPS, gather(number, np.stack(at, axis=-1)))
-    wide = line.history(brackets.samples())
-    parts = (np.split(curve, 3, axis=-1)[k] for k, curve in enumerate(extremes(wide)))
-    narrow = line.history(brackets.narrowed(np.stack([p.argmax(axis=-1) for p in parts], axis=-1)).samples())
+    brackets = look.brackets(extreme_instants(planes(look.history), double_angle[:, None]))
+    wide = look.line.history(brackets.samples())
+    closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
+    narrow = look.line.history(brackets.narrowed(closer).samples())
     history = wide.joined(narrow).take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
     history = history.with_tangential_sign(side[:, None])
     θ = 0.5 * double_angle

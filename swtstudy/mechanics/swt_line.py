@@ -20,7 +20,7 @@ from swtstudy.mechanics.critical_plane import (
     product,
 )
 from swtstudy.mechanics.gather import gather, pick
-from swtstudy.mechanics.instants import cosine_nodes, stretches
+from swtstudy.mechanics.instants import Nodes, cosine_nodes, stretches
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Profile
 from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
@@ -93,36 +93,50 @@ class Scene:
 
 @dataclass(frozen=True)
 class Look:
-    """σ_n and ε_n at event-aligned instants, on one side of the contact.
+    """The stress at n × X positions and the event-aligned instants of each.
 
     Attributes
     ----------
     line
-        The n × X positions.
+        The positions.
     ends
         Shape (n, X, i, 4): the stretches, see `swtstudy.mechanics.instants.stretches`.
-    node
-        Shape (n, X, T): numbers of the nodes, see `swtstudy.mechanics.instants.cosine_nodes`.
-    planes
-        At n × X positions and T instants.
     count
         Steps of each stretch.
+    nodes, number
+        The T instants, see `swtstudy.mechanics.instants.cosine_nodes`.
+    history
+        Building blocks of the stress at them.
     """
 
     line: SurfaceLine
     ends: FloatArray
-    node: NDArray[np.intp]
-    planes: PlaneHistory
     count: int
+    nodes: Nodes
+    number: NDArray[np.intp]
+    history: History
 
     @classmethod
-    def at(cls, scene: Scene, position: FloatArray, side: FloatArray, resolution: Resolution) -> Look:
-        """Look at r = ``position`` (n, X) on the sides ``side`` (n,); zooms are not used."""
-        line = SurfaceLine(scene.cycle, scene.profile, position, resolution.digits)
+    def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
+        """Look at r = ``position``, shape (n, X)."""
+        line = SurfaceLine(scene.cycle, scene.profile, position, digits)
         ends = stretches(scene.cycle, scene.profile.depth(position))
-        nodes, node = cosine_nodes(scene.cycle, ends, resolution.nodes)
-        planes = scene.planes(line.history(nodes), side[:, None, None])
-        return cls(line, ends, node, planes, resolution.nodes)
+        nodes, number = cosine_nodes(scene.cycle, ends, count)
+        return cls(line, ends, count, nodes, number, line.history(nodes))
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Shape (n, X, T): which instants are not at the end of their stretch."""
+        return (self.number % (self.count + 1) % self.count) > 0
+
+    @property
+    def stretch(self) -> NDArray[np.intp]:
+        """Shape (n, X, T): number of the stretch of each instant; three make an interval."""
+        return self.number // (self.count + 1)
+
+    def brackets(self, instants: NDArray[np.intp]) -> TimeBrackets:
+        """Brackets around instants, shape (n, X, e)."""
+        return TimeBrackets.around(self.ends, self.count, gather(self.number, instants))
 
 
 def hot_intervals(
@@ -139,12 +153,12 @@ def hot_intervals(
     resolution
         Its zooms are not used.
     """
-    look = Look.at(scene, position[:, None], side, resolution)
-    near = near_extremes(look.planes, STARTS + double_angle[:, None], HOT)
+    look = Look.at(scene, position[:, None], resolution.nodes, resolution.digits)
+    planes = scene.planes(look.history, side[:, None, None])
+    near = near_extremes(planes, STARTS + double_angle[:, None], HOT)
     row, column, place = np.nonzero(near)
     hot = np.zeros(scene.cycle.begin.shape, dtype=bool)
-    # Three stretches make an interval.
-    hot[row, look.node[row, column, place] // (3 * (look.count + 1))] = True
+    hot[row, look.stretch[row, column, place] // 3] = True
     return hot
 
 
@@ -171,16 +185,17 @@ def refine(
     swt, double_angle
         Shape (n, X).
     """
-    look = Look.at(scene, position, side, resolution)
-    best, other = _best_planes(look, double_angle + STARTS)
-    swt, angle = _zoomed(scene, look, side, best, resolution.zooms)
+    look = Look.at(scene, position, resolution.nodes, resolution.digits)
+    planes = scene.planes(look.history, side[:, None, None])
+    best, other = _best_planes(planes, look.inside, double_angle + STARTS)
+    found, elsewhere = extreme_instants(planes, best), extreme_instants(planes, other)
+    swt, angle = _zoomed(scene, look, side, best, found, resolution.zooms)
     # Two planes that the nodes cannot tell apart are both followed; neighbouring nodes have the same bracket.
-    apart = np.abs(_extremes(look.planes, best) - _extremes(look.planes, other)) > 1
-    rows = np.flatnonzero(apart.any(axis=(1, 2)))
+    rows = np.flatnonzero((np.abs(found - elsewhere) > 1).any(axis=(1, 2)))
     if rows.size:
         some = scene.take(rows)
-        again = Look.at(some, position[rows], side[rows], resolution)
-        more, at = _zoomed(some, again, side[rows], other[rows], resolution.zooms)
+        again = Look.at(some, position[rows], resolution.nodes, resolution.digits)
+        more, at = _zoomed(some, again, side[rows], other[rows], elsewhere[rows], resolution.zooms)
         better = more > swt[rows]
         swt[rows] = np.where(better, more, swt[rows])
         angle[rows] = np.where(better, at, angle[rows])
@@ -188,30 +203,35 @@ def refine(
 
 
 def _zoomed(
-    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, zooms: int
+    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, extremes: NDArray[np.intp], zooms: int
 ) -> tuple[FloatArray, FloatArray]:
-    """swt and 2θ near a plane (n, X), from samples ever closer around the three instants that make swt."""
-    node = gather(look.node, _extremes(look.planes, angle))
-    brackets = TimeBrackets.around(look.ends, look.count, node)
+    """swt and 2θ near a plane (n, X), from samples ever closer around the instants of its extremes."""
+    brackets = look.brackets(extremes)
     for turn in range(zooms):
-        near = _of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
+        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
         for _ in range(ANGLE_ROUNDS):
             peak, high, low = _at_peaks(near, brackets, angle)
             angle = best_angle(peak, high + low, angle)
         if turn < zooms - 1:
-            brackets = brackets.narrowed(_on_plane(near, angle).argmax(axis=-1))
-    tops = _on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
+            brackets = brackets.narrowed(on_plane(near, angle).argmax(axis=-1))
+    tops = on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
     return product(tops[..., 0], tops[..., 1], -tops[..., 2]), angle
 
 
-def _best_planes(look: Look, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _best_planes(
+    planes: PlaneHistory, inside: NDArray[np.bool_], angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """The planes of largest swt, 2θ: by the values at the instants, and by interpolation between them.
 
-    From starts (s, n, X), rad.
+    Parameters
+    ----------
+    planes
+        At points (…) and T instants.
+    inside
+        Shape (…, T), see `Look.inside`.
+    angle
+        Shape (s, …): starts, rad.
     """
-    planes = look.planes
-    # Which instants are not at the end of their stretch.
-    inside = (look.node % (look.count + 1) % look.count) > 0
     angle = climb_over_planes(planes, angle, ANGLE_ROUNDS)
     stress, strain = planes.on_plane(angle)
     found = []
@@ -234,19 +254,19 @@ def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     return top
 
 
-def _extremes(planes: PlaneHistory, angle: FloatArray) -> NDArray[np.intp]:
+def extreme_instants(planes: PlaneHistory, angle: FloatArray) -> NDArray[np.intp]:
     """Instants of largest σ_n, largest ε_n, smallest ε_n, shape (…, 3)."""
     stress, strain = planes.on_plane(angle)
     return np.stack([stress.argmax(axis=-1), strain.argmax(axis=-1), strain.argmin(axis=-1)], axis=-1)
 
 
-def _of_extremes(planes: PlaneHistory) -> FloatArray:
+def of_extremes(planes: PlaneHistory) -> FloatArray:
     """Coefficients of σ_n, ε_n and −ε_n, whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
     stress, strain = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.strain))
     return np.stack([stress[..., 0, :], strain[..., 1, :], -strain[..., 2, :]], axis=-2)
 
 
-def _on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
+def on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
     """A + B cos 2θ + C sin 2θ of coefficients (3, n, X, …) at 2θ of shape (n, X)."""
     a, b, c = coefficients
     angle = angle.reshape(angle.shape + (1,) * (a.ndim - angle.ndim))
@@ -255,7 +275,7 @@ def _on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
 
 def _at_peaks(near: FloatArray, brackets: TimeBrackets, angle: FloatArray) -> tuple[FloatArray, ...]:
     """Coefficients of σ_n, ε_n and −ε_n at their maxima between the samples, each (3, n, X)."""
-    weights = brackets.weights_at_peak(_on_plane(near, angle))
+    weights = brackets.weights_at_peak(on_plane(near, angle))
     return tuple(np.moveaxis((near * weights).sum(axis=-1), -1, 0))
 
 

@@ -96,29 +96,26 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     solutions: list[Solution] = []
     messages: dict[int, str] = {}
     start = 0
-    for length in chunk.lengths:
-        block = chunk.table[start : start + length]
-        solutions += _kept_apart(block, rtol, solver, start, messages)
-        start += length
+    for solution, message in _kept_apart(chunk, rtol, solver):
+        if message:
+            messages[start] = message
+        solutions.append(solution)
+        start += len(solution.s)
     failed = np.zeros(len(chunk), bool)
     failed[list(messages)] = True
     seconds = time.perf_counter() - begin
     return Result(chunk.rows, joined(solutions), failed, messages, seconds, SOLVER_VERSION)
 
 
-def _kept_apart(
-    table: FloatArray, rtol: float, solver: Solver, start: int, messages: dict[int, str]
-) -> list[Solution]:
-    """Solve points; where one fails, the others do not. Its message goes to its number from ``start``."""
-    try:
-        return [_checked(table, rtol, solver)]
-    except Exception as error:
-        if len(table) == 1:
-            messages[start] = f"{type(error).__name__}: {error}"
-            return [blank(1)]
-    half = len(table) // 2
-    first = _kept_apart(table[:half], rtol, solver, start, messages)
-    return first + _kept_apart(table[half:], rtol, solver, start + half, messages)
+def _kept_apart(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, str]]:
+    """Solutions of the points, in order; where one fails, it is alone with its message."""
+    if len(chunk.lengths) == 1:
+        try:
+            return [(_checked(chunk.table, rtol, solver), "")]
+        except Exception as error:
+            if len(chunk) == 1:
+                return [(blank(1), f"{type(error).__name__}: {error}")]
+    return [found for part in chunk.split() for found in _kept_apart(part, rtol, solver)]
 
 
 def given_up(chunk: Chunk, message: str) -> Result:
