@@ -9,6 +9,7 @@ import xarray as xr
 import swtstudy
 from swtstudy import Study, open_results, run
 from swtstudy.archive.files import check_writable, replacing
+from swtstudy.archive.read import ArchiveError
 from swtstudy.parameters import PARAMETERS
 
 
@@ -119,3 +120,13 @@ def test_a_damaged_value_is_noticed(tmp_path):
             continue
         damaged += 1
     assert damaged
+
+
+@pytest.mark.parametrize(("name", "value"), [("status", 7), ("run", -2147483647)])
+def test_a_number_that_stands_for_nothing_is_noticed(small, tmp_path, name, value):
+    path = tmp_path / "small.nc"
+    run(small, path, solver=stand_in.smooth)
+    with netCDF4.Dataset(path, "a") as file:
+        file[name][:] = value
+    with pytest.raises(ArchiveError, match="a status or a run that there is not"):
+        run(small, path, solver=stand_in.smooth, retry_failed=True)

@@ -15,7 +15,7 @@ from swtstudy.labelled import arrays_of
 from swtstudy.mechanics.points import Solution
 from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import Records, Run
+from swtstudy.runner.records import STATES, Records, Run
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -68,6 +68,8 @@ def records_of(dataset: xr.Dataset) -> Records:
         messages = {tuple(failure["row"]): failure["message"] for failure in failures}
     except (KeyError, ValueError, TypeError, IndexError) as error:
         raise ArchiveError(f"not a complete archive of swtstudy ({error!r})") from None
+    if not (np.isin(status, range(len(STATES))).all() and np.isin(run, range(-1, len(runs))).all()):
+        raise ArchiveError("a damaged archive: it has a status or a run that there is not")
     records = Records(points.table, solution, status.astype(np.int8), run.astype(np.int32), runs)
     if messages:
         for index, row in enumerate(points.table.tolist()):
