@@ -87,6 +87,25 @@ def test_extremes_are_drawn_too(parameters):
     assert ("not finite" in figure.get_suptitle()) == (parameters.get("friction") == 1.2)
 
 
+def test_nothing_that_moves_is_drawn_as_nothing():
+    load, _, _, _, _, swt, _ = swtstudy.inspect(normal_amplitude=0, tangential_amplitude=0).axes
+    assert np.ptp(load.get_xlim()) == pytest.approx(0.1 * 1.28)
+    (dot,) = (line for line in swt.lines if line.get_marker() == "o")
+    assert dot.get_ydata() == [0.0]
+
+
+@pytest.mark.parametrize(("friction", "words"), [(0.3, "critical"), (1.2, "largest")])
+def test_there_is_no_critical_point_where_swt_has_no_bound(friction, words):
+    figure = swtstudy.inspect(profile="truncated_paraboloid", flat_radius=1, friction=friction, phase=1.5)
+    legend = {text.get_text() for text in figure.axes[1].get_legend().get_texts()}
+    titles = " ".join(axes.get_title("left") for axes in figure.axes)
+    assert ("critical point" in legend, "largest sampled" in legend) == (
+        words == "critical",
+        words == "largest",
+    )
+    assert ("critical" in titles, "largest" in titles) == (words == "critical", words == "largest")
+
+
 def test_mistakes_are_named():
     with pytest.raises(ValueError, match="did you mean friction"):
         swtstudy.inspect(frictoin=0.1)

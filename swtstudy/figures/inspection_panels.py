@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 _THIN, _FAINT = 0.9, "0.55"
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
+#: What changes by less than this part of itself, or of 1, does not change but for rounding.
+_ROUNDING = 1e-13
 
 
 def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
@@ -27,15 +29,16 @@ def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
     axes.plot(u, depth, color="black", linestyle="-", marker="")
     axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
     axes.axhline(1.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.set_xlim(_limits(u, 0.14, 0.14, 1.0))
+    axes.set_ylim(_limits(depth, 0.14, 0.14, 1.0))
     if depth.min() < 0.0:
-        axes.axhspan(min(1.15 * depth.min(), -0.1), 0.0, color="0.92", zorder=0)
+        axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
     _draw_sense(axes, u, depth, [index for _, index in _instants(dataset)])
     for number, index in _instants(dataset):
         _mark(axes, number, u[index], depth[index])
     axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
     axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
-    axes.margins(0.14)
     axes.set_title("load path", loc="left")
 
 
@@ -58,7 +61,11 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_ylim(0.0, top)
     stick = float(dataset.permanent_stick_radius)
     for radius, dashes, words in (
-        (abs(float(dataset.shown_x)), _DASHED, "critical point"),
+        (
+            abs(float(dataset.shown_x)),
+            _DASHED,
+            "critical point" if _is_finite(dataset) else "largest sampled",
+        ),
         (stick, _DOTTED, "always sticks"),
     ):
         if radius > 0.0:
@@ -132,16 +139,16 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_ylabel(r"$\sigma_n$ over $E^* \sqrt{\delta_0/R}$", color=line.get_color())
     other.set_ylabel(r"$\varepsilon_n$ over $\sqrt{\delta_0/R}$", color=dashed.get_color())
     for one, values in ((axes, stress), (other, strain)):
-        low, span = float(values.min()), float(values.max() - values.min()) or 1.0
-        one.set_ylim(low - 0.08 * span, low + 1.22 * span)
-    axes.set_title(f"on the critical plane at $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
+        one.set_ylim(_limits(values.values, 0.08, 0.22))
+    place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
+    axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
 
 
 def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     """swt along the surface, and the critical plane."""
     x, largest = float(dataset.shown_x), float(dataset.largest_radius)
-    top = float(dataset.s) if math.isfinite(float(dataset.s)) else float(dataset.s_local.max())
-    top = top or 1.0
+    found = float(dataset.s) if _is_finite(dataset) else float(dataset.s_local.max())
+    top = found or 1.0
     (line,) = axes.plot(dataset.x, dataset.s_local)
     axes.fill_between(dataset.x, 0.0, dataset.s_local, color=line.get_color(), alpha=0.12, linewidth=0)
     stick, least = float(dataset.permanent_stick_radius), float(dataset.least_radius)
@@ -154,12 +161,13 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
         if radius > 0.0:
             box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
             axes.text(radius, 1.39 * top, words, ha="center", va="center", fontsize="small", bbox=box)
-    axes.plot(x, top, marker="o", markersize=7, color="black", linestyle="")
+    axes.plot(x, found, marker="o", markersize=7, color="black", linestyle="", clip_on=False)
     axes.set_xlim(-1.2 * largest, 1.2 * largest)
     axes.set_ylim(0.0, 1.45 * top)
     axes.set_xlabel("$x/a_H$")
     axes.set_ylabel(r"swt over $E^* \delta_0/R$")
-    axes.set_title("swt along the surface", loc="left")
+    words = "" if _is_finite(dataset) else "; dot: largest sampled"
+    axes.set_title(f"swt along the surface{words}", loc="left")
     _draw_plane(axes, dataset)
 
 
@@ -182,6 +190,20 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
     inset.set(xlim=(-1.2, 1.2), ylim=(-1.0, 0.3), xticks=[], yticks=[], aspect="equal")
     inset.set_frame_on(False)
     inset.grid(False)
+
+
+def _is_finite(dataset: xr.Dataset) -> bool:
+    """Whether there is a critical point: else the point shown is that of the largest swt sampled."""
+    return math.isfinite(float(dataset.s))
+
+
+def _limits(values: FloatArray, below: float, above: float, size: float = 0.0) -> tuple[float, float]:
+    """Limits of an axis with room at both ends, as wide as the size of values that do not change."""
+    low, span = float(values.min()), float(np.ptp(values))
+    size = max(size, float(np.abs(values).max()))
+    if span <= _ROUNDING * size:
+        low, span = low - 0.05 * (size or 1.0), 0.1 * (size or 1.0)
+    return low - below * span, low + (1.0 + above) * span
 
 
 def _instants(dataset: xr.Dataset) -> list[tuple[int, int]]:
