@@ -25,7 +25,7 @@ def test_missing_archives_are_named_with_the_command_that_makes_them(tmp_path):
         assert f"{tmp_path / name}.nc is missing; made by: swtstudy run {name}" in result.stderr
     made_by = "swtstudy audit parameter_box"
     assert f"{tmp_path / AUDIT}.nc is missing; made by: {made_by}" in result.stderr
-    assert "swtstudy run --all" in result.stderr
+    assert "all of them: swtstudy run --all && swtstudy audit parameter_box" in result.stderr
     assert not list(tmp_path.iterdir())
 
 

@@ -9,8 +9,11 @@ import click
 
 from swtstudy.cli.examples import examples
 
+#: What makes all that is checked: the audit is no study of the suite.
+EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"
 
-@click.command(epilog=examples("swtstudy run --all && swtstudy check"))
+
+@click.command(epilog=examples(f"{EVERYTHING} && swtstudy check"))
 @click.option("--results", default="results", show_default=True, help="Folder with the archives.")
 @click.option("--output", "-o", help="Markdown file for the table; by default statements.md in that folder.")
 def check(results: str, output: str | None) -> None:
@@ -33,7 +36,7 @@ def check(results: str, output: str | None) -> None:
         line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
     )
     if problems:
-        raise ValueError("\n".join([*problems, "all of them: swtstudy run --all"]))
+        raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
     check_writable(target)
     with replacing(target) as temporary:
         temporary.write_text(markdown(outcomes), encoding="utf-8")
