@@ -20,7 +20,7 @@ class SwtAccessor:
     """What can be done with results of `solve`, `run` and `open_results`, also after xarray's operations.
 
     Registered as ``Dataset.swt`` as soon as one of these functions has been looked up in `swtstudy`, or by
-    ``import swtstudy.accessor``.
+    ``import swtstudy.accessor``, which those need who open an archive with xarray alone.
 
     Examples
     --------

@@ -153,7 +153,9 @@ def test_results_of_solve():
         dataset.swt.figure()
 
 
-@pytest.mark.parametrize("first", ["import xarray", "import swtstudy; swtstudy.open_results"])
+@pytest.mark.parametrize(
+    "first", ["import xarray", "import swtstudy; swtstudy.open_results", "import swtstudy.accessor"]
+)
 def test_the_accessor_is_there_without_being_asked_for(first):
     code = f"{first}\nimport swtstudy, xarray\nxarray.Dataset().swt"
     subprocess.run([sys.executable, "-c", code], check=True)
