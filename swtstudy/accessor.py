@@ -53,6 +53,7 @@ class SwtAccessor:
         title: str | None = None,
         kind: str = "lines",
         vertical: str | None = None,
+        regimes: bool = False,
         style: Style | None = None,
     ) -> Figure:
         """A figure of one's own: the same keys as in a study's ``[figure]``."""
@@ -60,7 +61,8 @@ class SwtAccessor:
         from swtstudy.study.figure import FigureLayout
 
         rows = (y,) if isinstance(y, str) else tuple(y)
-        return draw(self._dataset, FigureLayout(x, hue, panels, rows, title, kind, vertical), style)
+        layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes)
+        return draw(self._dataset, layout, style)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
         """The part at given values; see `swtstudy.results.select.slice_at`."""

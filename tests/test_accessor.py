@@ -1,5 +1,7 @@
 """ds.swt on results of solve, run and open_results, before and after xarray's own operations."""
 
+import dataclasses
+import inspect
 import subprocess
 import sys
 
@@ -11,7 +13,9 @@ from made_up import PANELS, made_up
 
 import swtstudy
 from swtstudy import Study, run
+from swtstudy.accessor import SwtAccessor
 from swtstudy.results.normalise import normalised, normalised_error
+from swtstudy.study.figure import FigureLayout
 
 
 @pytest.fixture
@@ -144,6 +148,17 @@ def test_figures(dataset):
         dataset.swt.panels("phase", panels="flat_radius")
     with pytest.raises(ValueError, match="not a dimension"):
         dataset.swt.slice(flat_radius=0).swt.figure()
+
+
+def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
+    dataset["regime"] = dataset.regime.copy(data=np.tile([0, 0, 1, 1, 2], (2, 3, 1)))
+    plain, marked = (
+        dataset.isel(phase=0).swt.panels("flat_radius", "frequency_ratio", regimes=regimes)
+        for regimes in (False, True)
+    )
+    assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
+    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style"}
+    assert own == {field.name for field in dataclasses.fields(FigureLayout)}
 
 
 def test_results_of_solve():
