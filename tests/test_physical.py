@@ -161,6 +161,43 @@ def test_mistakes_are_named(changes, words):
         physical(**{**ALUMINIUM, "depth": 0.01, "tangential_amplitude": 0.002, **changes})
 
 
+@pytest.mark.parametrize(
+    ("changes", "messages"),
+    [
+        ({"profile": "rounded_punch", "flat_radius": -1}, ["flat_radius: found -1; allowed: a length ≥ 0"]),
+        (
+            {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 1e-9},
+            ["wavelength: found 1e-09 at waviness_amplitude 0.001; allowed: at least 0.62"],
+        ),
+        ({"friction": [0.5]}, ["friction: found [0.5] (not a number)"]),
+        ({"friction": 0}, ["tangential_amplitude: found 0.002 without friction; allowed: 0"]),
+        ({"young_modulus": -1}, ["young_modulus: found -1; allowed: a positive number"]),
+        ({"normal_amplitude": "0"}, ["normal_amplitude: found '0'"]),
+        ({"profile": ["paraboloid"]}, ["profile: found ['paraboloid'] (not a name)"]),
+        ({"similar": None}, ["similar: found None"]),
+        (
+            {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
+            ["friction: found -1", "phase: found None", "radius: found 0", "tangential_amplitude: found -1"],
+        ),
+        ({"normal_amplitude": 1}, ["normal_amplitude: found 1, non-dimensional 155.2"]),
+    ],
+)
+def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages):
+    with pytest.raises(swtstudy.StudyError) as caught:
+        physical(**{**ALUMINIUM, "normal_force": 200.0, "tangential_amplitude": 0.002, **changes})
+    found = str(caught.value).splitlines()
+    assert len(found) == len(messages)
+    for line, start in zip(found, messages, strict=True):
+        assert line.startswith(start)
+
+
+def test_waves_too_short_to_follow_are_left_out_of_the_force_too():
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-30, "wavelength": 3e-14}
+    contact = physical(**ALUMINIUM, normal_force=200.0, tangential_amplitude=0.002, **waves)
+    plain = physical(**ALUMINIUM, normal_force=200.0, tangential_amplitude=0.002)
+    assert contact.depth == pytest.approx(plain.depth)
+
+
 def test_dundurs():
     # Steel on rubber: β = (1 − 2ν)/(2 − 2ν) of the soft body to first order.
     assert Moduli((1.0, 1e9), (0.3, 0.3)).mismatch == pytest.approx(0.4 / 1.4)

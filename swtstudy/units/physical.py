@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from numbers import Real
 from typing import Any
 
-import numpy as np
-
 from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.contact import PhysicalContact
@@ -79,70 +80,126 @@ def physical(
     >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
     (296, 0.568)
     """
-    moduli = Moduli(_pair(young_modulus), _pair(poisson_ratio))
-    shape = {"flat_radius": flat_radius, "waviness_amplitude": waviness_amplitude, "wavelength": wavelength}
-    mistakes = _mistakes(moduli, similar, {"radius": radius, "depth": depth, "normal_force": normal_force})
-    names = PROFILE_SHAPES.get(profile, ())
-    for name in names:
-        if shape[name] is None:
-            mistakes.append(Mistake(name, "nothing", f"a length ({profile} needs it)"))
-    if mistakes:
+    lengths = {
+        "radius": radius,
+        "normal_amplitude": normal_amplitude,
+        "tangential_amplitude": tangential_amplitude,
+        "flat_radius": flat_radius,
+        "waviness_amplitude": waviness_amplitude,
+        "wavelength": wavelength,
+    }
+    known = isinstance(profile, str) and profile in PROFILE_SHAPES
+    plain = {"friction": friction, "frequency_ratio": frequency_ratio, "phase": phase}
+    grid, mistakes = read_grid(plain if known else {**plain, "profile": profile}, {})
+    mistakes += _wrong_bodies(_pair(young_modulus), _pair(poisson_ratio), similar)
+    mistakes += _wrong_load(depth, normal_force)
+    mistakes += _wrong_lengths(lengths, PROFILE_SHAPES[profile] if known else ())
+    if grid is None or mistakes:
         raise StudyError(mistakes)
-    lengths = {name: float(shape[name]) for name in names}  # type: ignore[arg-type]
+    if float(grid.fixed["friction"]) == 0.0 and tangential_amplitude:
+        found = f"{literal(tangential_amplitude)} without friction"
+        raise StudyError([Mistake("tangential_amplitude", found, "0, since the contact slides at once")])
     contact = PhysicalContact(
-        moduli,
+        Moduli(_pair(young_modulus), _pair(poisson_ratio)),
         float(radius),
         1.0 if depth is None else float(depth),
-        friction,
-        normal_amplitude,
-        tangential_amplitude,
-        frequency_ratio,  # type: ignore[arg-type]
-        phase,  # type: ignore[arg-type]
+        float(grid.fixed["friction"]),
+        float(normal_amplitude),
+        float(tangential_amplitude),
+        Fraction(grid.fixed["frequency_ratio"]),
+        float(grid.fixed["phase"]),
         profile,
-        lengths,
+        {name: float(lengths[name]) for name in PROFILE_SHAPES[profile]},  # type: ignore[arg-type]
     )
-    if normal_force is not None and profile in PROFILE_SHAPES:
+    if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, float(normal_force)))
-    grid, mistakes = read_grid(contact.parameters(), {})
-    if grid is None:
-        raise StudyError(mistakes)
-    ratio, angle = Fraction(grid.fixed["frequency_ratio"]), float(grid.fixed["phase"])
-    return replace(contact, frequency_ratio=ratio, phase=angle)
+    _, mistakes = read_grid(contact.parameters(), {})
+    if mistakes:
+        raise StudyError(_in_own_values(mistake, lengths) for mistake in mistakes)
+    return contact
 
 
-def _pair(value: Any) -> tuple[float, float]:
+def _pair(value: Any) -> tuple[Any, Any]:
     return (value[0], value[1]) if isinstance(value, list | tuple) and len(value) == 2 else (value, value)
 
 
-def _mistakes(moduli: Moduli, similar: float, lengths: dict[str, float | None]) -> list[Mistake]:
-    def number(value: object) -> bool:
-        return (
-            isinstance(value, int | float | np.number)
-            and not isinstance(value, bool)
-            and math.isfinite(value)
-        )
+def _number(value: object) -> float:
+    """A plain number as a float; NaN for all else."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
+
+def _wrong_bodies(young: tuple[Any, Any], poisson: tuple[Any, Any], similar: object) -> list[Mistake]:
     mistakes = [
-        Mistake(name, literal(value), "a positive number")
-        for name, value in [("young_modulus", e) for e in moduli.young] + list(lengths.items())
-        if value is not None and not (number(value) and value > 0)
+        Mistake("young_modulus", literal(value), "a positive number, or a pair of them")
+        for value in young
+        if not 0.0 < _number(value) < math.inf
     ]
-    for nu in moduli.poisson:
-        if not (number(nu) and 0.0 <= nu <= 0.5):
-            mistakes.append(Mistake("poisson_ratio", literal(nu), "a number in [0, 0.5]"))
-    if (lengths["depth"] is None) == (lengths["normal_force"] is None):
-        found = "neither" if lengths["depth"] is None else "both"
-        mistakes.append(Mistake("depth, normal_force", found, "one of the two"))
-    if not mistakes and abs(moduli.mismatch) > similar:
-        found = f"bodies that are not similar: Dundurs' β = {moduli.mismatch:.3f}"
+    mistakes += [
+        Mistake("poisson_ratio", literal(value), "a number in [0, 0.5], or a pair of them")
+        for value in poisson
+        if not 0.0 <= _number(value) <= 0.5
+    ]
+    if not 0.0 <= _number(similar) < math.inf:
+        mistakes.append(Mistake("similar", literal(similar), "a number ≥ 0"))
+    if not mistakes and abs(beta := Moduli(young, poisson).mismatch) > float(similar):  # type: ignore[arg-type]
+        found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
         allowed = f"|β| ≤ {similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
         mistakes.append(Mistake("young_modulus, poisson_ratio", found, allowed))
+    return list(dict.fromkeys(mistakes))  # one value stands for both bodies
+
+
+def _wrong_load(depth: object, normal_force: object) -> list[Mistake]:
+    load = {"depth": depth, "normal_force": normal_force}
+    given = {name: value for name, value in load.items() if value is not None}
+    if len(given) != 1:
+        return [Mistake("depth, normal_force", "both" if given else "neither", "one of the two")]
+    return [
+        Mistake(name, literal(value), "a positive number")
+        for name, value in given.items()
+        if not 0.0 < _number(value) < math.inf
+    ]
+
+
+def _wrong_lengths(lengths: Mapping[str, object], needed: Collection[str]) -> list[Mistake]:
+    mistakes = []
+    for name, value in lengths.items():
+        optional = name in ("flat_radius", "waviness_amplitude", "wavelength") and name not in needed
+        if value is None and optional:
+            continue
+        zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
+        number = _number(value)
+        if not (0.0 < number < math.inf or (zero and number == 0.0)):
+            allowed = "a length ≥ 0" if zero else "a positive length"
+            if name in needed:
+                allowed += " (this profile needs it)"
+            mistakes.append(Mistake(name, "nothing" if value is None else literal(value), allowed))
     return mistakes
+
+
+def _in_own_values(mistake: Mistake, lengths: Mapping[str, object]) -> Mistake:
+    """A mistake in non-dimensional parameters with the lengths that they come from."""
+    own = [literal(lengths[name]) for name in mistake.key.split(", ") if name in lengths]
+    return replace(mistake, found=f"{', '.join(own)}, non-dimensional {mistake.found}") if own else mistake
 
 
 def _depth_at(contact: PhysicalContact, force: float) -> float:
     """Indentation depth at a normal force, which rises with it."""
     from scipy.optimize import brentq
+
+    if "wavelength" in contact.shape:
+        h, wavelength = contact.shape["waviness_amplitude"], contact.shape["wavelength"]
+        least = smallest_compact_wavelength(math.pi) * math.sqrt(h * contact.radius)
+        if wavelength < least:
+            found = f"{wavelength!r} at waviness_amplitude {h!r}"
+            allowed = (
+                f"at least {least:.4g}: with shorter waves no contact is compact, however small its depth"
+            )
+            raise StudyError([Mistake("wavelength", found, allowed)])
 
     def excess(logarithm: float) -> float:
         return math.log(replace(contact, depth=math.exp(logarithm)).normal_force / force)
