@@ -50,6 +50,17 @@ def test_swt_of_a_sliding_contact_in_numbers():
     found = contact.solve(rtol=1e-5)
     assert found.SWT.values == pytest.approx([(normal + drag_x) * amplitude] * 2, rel=1e-4)
     assert abs(found.critical_position.values) == pytest.approx([contact.contact_radius] * 2, rel=1e-6)
+    np.testing.assert_allclose(found.SWT_error / found.SWT, found.s_error / found.s)
+    own = {name: found[name].attrs for name in ("SWT", "SWT_error", "critical_position")}
+    assert [attributes["symbol"] for attributes in own.values()] == [
+        r"\mathrm{SWT}",
+        r"\Delta \mathrm{SWT}",
+        "x",
+    ]
+    assert own["SWT"]["ancillary_variables"] == "SWT_error regime"
+    assert not {"comment", "ancillary_variables"} & {*own["SWT_error"], *own["critical_position"]}
+    assert "comment" not in own["SWT"]
+    assert found.s.attrs["symbol"] == "s"
 
 
 def test_each_of_two_equal_bodies_has_half_of_swt0_s():

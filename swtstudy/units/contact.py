@@ -173,8 +173,8 @@ class PhysicalContact:
         Returns
         -------
         xarray.Dataset
-            What `swtstudy.solve` gives, over the dimension body (1, 2), and SWT in the unit of stress of the
-            moduli and critical_position in that of the lengths.
+            What `swtstudy.solve` gives, over the dimension body (1, 2), and SWT with its SWT_error in the
+            unit of stress of the moduli and critical_position in that of the lengths.
         """
         import xarray as xr
 
@@ -185,12 +185,26 @@ class PhysicalContact:
             bodies, xr.DataArray([1, 2], dims="body", name="body"), coords="different", compat="equals"
         )
         share = np.array([self.moduli.swt_share(body) for body in (0, 1)])
-        dataset["SWT"] = (dataset.s * xr.DataArray(self.swt_scale * share, dims="body")).assign_attrs(
-            long_name="Smith-Watson-Topper parameter of the body", units="unit of stress of the moduli"
-        )
-        dataset["critical_position"] = (dataset.critical_x * self.length_scale).assign_attrs(
-            long_name="position of the critical point", units="unit of length"
-        )
+        scale = xr.DataArray(self.swt_scale * share, dims="body")
+        words = {"units": "unit of stress of the moduli"}
+        own = {
+            "SWT": (
+                dataset.s * scale,
+                {"long_name": "Smith-Watson-Topper parameter of the body", **words}
+                | {"symbol": r"\mathrm{SWT}", "ancillary_variables": "SWT_error regime"},
+            ),
+            "SWT_error": (
+                dataset.s_error * scale,
+                {"long_name": "estimated absolute error of SWT", **words, "symbol": r"\Delta \mathrm{SWT}"},
+            ),
+            "critical_position": (
+                dataset.critical_x * self.length_scale,
+                {"long_name": "position of the critical point", "units": "unit of length", "symbol": "x"},
+            ),
+        }
+        for name, (values, attributes) in own.items():
+            values.attrs = attributes  # not those of what they come from
+            dataset[name] = values
         return dataset
 
     def cycles(self, constants: FatigueConstants, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
