@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from swtstudy.archive.read import open_results
     from swtstudy.audit.audit import audit_study
+    from swtstudy.fields.history import swt_of_history
     from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.nonlocal_swt import nonlocal_swt
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
-    from swtstudy.mechanics.critical_plane_3d import swt_of_history
     from swtstudy.mistakes import StudyError
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
@@ -62,7 +62,7 @@ _HOMES = {
     "solve": "swtstudy.solving",
     "stress_field": "swtstudy.fields.stress",
     "swt_field": "swtstudy.fields.swt",
-    "swt_of_history": "swtstudy.mechanics.critical_plane_3d",
+    "swt_of_history": "swtstudy.fields.history",
 }
 
 #: What gives Datasets of results, which then have the accessor ``swt``.

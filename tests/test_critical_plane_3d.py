@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import swtstudy
 from swtstudy.mechanics.critical_plane_3d import swt_of_history, swt_on_planes
 from swtstudy.mechanics.hemisphere import hemisphere
 from swtstudy.mechanics.plane_ascent import symmetric_tensor
@@ -59,6 +60,29 @@ def test_never_less_than_the_search_in_the_plane_of_sliding():
     stress = smooth_histories(np.random.default_rng(5), 60)
     swt, _ = swt_of_history(stress, POISSON)
     assert (swt_on_planes(stress, in_plane, POISSON).max(axis=1) <= swt * (1 + 1e-12)).all()
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"stress": [[0] * 6, [np.nan] * 6]}, "stress: found 6 components that are not finite"),
+        ({"stress": np.zeros((2, 5))}, r"stress: found the shape \(2, 5\); allowed: \(..., time, 6\)"),
+        ({"stress": np.zeros(6)}, r"the shape \(6,\)"),
+        ({"stress": np.zeros((0, 6))}, r"the shape \(0, 6\)"),
+        ({"stress": "x"}, "stress: found 'x'; allowed: an array of numbers"),
+        ({"poisson_ratio": -5}, r"poisson_ratio: found -5; allowed: a number in \(-1, 0.5\]"),
+        ({"poisson_ratio": None}, "poisson_ratio: found None"),
+        ({"youngs_modulus": 0}, "youngs_modulus: found 0; allowed: a positive number"),
+        ({"youngs_modulus": np.nan}, "youngs_modulus: found nan"),
+    ],
+)
+def test_mistakes_are_named(changes, words):
+    pull = np.zeros((2, 6))
+    pull[1, 0] = 1.0
+    good = {"stress": pull, "poisson_ratio": POISSON, "youngs_modulus": 2.0}
+    assert swtstudy.swt_of_history(**good).swt == pytest.approx(0.25)
+    with pytest.raises(ValueError, match=words):
+        swtstudy.swt_of_history(**{**good, **changes})
 
 
 def test_closed_forms():

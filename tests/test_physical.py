@@ -239,8 +239,21 @@ def test_lives_of_arrays_and_limits():
     contact = physical(**ALUMINIUM, depth=0.01, tangential_amplitude=0.002)
     s = np.array([0.1, 0.2])
     np.testing.assert_allclose(contact.cycles(STEEL, s), STEEL.cycles(contact.swt(s)))
-    with pytest.raises(ValueError, match="strength_exponent"):
-        FatigueConstants(1.0, 1.0, 0.1, 1.0, -0.5)
+    for swt, words in ((-1.0, "swt: found -1; allowed: numbers ≥ 0"), ("x", "swt: found 'x'")):
+        with pytest.raises(ValueError, match=words):
+            STEEL.cycles(swt)
+    with pytest.raises(ValueError, match="cycles: found -2"):
+        STEEL.swt([1.0, np.nan, -2.0])
+
+
+def test_wrong_constants_are_named_at_once():
+    with pytest.raises(swtstudy.StudyError) as caught:
+        FatigueConstants("1", None, 0.1, 1.0, -0.5)
+    assert str(caught.value).splitlines() == [
+        "young_modulus: found '1'; allowed: a positive number",
+        "strength: found None; allowed: a positive number",
+        "strength_exponent: found 0.1; allowed: a negative number",
+    ]
 
 
 def test_the_worked_example():

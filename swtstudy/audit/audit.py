@@ -12,6 +12,7 @@ import numpy as np
 
 from swtstudy.grid.grid import Grid
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.study.definition import Study
 
 if TYPE_CHECKING:
@@ -61,8 +62,11 @@ def audit_study(
     Raises
     ------
     ValueError
-        If the file is there and holds no audit.
+        If the file is there and holds no audit, or `study` is no Study.
     """
+    if not isinstance(study, Study):
+        allowed = 'a Study, as from Study.from_toml("studies/figure3.toml")'
+        raise StudyError([Mistake("study", literal(study), allowed)])
     from swtstudy.archive.files import save
     from swtstudy.audit.point import audit_point
     from swtstudy.audit.table import findings_dataset, open_audit, read_findings

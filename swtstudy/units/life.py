@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.mistakes import Mistake, StudyError, literal
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
@@ -36,15 +39,19 @@ class FatigueConstants:
     ductility_exponent: float
 
     def __post_init__(self) -> None:
+        mistakes = []
         for name, value in vars(self).items():
             sign = -1.0 if name.endswith("exponent") else 1.0
-            if not (np.isfinite(value) and sign * value > 0.0):
+            number = isinstance(value, Real) and not isinstance(value, bool)
+            if not (number and np.isfinite(value) and sign * value > 0.0):
                 allowed = "a negative number" if sign < 0.0 else "a positive number"
-                raise ValueError(f"{name}: found {value!r}; allowed: {allowed}")
+                mistakes.append(Mistake(name, literal(value), allowed))
+        if mistakes:
+            raise StudyError(mistakes)
 
     def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
-        reversals = 2.0 * np.asarray(cycles, dtype=float)
+        reversals = 2.0 * _not_negative("cycles", cycles)
         b, c = self.strength_exponent, self.ductility_exponent
         elastic = self.strength**2 / self.young_modulus * reversals ** (2.0 * b)
         return np.asarray(elastic + self.strength * self.ductility * reversals ** (b + c))
@@ -63,13 +70,18 @@ class FatigueConstants:
         swt
             SWT in the unit of stress of the constants.
 
+        Raises
+        ------
+        StudyError
+            A ValueError, if an SWT is negative or no number.
+
         Examples
         --------
         >>> steel = FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        swt = np.asarray(swt, dtype=float)
+        swt = _not_negative("swt", swt)
         elastic, plastic = self.strength**2 / self.young_modulus, self.strength * self.ductility
         slopes = np.array([2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent])
         with np.errstate(divide="ignore"):
@@ -84,3 +96,13 @@ class FatigueConstants:
             step = (np.log(total) - np.where(known, target, 0.0)) * total / (terms * slopes).sum(axis=-1)
             x = np.where(known, x - step, x)
         return np.asarray(0.5 * np.exp(x))
+
+
+def _not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    try:
+        numbers = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise StudyError([Mistake(name, literal(values), "numbers ≥ 0")]) from None
+    if (numbers < 0.0).any():
+        raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
+    return numbers

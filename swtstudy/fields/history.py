@@ -1,0 +1,68 @@
+"""The Smith–Watson–Topper parameter of a stress history from elsewhere, with every mistake in it."""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.mechanics import critical_plane_3d
+from swtstudy.mechanics.critical_plane_3d import CriticalPlane
+from swtstudy.mistakes import Mistake, StudyError, literal
+
+
+def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
+    """Largest Smith–Watson–Topper parameter over all planes (eq. 9).
+
+    Parameters
+    ----------
+    stress
+        Shape (..., time, 6): one cycle, components xx, yy, zz, yz, xz, xy; tension positive.
+    poisson_ratio, youngs_modulus
+        ν and E of Hooke's law. In this package's units (stress in E* √(δ0/R), s = swt/(E* δ0/R)) the half-
+        space has E = 1 − ν².
+
+    Returns
+    -------
+    CriticalPlane
+        ``swt`` of shape (...), in the unit of stress²/modulus, and the unit ``normal`` of shape (..., 3).
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the input.
+
+    Examples
+    --------
+    Uniaxial tension from 0 to 1 along x, E = 1: σ_max = 1, Δε/2 = 1/2.
+
+    >>> swt, normal = swt_of_history([[0, 0, 0, 0, 0, 0], [1, 0, 0, 0, 0, 0]], poisson_ratio=0.3)
+    >>> float(swt), abs(normal).round(6).tolist()
+    (0.5, [1.0, 0.0, 0.0])
+    """
+    mistakes = []
+    try:
+        history = np.asarray(stress, dtype=float)
+    except (TypeError, ValueError):
+        mistakes.append(Mistake("stress", literal(stress), "an array of numbers"))
+    else:
+        if history.ndim < 2 or history.shape[-1] != 6 or history.shape[-2] == 0:
+            mistakes.append(
+                Mistake("stress", f"the shape {history.shape}", "(..., time, 6), one instant or more")
+            )
+        elif not np.isfinite(history).all():
+            wrong = np.count_nonzero(~np.isfinite(history))
+            mistakes.append(Mistake("stress", f"{wrong} components that are not finite", "finite numbers"))
+    if not (_is_plain(poisson_ratio) and -1.0 < poisson_ratio <= 0.5):
+        mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
+    if not (_is_plain(youngs_modulus) and 0.0 < youngs_modulus < math.inf):
+        mistakes.append(Mistake("youngs_modulus", literal(youngs_modulus), "a positive number"))
+    if mistakes:
+        raise StudyError(mistakes)
+    return critical_plane_3d.swt_of_history(history, poisson_ratio, youngs_modulus)
+
+
+def _is_plain(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
