@@ -2,12 +2,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 import swtstudy
 import swtstudy.parameters
+from swtstudy.archive.files import save
 from swtstudy.cli import main
+from swtstudy.runner.records import MISSING
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
 
@@ -36,6 +39,20 @@ def test_plot_needs_the_archive_alone(study, tmp_path):
     study.unlink()
     assert call("plot", tmp_path / "small.nc", "-o", tmp_path / "other.svg").exit_code == 0
     assert (tmp_path / "other.svg").stat().st_size > 1000
+
+
+def test_plot_says_what_an_unfinished_archive_lacks(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    archive = tmp_path / "small.nc"
+    assert call("plot", archive).stderr == ""
+    dataset = swtstudy.open_results(archive)
+    dataset.s[0], dataset.status[0] = np.nan, MISSING
+    save(dataset, archive)
+    result = call("plot", archive)
+    assert result.exit_code == 0
+    lacking = dataset.s[0].size
+    assert result.stderr == f"{archive}: {lacking} of {dataset.s.size} points are missing\n"
+    assert result.stdout == f"{archive.with_suffix('.png')}\n"
 
 
 def test_solve_prints_a_table():

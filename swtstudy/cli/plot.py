@@ -22,9 +22,13 @@ def plot(archive: str, output: str | None, style: str | None) -> None:
     from swtstudy.archive.read import open_results
     from swtstudy.figures.draw import draw
     from swtstudy.figures.save import save_figure
+    from swtstudy.runner.records import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)
     check_writable(target)
     save_figure(draw(dataset, style=style), target, style)
+    missing = int((dataset.status == MISSING).sum())
+    if missing:
+        click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)
     click.echo(str(target))
