@@ -69,6 +69,8 @@ def test_other_files_are_not_taken_for_an_audit(tmp_path):
     save(made_up_audit().drop_vars("s_body"), tmp_path / "other.nc")
     with pytest.raises(ValueError, match="not an audit"):
         audit_study(Study.from_text(STUDY), tmp_path / "other.nc")
+    with pytest.raises(ValueError, match=r"study: found 'figure3'; allowed: a Study"):
+        audit_study("figure3", tmp_path / "audit.nc")
 
 
 def test_report():
