@@ -16,6 +16,7 @@ for axes, phase in zip(figure.subplots(1, 3, sharey=True), (0.0, 0.5, 2.0), stri
         np.linspace(0.0, 1.4, 281), time=np.linspace(0.0, 2.0 * np.pi, 361), phase=phase
     )
     handles = draw_slip_map(axes, states)
+    axes.label_outer()
     axes.set_title(rf"$\psi$ = {phase:g}", loc="left", fontsize="medium")
 figure.legend(handles=handles, loc="outside right upper", frameon=False)
 save_figure(figure, "results/slip_map.png")

@@ -16,5 +16,6 @@ time = np.linspace(0.0, 2.0 * np.pi, 721)
 figure = Figure(figsize=(9.0, 3.6), layout="constrained")
 for axes, z in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.1), strict=True):
     draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
-    axes.set_title(f"$x/a_H$ = {x:.3f}, $z/a_H$ = {z:g}", fontsize="medium")
+    axes.label_outer()
+    axes.set_title(f"$x/a_H = {x:.3f}$, $z/a_H = {z:g}$", fontsize="medium")
 save_figure(figure, "results/stress_cycle.png")

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.maps import draw_slip_map
-from swtstudy.figures.words import tick_in_pi
+from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.mechanics.points import FloatArray
 
 if TYPE_CHECKING:
@@ -74,7 +73,6 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
     for number, time in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
         axes.axvline(time, color="black", linewidth=_THIN, alpha=0.6)
         _mark(axes, number, time, 0.95 * top)
-    _time_axis(axes, dataset)
     below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "fontsize": "small"}
     axes.legend(handles=handles, ncols=3, handlelength=1.8, **below)
     axes.set_title("stick and slip over the cycle", loc="left")
@@ -135,7 +133,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
         axes.axvline(when, color="black", linewidth=_THIN, alpha=0.35)
         _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
-    _time_axis(axes, dataset)
+    draw_time_axis(axes, dataset.time)
     axes.set_ylabel(r"$\sigma_n$ over $E^* \sqrt{\delta_0/R}$", color=line.get_color())
     other.set_ylabel(r"$\varepsilon_n$ over $\sqrt{\delta_0/R}$", color=dashed.get_color())
     for one, values in ((axes, stress), (other, strain)):
@@ -235,10 +233,3 @@ def _mark(axes: Axes, number: int, x: float, y: float, **options: Any) -> None:
     """The number of an instant in a disc."""
     disc = {"boxstyle": "circle,pad=0.18", "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
     axes.text(x, y, str(number), ha="center", va="center", fontsize=8, bbox=disc, zorder=5, **options)
-
-
-def _time_axis(axes: Axes, dataset: xr.Dataset) -> None:
-    end = float(dataset.time[-1])
-    axes.set_xlim(0.0, end)
-    tick_in_pi(axes.xaxis, 0.0, end)
-    axes.set_xlabel(r"$\omega_1 t$")

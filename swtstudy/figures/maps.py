@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swtstudy.figures.style import COLOURS, DASHES
+from swtstudy.figures.words import tick_in_pi
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
     from matplotlib.patches import Patch
 
 #: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
 _STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 
 
-def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
+def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
     """swt over the section that the dataset spans, depth downwards.
 
     Parameters
@@ -26,6 +28,13 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
         Where to draw.
     dataset
         From `swtstudy.swt_field`, with two of the dimensions x, y and z.
+    highest
+        swt at the upper end of the colours, whose lower end is 0.
+
+    Returns
+    -------
+    mesh
+        For a colour bar, which several maps may share.
     """
     if len(dataset.s_local.dims) != 2 or not set(dataset.s_local.dims) <= set("xyz"):
         raise ValueError(
@@ -33,12 +42,13 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset) -> None:
         )
     across, along = sorted(map(str, dataset.s_local.dims))
     swt = dataset.s_local.transpose(along, across)
-    mesh = axes.pcolormesh(swt[across], swt[along], swt, cmap="cividis", shading="gouraud", rasterized=True)
-    axes.figure.colorbar(mesh, ax=axes, label="swt")
+    look: Any = {"cmap": "cividis", "shading": "gouraud", "rasterized": True}
+    mesh = axes.pcolormesh(swt[across], swt[along], swt, vmin=0.0, vmax=highest, **look)
     axes.set_xlabel(f"${across}/a_H$")
     axes.set_ylabel(f"${along}/a_H$")
     if along == "z":
         axes.invert_yaxis()
+    return mesh
 
 
 def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
@@ -58,9 +68,8 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
         words = f"${dataset[name].attrs['symbol']}$"
         look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)]}
         axes.plot(dataset.time, dataset[name], label=words, **look)
-    axes.set_xlabel(r"$\omega_1 t$ in rad")
+    draw_time_axis(axes, dataset.time)
     axes.set_ylabel(r"stress over $E^* \sqrt{\delta_0/R}$")
-    axes.set_xlim(float(dataset.time.min()), float(dataset.time.max()))
     axes.grid(color="0.9", linewidth=0.6)
     axes.legend(frameon=False)
 
@@ -89,9 +98,17 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     axes.pcolormesh(state.time, state.r, state, cmap=colours, norm=norm, shading="nearest", rasterized=True)
     axes.plot(dataset.time, dataset.contact_radius, color="black", linewidth=1.2)
     words = state.attrs["flag_meanings"].split()
-    axes.set_xlabel(r"$\omega_1 t$ in rad")
+    draw_time_axis(axes, dataset.time)
     axes.set_ylabel("$r/a_H$")
     return [
         Patch(facecolor=colour, edgecolor="black", label=word.replace("_", " "))
         for word, colour in zip(words, _STATE_COLOURS, strict=True)
     ]
+
+
+def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:
+    """The horizontal axis of what stands over ω1 t."""
+    first, last = float(time.min()), float(time.max())
+    axes.set_xlim(first, last)
+    tick_in_pi(axes.xaxis, first, last)
+    axes.set_xlabel(r"$\omega_1 t$")
