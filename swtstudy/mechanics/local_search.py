@@ -29,7 +29,7 @@ LEAST_ROUND_COUNT = 2
 DIGITS_PER_ZOOM = 3.2
 #: Share of the last round's change that further ones would make at most, and beside a corner, where swt may
 #: begin like a square root.
-CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, 0.2
+CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, SHRINKING**0.5
 #: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
 POLYNOMIAL_SHARE = 0.3
 #: Error left to the search over x, as a share of the tolerance.
