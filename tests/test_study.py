@@ -4,6 +4,9 @@ from fractions import Fraction
 import pytest
 
 from swtstudy import Study, StudyError
+from swtstudy.audit.audit import sample_rows
+from swtstudy.grid.grid import Grid
+from swtstudy.runner.plan import unique_points
 
 MINIMAL = 'title = "t"\n'
 
@@ -35,6 +38,16 @@ def test_axes_keep_their_order_and_exact_values(small):
     assert small.grid.dims == ("normal_amplitude", "phase")
     assert small.grid.axes["normal_amplitude"] == (0.25, 8 / 9)
     assert small.grid.axes["phase"] == pytest.approx([i * math.pi / 4 for i in range(9)], rel=1e-15)
+
+
+def test_the_size_of_a_grid_has_no_end():
+    names = ("friction", "phase", "normal_amplitude", "tangential_amplitude")
+    grid = Grid({}, dict.fromkeys(names, 65536 * (0.5,)))
+    assert grid.size == 2**64
+    with pytest.raises(ValueError, match="18446744073709551616 points are too many to compute"):
+        unique_points(grid)
+    with pytest.raises(ValueError, match="18446744073709551616 points are too many to sample"):
+        sample_rows(grid, points=5, seed=0)
 
 
 def test_a_range_with_rational_ends_has_the_nearest_floats():
