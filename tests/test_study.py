@@ -271,9 +271,19 @@ def test_a_range_in_equal_ratios():
     assert (values[0], values[-1]) == (0.01, 1)
 
 
+@pytest.mark.parametrize(("start", "stop"), [("1e-310", "10"), ("10", "1e-310"), ("1e-280", "10")])
+def test_equal_ratios_over_any_range(start, stop):
+    axis = f'{{ start = "{start}", stop = "{stop}", num = 5, spacing = "log" }}'
+    values = Study.from_text(MINIMAL + "[axes]\nfriction = " + axis).grid.axes["friction"]
+    exponents = [math.log10(value) for value in values]
+    first, last = math.log10(float(start)), math.log10(float(stop))
+    assert exponents == pytest.approx([first + index * (last - first) / 4 for index in range(5)], rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("axis", "key", "allowed"),
     [
+        ('{ start = "1e-300/1e300", stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
         ('{ start = 0, stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
         ('{ start = 1, stop = 2, num = 5, spacing = "cubic" }', "axes.friction.spacing", '"linear" or "log"'),
         ("{ start = 1, stop = 2, num = 5, spacing = [1] }", "axes.friction.spacing", '"linear" or "log"'),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -140,13 +142,16 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
         return []
     if axis.spacing == "linear":
         return [start + index * step for index in range(axis.num - 1)] + [stop]
-    if start <= 0 or stop <= 0:
+    first, last = float(start), float(stop)
+    if first <= 0.0 or last <= 0.0:
         ends_found = f"from {literal(axis.start)} to {literal(axis.stop)}"
         report(key, f"equal ratios {ends_found}", "two positive ends")
         return []
-    ratio = float(stop) / float(start)
-    inner = [float(start) * ratio ** (index / (axis.num - 1)) for index in range(1, axis.num - 1)]
-    return [start, *inner, stop]
+    parts = [index / (axis.num - 1) for index in range(1, axis.num - 1)]
+    ratio = last / first
+    if sys.float_info.min < ratio < math.inf:
+        return [start, *(first * ratio**part for part in parts), stop]
+    return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]
 
 
 def _check_shapes(
