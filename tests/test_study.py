@@ -283,7 +283,7 @@ def test_equal_ratios_over_any_range(start, stop):
 @pytest.mark.parametrize(
     ("axis", "key", "allowed"),
     [
-        ('{ start = "1e-300/1e300", stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
+        ('{start = "1e-99/1e299", stop = 1, num = 5, spacing = "log"}', "axes.friction", "two positive ends"),
         ('{ start = 0, stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
         ('{ start = 1, stop = 2, num = 5, spacing = "cubic" }', "axes.friction.spacing", '"linear" or "log"'),
         ("{ start = 1, stop = 2, num = 5, spacing = [1] }", "axes.friction.spacing", '"linear" or "log"'),

@@ -192,14 +192,13 @@ def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> N
             continue
         from swtstudy.mechanics.profiles import check_shape
 
-        messages = []
+        refused, first = 0, ("", "")
         for values in itertools.product(*(grid.values(name) for name in names)):
             shape = {name: float(value) for name, value in zip(names, values, strict=True)}
             message = check_shape(profile, shape, normal_amplitude)
-            if message is not None:
-                messages.append((shape, message))
-        if messages:
-            shape, message = messages[0]
-            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
-            more = f"; {len(messages) - 1} more like it" if len(messages) > 1 else ""
-            report(", ".join(map(keys, names)), f"{found}{more}", message)
+            if message is not None and not refused:
+                first = ", ".join(f"{name} = {value:g}" for name, value in shape.items()), message
+            refused += message is not None
+        if refused:
+            more = f"; {refused - 1} more like it" if refused > 1 else ""
+            report(", ".join(map(keys, names)), first[0] + more, first[1])
