@@ -7,6 +7,8 @@ from swtstudy import Study, StudyError
 from swtstudy.audit.audit import sample_rows
 from swtstudy.grid.grid import Grid
 from swtstudy.runner.plan import unique_points
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.writing import to_toml
 
 MINIMAL = 'title = "t"\n'
 
@@ -187,6 +189,19 @@ def test_a_figure_that_the_study_cannot_make_is_named(figure, key, found):
     mistakes = mistakes_of(MINIMAL + figure)
     assert key in mistakes
     assert found in mistakes[key]
+
+
+@pytest.mark.parametrize(
+    "layout",
+    [
+        FigureLayout("phase", "friction", y=("s", "s/s(phase=0)"), title='a "title"', regimes=True),
+        FigureLayout("phase", kind="contour", vertical="friction"),
+    ],
+)
+def test_a_written_study_is_the_same_study(layout):
+    grid = Study.from_text(MINIMAL + "[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]").grid
+    study = Study.from_text(to_toml("t", 1e-3, grid, layout))
+    assert (study.title, study.rtol, study.grid, study.figure) == ("t", 1e-3, grid, layout)
 
 
 def test_normalised_quantities_are_accepted():
