@@ -73,6 +73,7 @@ def test_attributes_follow_the_table():
         ({"rtol": 0}, "rtol"),
         ({"rtol": float("nan")}, "rtol"),
         ({"friction": 10**400}, "not a finite number"),
+        ({"friction": np.ma.array([1.0, 2.0], mask=[0, 1])}, "found masked .not a number"),
     ],
 )
 def test_bad_input_is_a_value_error(parameters, message):
