@@ -100,7 +100,7 @@ PARAMETERS: dict[str, Parameter] = {
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
         Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile"),
-        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 100.0),
+        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0),
         Parameter("waviness_amplitude", r"h/\delta_0", "h", "amplitude of the waviness", None, 0.0, 10.0),
         Parameter(
             "wavelength",

@@ -47,6 +47,25 @@ def test_no_spring_exceeds_coulombs_limit_and_the_edge_is_free(p: int, q: int) -
     assert np.all(np.abs(force) <= w + 1e-14)
 
 
+@pytest.mark.parametrize(("p", "q"), FREQUENCIES)
+def test_something_slips_where_a_spring_in_contact_changes_its_offset(p: int, q: int) -> None:
+    rng = np.random.default_rng([5, p, q])
+    instants = np.linspace(2.0 * np.pi, 4.0 * np.pi, 2001)
+    depths = np.linspace(0.0, 1.9, 100)
+    sticks = []
+    for phase in (0.0, np.pi, *rng.uniform(0.0, 2.0 * np.pi, 4)):
+        d, u = rng.uniform(0.3, 0.9), rng.uniform(0.0, 0.3)
+        path = bimodal(d, u, phase, p, q, periods=2)
+        offset = u * np.sin(p * instants)[:, None] - spring_forces(path, depths, instants)
+        touches = 1.0 + d * np.sin(q * instants + phase)[:, None] > depths
+        change = np.abs(np.diff(offset, axis=0))[touches[1:] & touches[:-1]].max()
+        slips = solve_cycle(protocol(d, u, phase, p, q)).slips()[0]
+        assert slips == (change > 1e-7)
+        sticks.append(not slips)
+    if p == q:
+        assert any(sticks)
+
+
 def test_the_whole_contact_slides_where_the_slip_lines_cross() -> None:
     rng = np.random.default_rng(1)
     fine = np.linspace(0.0, 2.0 * np.pi, 20001)

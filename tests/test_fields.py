@@ -131,6 +131,22 @@ def test_distances_of_a_slip_map_are_checked(r):
         swtstudy.slip_map(r)
 
 
+def test_nonlocal_values_are_nan_where_s_is_not_finite():
+    edge = {"profile": "truncated_paraboloid", "flat_radius": 0.5, "friction": 1.5}
+    dataset = swtstudy.nonlocal_swt(0.1, tangential_amplitude=[0.0, 3.0], normal_amplitude=0.2, **edge)
+    assert np.isfinite(dataset.s_volume.values).tolist() == [[True], [False]]
+    assert np.isnan(dataset.s_point.sel(tangential_amplitude=3.0)).all()
+
+
+def test_waves_too_short_to_follow_are_left_out_of_fields_too():
+    wave = {"waviness_amplitude": 1e-20, "wavelength": 5.0}
+    smooth, wavy = (
+        swtstudy.stress_field(0.4, 0.0, 0.2, time=[0.5, 1.5], profile=profile, **shape)
+        for profile, shape in (("paraboloid", {}), ("wavy_paraboloid", wave))
+    )
+    np.testing.assert_allclose(wavy.sigma_xx, smooth.sigma_xx, rtol=1e-9)
+
+
 def test_nonlocal_values_tend_to_s():
     dataset = swtstudy.nonlocal_swt([1e-8, 0.05], friction=[0.4])
     assert dataset.s_volume.dims == ("friction", "critical_distance")

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from methods import Sample
 
-#: Errors below this are rounding of the reference.
+#: Errors below this are rounding of the reference, and are drawn here.
 SMALLEST_ERROR = 1e-9
 STYLES = {
     "this solver, in batches of 64": ("#0072B2", "o", "-"),
@@ -37,6 +37,16 @@ def chart(curves: dict[str, dict[str, list[Sample]]], references: dict[str, floa
             errors = [max(abs(sample.s / references[title] - 1.0), SMALLEST_ERROR) for sample in samples]
             seconds = [sample.seconds for sample in samples]
             axes.loglog(seconds, errors, line, color=colour, marker=marker, markersize=4.5, label=method)
+        axes.axhspan(0.0, 2.0 * SMALLEST_ERROR, color="0.92")
+        axes.text(
+            1.0,
+            2.2 * SMALLEST_ERROR,
+            "no difference ",
+            transform=axes.get_yaxis_transform(),
+            ha="right",
+            color="0.4",
+            fontsize="small",
+        )
         axes.set_title(_in_symbols(title), fontsize="medium")
         axes.grid(color="0.9", linewidth=0.6)
     for axes in panels[-1]:

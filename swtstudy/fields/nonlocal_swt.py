@@ -38,16 +38,17 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     xarray.Dataset
         That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
         s_line over these and direction: straight down, or along the critical plane into the body. Averages
-        are accurate to about 5e-3.
+        are accurate to about 5e-3, and NaN where s is.
     """
     distance = np.atleast_1d(np.asarray(critical_distance, dtype=float))
     if distance.ndim != 1 or not np.isfinite(distance).all() or (distance <= 0.0).any():
         raise ValueError("critical_distance: allowed: finite numbers ℓ/a_H > 0")
     dataset = solve(**parameters)
     dims, shape = dataset.s.dims, dataset.s.shape
-    volume = np.empty((*shape, distance.size))
-    point, line = (np.empty((*shape, distance.size, len(DIRECTIONS))) for _ in range(2))
-    for index in np.ndindex(shape):
+    volume = np.full((*shape, distance.size), np.nan)
+    point, line = (np.full((*shape, distance.size, len(DIRECTIONS)), np.nan) for _ in range(2))
+    # Where s is not finite there is no critical point.
+    for index in zip(*np.nonzero(np.isfinite(dataset.critical_x.values)), strict=True):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         values = {name: one[name].item() for name in PARAMETERS if name in one.coords}
         volume[index], point[index], line[index] = _of_point(values, float(one.critical_x), distance)

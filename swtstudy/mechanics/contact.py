@@ -24,6 +24,8 @@ from swtstudy.mechanics.roots import Brackets
 GROWTH = 2.0
 #: Growth of the depth below which there is none, in δ0.
 NO_GROWTH = 1e-12
+#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, as a share of the depth.
+NO_SLIP = 1e-9
 
 
 @dataclass(frozen=True)
@@ -132,6 +134,13 @@ class Cycle:
         senses = self.forward, self.backward
         front, sign, piece = slip_front(self.protocol, self.memory, *senses, interval, depth, u)
         return SlipStates(depth, u, front, sign, piece)
+
+    def slips(self) -> NDArray[np.bool_]:
+        """Whether any spring slips somewhere in the cycle, shape (n,)."""
+        interval = np.arange(self.begin.shape[1])
+        middle = self.states(interval, 0.5 * (self.begin + self.end))
+        slips = middle.front < (1.0 - NO_SLIP) * middle.depth
+        return np.asarray((slips & (self.end - self.begin > NO_SLIP)).any(axis=1))
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""

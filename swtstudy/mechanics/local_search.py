@@ -27,8 +27,9 @@ WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT = 2
 #: Digits that a zoom gains at least.
 DIGITS_PER_ZOOM = 3.2
-#: Share of the last round's change that further ones would make at most.
-CHANGE_SHARE = 0.03
+#: Share of the last round's change that further ones would make at most, and beside a corner, where swt may
+#: begin like a square root.
+CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, 0.2
 #: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
 POLYNOMIAL_SHARE = 0.3
 #: Error left to the search over x, as a share of the tolerance.
@@ -67,8 +68,8 @@ class Accuracy:
         return cls(Resolution(4, zooms, digits + 1.0), Resolution(5, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
-        """The same with twice the instants and more rounds."""
-        search, check = (replace(r, nodes=2 * r.nodes) for r in (self.search, self.check))
+        """The same with twice the instants, closer looks at the extremes and more rounds."""
+        search, check = (replace(r, nodes=2 * r.nodes, zooms=r.zooms + 1) for r in (self.search, self.check))
         return replace(self, search=search, check=check, hasty=False)
 
 
@@ -175,7 +176,8 @@ def step(
     best = (values * (1.0 - TIE * np.abs(c - now.centre[:, None]))).argmax(axis=1)
     found = pick(c, best)
     centre, top = vertex_near(c, values, best, brackets.is_corner)
-    remaining = CHANGE_SHARE * np.abs(top - now.top)
+    beside_corner = brackets.is_corner & (np.abs(now.centre) < OFFSETS[-1] * now.width)
+    remaining = np.where(beside_corner, CORNER_CHANGE_SHARE, CHANGE_SHARE) * np.abs(top - now.top)
     # Five values on a smooth maximum may be enough.
     first = accuracy.hasty & (now.width == FIRST_WIDTH) & (now.centre == 0.0) & (np.abs(found) < c[:, -1])
     smooth = np.flatnonzero(first & ~brackets.is_corner)

@@ -19,11 +19,11 @@ SCAN_PLANES = 16
 SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, digits=3.5)
 #: Local maxima below these shares of the largest are not followed further, after each round.
 SHARES = 0.97, 0.995, 0.999
-LARGEST_ROUND_COUNT = 9
+LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that one look takes at a time: its memory is bounded.
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
-LEAST_ERROR = 0.1
+LEAST_ERROR = 0.25
 
 
 @dataclass(frozen=True)
@@ -101,13 +101,18 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
         climb = climb.take(climb.top >= share * largest[climb.point])
     # What is still on its way counts for what was seen of it.
     top = np.where(climb.settled, climb.top, climb.seen)
-    order = np.lexsort((-top, climb.point))
-    best = climb.take(order[np.unique(climb.point[order], return_index=True)[1]])
-    r = best.brackets(positions).radius(best.centre[:, None])
+    largest = np.zeros(len(scene))
+    np.maximum.at(largest, climb.point, top)
+    close = top >= SHARES[-1] * largest[climb.point]
+    climb, top = climb.take(close), top[close]
+    r = climb.brackets(positions).radius(climb.centre[:, None])
     value, angle = refine(
-        split.select(best.point, best.hot), r, best.side, best.angle[:, None], accuracy.check
+        split.select(climb.point, climb.hot), r, climb.side, climb.angle[:, None], accuracy.check
     )
-    error = np.abs(value[:, 0] - best.top) + best.remaining
+    order = np.lexsort((-value[:, 0], climb.point))
+    best = order[np.unique(climb.point[order], return_index=True)[1]]
+    swt = value[best, 0]
+    error = np.abs(swt - climb.top[best]) + climb.remaining[best]
     # Nothing finer than this was looked at.
-    error = np.maximum(error, LEAST_ERROR * accuracy.tolerance * value[:, 0])
-    return Maximum(value[:, 0], error, best.side * r[:, 0], angle[:, 0])
+    error = np.maximum(error, LEAST_ERROR * accuracy.tolerance * swt)
+    return Maximum(swt, error, climb.side[best] * r[best, 0], angle[best, 0])

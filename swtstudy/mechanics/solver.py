@@ -57,9 +57,9 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
         position[index] = found.position
         angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
-        state = np.where(cycle.gross_slip, "gross_slip", "partial_slip")
+        state = np.where(cycle.slips(), "partial_slip", "stick")
+        state = np.where(cycle.gross_slip, "gross_slip", state)
         state = np.where(cycle.lift_off, "lift_off", state)
-        state = np.where(cycle.protocol.tangential_amplitude == 0.0, "stick", state)
         state = np.where(lost, "not_finite", state)
         regime[index] = [REGIMES.index(name) for name in state]
     return Solution(s, error, position, angle, regime, surface)
