@@ -89,8 +89,9 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
     return {
         "s": solution.s,
         "s_error": solution.s_error,
-        "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x),
-        "critical_angle": np.where(angle <= -90, angle + 180, angle),
+        # Without the sign of zero.
+        "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x) + 0.0,
+        "critical_angle": np.where(angle <= -90, angle + 180, angle) + 0.0,
         "regime": solution.regime,
         "s_surface": solution.s_surface,
     }

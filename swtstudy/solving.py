@@ -81,4 +81,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
 
 def _scalar(raw: object) -> object:
     """A zero-dimensional array or NumPy scalar as the plain value that it holds."""
+    if raw is np.ma.masked:
+        return raw  # its item is 0.0
     return raw.item() if isinstance(raw, np.generic | np.ndarray) or hasattr(raw, "item") else raw

@@ -35,6 +35,17 @@ def test_slices_are_written_as_in_a_study(dataset):
     assert dataset.swt.slice(phase=3.1, tolerance=0.1).phase.item() == np.pi
 
 
+def test_values_are_told_apart_at_any_scale(dataset):
+    tiny = dataset.assign_coords(phase=[5.62e-7, 1e-15])
+    with pytest.raises(ValueError, match="found 5e-07, which is not there"):
+        tiny.swt.slice(phase=5e-7)
+    assert tiny.swt.slice(phase=5.6200001e-7).phase.item() == 5.62e-7
+    # But rounding makes no value of 0.
+    assert tiny.swt.slice(phase=0).phase.item() == 1e-15
+    with pytest.raises(ValueError, match="found 0, which is not there"):
+        dataset.assign_coords(phase=[1e-7, 1.0]).swt.slice(phase=0)
+
+
 @pytest.mark.parametrize(
     ("places", "words"),
     [

@@ -63,6 +63,18 @@ def test_solve_prints_a_table():
     assert len(lines) == 3
 
 
+def test_a_study_without_finite_values_says_so(tmp_path):
+    path = tmp_path / "edge.toml"
+    path.write_text(
+        'title = "t"\n[fixed]\nprofile = "truncated_paraboloid"\nflat_radius = 1\nnormal_amplitude = 1.2\n'
+        "tangential_amplitude = 1\n[axes]\nphase = [1, 2]\n"
+    )
+    result = call("run", path, "--results", tmp_path)
+    assert result.exit_code == 0, result.output
+    assert "s finite and positive at none of them" in result.output
+    assert "nan" not in result.output
+
+
 def test_a_style_is_the_users(study, tmp_path):
     call("run", study, "--results", tmp_path)
     (tmp_path / "own.mplstyle").write_text("figure.facecolor: red\n")

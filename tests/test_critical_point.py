@@ -58,10 +58,12 @@ def test_the_critical_point_is_on_the_line(off_line, holds):
     assert ("4.0% higher, for ν ≥ 0.45" in finding.measured) == (off_line > 0)
 
 
-@pytest.mark.parametrize(("regime", "holds"), [(1, True), (2, False)])
+@pytest.mark.parametrize(("regime", "holds"), [(0, False), (1, True), (2, False), (3, False), (4, False)])
 def test_the_regime(regime, holds):
     results = located()
     results["regime"] = results.regime * regime
     finding = critical_point.slips_partially(results)
     assert finding.holds == holds
     assert ATTRIBUTES["regime"]["flag_meanings"].split()[regime].replace("_", " ") in finding.measured
+    (statement,) = (each for each in critical_point.STATEMENTS if each.test is critical_point.slips_partially)
+    assert "the regime is partial slip" in statement.criterion

@@ -82,6 +82,8 @@ def test_field_is_continuous_towards_the_surface(profile):
         ({"x": [[1]]}, "a sequence"),
         ({"y": np.nan}, "finite"),
         ({"time": []}, "time"),
+        ({"x": np.ma.array([0.0, 1.0], mask=[0, 1])}, "x: found no or not finite values"),
+        ({"time": np.ma.array([0.0, 1.0], mask=[0, 1])}, "time"),
         ({"friction": [0.1, 0.2]}, "friction"),
         ({"fricton": 0.1}, "friction"),
     ],
@@ -121,6 +123,12 @@ def test_slip_map():
         np.testing.assert_allclose(
             field.sigma_xz.values[slips], 0.3 * sign * field.sigma_zz.values[slips], atol=1e-6
         )
+
+
+@pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], [0.5, -0.1], np.inf, np.ma.array([0.5], mask=[1])])
+def test_distances_of_a_slip_map_are_checked(r):
+    with pytest.raises(ValueError, match="r: allowed: a finite distance r ≥ 0 in a_H"):
+        swtstudy.slip_map(r)
 
 
 def test_nonlocal_values_are_nan_where_s_is_not_finite():

@@ -141,6 +141,7 @@ def test_a_heat_map_has_a_cell_for_each_point(surface):
         (FigureLayout("phase", "friction", kind="heatmap", vertical="normal_amplitude"), "hue"),
         (FigureLayout("phase", vertical="friction"), "vertical"),
         (FigureLayout("phase", kind="pie"), "found 'pie'"),
+        (FigureLayout("phase", y=()), "figure.y: found an empty list; allowed: at least one of"),
     ],
 )
 def test_roles_that_do_not_fit_the_kind_are_refused(surface, layout, words):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from scipy.special import struve, y0
 
-from swtstudy.mechanics.profiles import PROFILES, Profile, check_shape, make_profile
+from swtstudy.mechanics.profiles import PROFILES, Profile, check_shape, make_profile, wavy_paraboloid
 from swtstudy.mechanics.profiles.struve import safe_struve, struve_functions
 from swtstudy.parameters import PROFILE_SHAPES
 
@@ -202,6 +202,20 @@ def test_the_message_of_a_contact_that_is_not_compact_names_the_limit() -> None:
     assert "waviness_amplitude 0.01" in message
     assert check_shape("wavy_paraboloid", {**shape, "wavelength": 3.6}, 0.75) is None
     assert check_shape("wavy_paraboloid", {**shape, "waviness_amplitude": 0.0}, 0.75) is None
+
+
+def test_a_grid_of_shapes_is_checked_without_solving_each_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+
+    def counted(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        calls.append(z.size)
+        return struve_functions(z)
+
+    monkeypatch.setattr(wavy_paraboloid, "struve_functions", counted)
+    for h in np.linspace(0.01, 1.0, 10).tolist():
+        for wavelength in np.linspace(3.0, 6.0, 10).tolist():
+            check_shape("wavy_paraboloid", {"waviness_amplitude": h, "wavelength": wavelength}, 0.75)
+    assert len(calls) <= 1
 
 
 def test_rounded_punch_of_the_literature() -> None:

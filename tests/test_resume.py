@@ -11,10 +11,13 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from click.testing import CliRunner
 
 from swtstudy import Study, open_results, run
+from swtstudy.archive import parts as archive_parts
 from swtstudy.archive.lock import LockedError, locked
-from swtstudy.archive.parts import parts_folder, points_saved, read_parts
+from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
+from swtstudy.cli import main
 from swtstudy.runner import records, work
 from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
@@ -84,13 +87,70 @@ def test_an_extension_computes_only_what_is_new(tmp_path):
     assert large.attrs["history"].count("\n") == 1
 
 
-def test_points_that_leave_the_study_are_kept_beside_it(tmp_path, caplog):
+def test_points_that_leave_a_study_are_kept_for_whoever_has_them(tmp_path, caplog):
     caplog.set_level("INFO", logger="swtstudy")
     path = tmp_path / "square.nc"
-    old = run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
-    run(square([0.1], [0, 1]), path, solver=stand_in.smooth)
-    same(open_results(tmp_path / "square.previous.nc"), old)
-    assert "2 points are not in this study any more" in caplog.text
+    first = run(square([0.1], [0.1, 0.2]), path, solver=stand_in.smooth)
+    run(square([0.1], [0.1, 0.3]), path, solver=stand_in.smooth)
+    assert f"1 points are not in this study: {kept_folder(path)} keeps them" in caplog.text
+    run(square([0.1], [0.1, 0.4]), path, solver=stand_in.smooth)
+    assert points_saved(kept_folder(path)) == 2
+    info = CliRunner().invoke(main, ["info", str(path)])
+    assert "  kept           2 distinct points of other studies" in info.output
+    assert "unfinished" not in info.output
+    counting = stand_in.Counting()
+    every = run(square([0.1], [0.1, 0.2, 0.3, 0.4]), path, solver=counting)
+    assert counting.points == 0
+    same(every.sel(phase=[0.1, 0.2]).drop_vars("run"), first.drop_vars("run"))
+    assert every.attrs["computing_time_seconds"] == pytest.approx(
+        sum(run["seconds"] for run in json.loads(every.attrs["runs"])), abs=1e-3
+    )
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["square.nc"]
+
+
+def test_the_time_of_a_run_is_told_once(tmp_path):
+    path = tmp_path / "square.nc"
+    wide, narrow = square([0.1, 0.2], [0, 1]), square([0.1], [0, 1])
+    (first,) = json.loads(run(wide, path, solver=stand_in.smooth).attrs["runs"])
+    for study in (narrow, square([0.3], [0, 1]), narrow, wide):
+        last = run(study, path, solver=stand_in.smooth)
+    assert json.loads(last.attrs["runs"]) == [first]
+
+
+def test_an_interrupted_study_is_kept_while_another_is_run(line, tmp_path):
+    path = tmp_path / "line.nc"
+    other = square([0.5, 0.6], [1, 2])
+    saved = 0
+    for _ in range(2):  # beside no archive, and beside a finished one
+        with pytest.raises(Stopped):
+            run(line, path, solver=stand_in.Interrupting(192), workers=1)
+        saved += points_saved(parts_folder(path))
+        run(other, path, solver=stand_in.smooth, workers=1)
+        assert points_saved(kept_folder(path)) == saved > 0
+        assert not parts_folder(path).exists()
+        assert int(work.assess(line, path).missing.sum()) == 400 - saved
+
+
+def test_points_that_are_kept_outlive_a_kill_at_any_moment(tmp_path, monkeypatch):
+    path = tmp_path / "square.nc"
+    wide, narrow = square([0.1, 0.2], [0, 1]), square([0.1], [0, 1])
+    run(wide, path, solver=stand_in.smooth)
+    run(narrow, path, solver=stand_in.smooth)
+
+    def killed(*_, **__):
+        raise KeyboardInterrupt
+
+    for study in (wide, narrow):
+        for place in (xr.Dataset, "to_netcdf"), (archive_parts, "_remove"):
+            monkeypatch.setattr(*place, killed)
+            with pytest.raises(KeyboardInterrupt):
+                run(study, path, solver=stand_in.smooth)
+            monkeypatch.undo()
+            counting = stand_in.Counting()
+            assert int(work.assess(wide, path).missing.sum()) == 0
+        run(study, path, solver=counting)
+        assert counting.points == 0
+    assert points_saved(kept_folder(path)) == len(read_parts(kept_folder(path))) == 2
 
 
 def test_only_what_is_too_coarse_is_computed_again(tmp_path):

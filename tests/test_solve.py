@@ -37,6 +37,14 @@ def test_symmetric_phases_are_mirrored():
     assert angle[0] == -angle[1] == angle[2]
 
 
+def test_zero_has_no_sign():
+    # Without friction's traction the critical plane is across x, also where the phase is mirrored.
+    dataset = solve(tangential_amplitude=0, phase=[0, 4, 6], rtol=1e-2)
+    zeros = dataset.critical_angle.values[dataset.critical_angle.values == 0.0]
+    assert zeros.size
+    assert not np.signbit(zeros).any()
+
+
 def test_the_order_of_values_does_not_matter():
     forth = solve(phase=[0.1, 0.9, 2.5], friction=[0.2, 0.6], rtol=1e-2)
     back = solve(friction=[0.6, 0.2], phase=[2.5, 0.9, 0.1], rtol=1e-2)
@@ -73,6 +81,7 @@ def test_attributes_follow_the_table():
         ({"rtol": 0}, "rtol"),
         ({"rtol": float("nan")}, "rtol"),
         ({"friction": 10**400}, "not a finite number"),
+        ({"friction": np.ma.array([1.0, 2.0], mask=[0, 1])}, "found masked .not a number"),
     ],
 )
 def test_bad_input_is_a_value_error(parameters, message):

@@ -4,6 +4,11 @@ from fractions import Fraction
 import pytest
 
 from swtstudy import Study, StudyError
+from swtstudy.audit.audit import sample_rows
+from swtstudy.grid.grid import Grid
+from swtstudy.runner.plan import unique_points
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.writing import to_toml
 
 MINIMAL = 'title = "t"\n'
 
@@ -35,6 +40,16 @@ def test_axes_keep_their_order_and_exact_values(small):
     assert small.grid.dims == ("normal_amplitude", "phase")
     assert small.grid.axes["normal_amplitude"] == (0.25, 8 / 9)
     assert small.grid.axes["phase"] == pytest.approx([i * math.pi / 4 for i in range(9)], rel=1e-15)
+
+
+def test_the_size_of_a_grid_has_no_end():
+    names = ("friction", "phase", "normal_amplitude", "tangential_amplitude")
+    grid = Grid({}, dict.fromkeys(names, 65536 * (0.5,)))
+    assert grid.size == 2**64
+    with pytest.raises(ValueError, match="18446744073709551616 points are too many to compute"):
+        unique_points(grid)
+    with pytest.raises(ValueError, match="18446744073709551616 points are too many to sample"):
+        sample_rows(grid, points=5, seed=0)
 
 
 def test_a_range_with_rational_ends_has_the_nearest_floats():
@@ -176,6 +191,19 @@ def test_a_figure_that_the_study_cannot_make_is_named(figure, key, found):
     assert found in mistakes[key]
 
 
+@pytest.mark.parametrize(
+    "layout",
+    [
+        FigureLayout("phase", "friction", y=("s", "s/s(phase=0)"), title='a "title"', regimes=True),
+        FigureLayout("phase", kind="contour", vertical="friction"),
+    ],
+)
+def test_a_written_study_is_the_same_study(layout):
+    grid = Study.from_text(MINIMAL + "[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]").grid
+    study = Study.from_text(to_toml("t", 1e-3, grid, layout))
+    assert (study.title, study.rtol, study.grid, study.figure) == ("t", 1e-3, grid, layout)
+
+
 def test_normalised_quantities_are_accepted():
     study = Study.from_text(MINIMAL + FIGURE + 'y = ["s", "s/s(friction=1/10)", "s / s(phase = 0)"]')
     assert study.figure is not None
@@ -258,9 +286,19 @@ def test_a_range_in_equal_ratios():
     assert (values[0], values[-1]) == (0.01, 1)
 
 
+@pytest.mark.parametrize(("start", "stop"), [("1e-310", "10"), ("10", "1e-310"), ("1e-280", "10")])
+def test_equal_ratios_over_any_range(start, stop):
+    axis = f'{{ start = "{start}", stop = "{stop}", num = 5, spacing = "log" }}'
+    values = Study.from_text(MINIMAL + "[axes]\nfriction = " + axis).grid.axes["friction"]
+    exponents = [math.log10(value) for value in values]
+    first, last = math.log10(float(start)), math.log10(float(stop))
+    assert exponents == pytest.approx([first + index * (last - first) / 4 for index in range(5)], rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("axis", "key", "allowed"),
     [
+        ('{start = "1e-99/1e299", stop = 1, num = 5, spacing = "log"}', "axes.friction", "two positive ends"),
         ('{ start = 0, stop = 1, num = 5, spacing = "log" }', "axes.friction", "two positive ends"),
         ('{ start = 1, stop = 2, num = 5, spacing = "cubic" }', "axes.friction.spacing", '"linear" or "log"'),
         ("{ start = 1, stop = 2, num = 5, spacing = [1] }", "axes.friction.spacing", '"linear" or "log"'),

@@ -1,17 +1,17 @@
-"""All that is known at the place of an archive: the archive itself and the parts of unfinished runs."""
+"""All that is known at the place of an archive: in itself, in parts of unfinished runs, of other studies."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from swtstudy.archive.parts import parts_folder, read_parts
+from swtstudy.archive.parts import kept_folder, parts_folder, read_parts
 from swtstudy.archive.read import ArchiveError, read_archive
 from swtstudy.archive.recall import records_of
 from swtstudy.runner.records import Records, join
 
 
 def known_records(path: Path) -> Records:
-    """The records in the archive at `path`, if there is one, and in its parts.
+    """The records in the archive at `path`, if there is one, in its parts, and kept beside it.
 
     Raises
     ------
@@ -25,5 +25,5 @@ def known_records(path: Path) -> Records:
         except ArchiveError as error:
             message = str(error).removeprefix(f"{path}: ")
             raise ArchiveError(f"{path}: {message}; move it away to start anew") from None
-    found.append(read_parts(parts_folder(path)))
+    found += [read_parts(parts_folder(path)), read_parts(kept_folder(path))]
     return join(found)

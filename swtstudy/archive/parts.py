@@ -1,6 +1,8 @@
 """The parts of an archive in the making: every finished chunk is a file, written atomically.
 
-They lie in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete.
+They lie in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. What is known
+there of points that the latest study does not have lies as a part in another one, ``figure3.nc.kept``: a
+study that has them finds them.
 """
 
 from __future__ import annotations
@@ -8,7 +10,8 @@ from __future__ import annotations
 import json
 import logging
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, fields
 from pathlib import Path
 
@@ -35,6 +38,11 @@ def parts_folder(path: Path) -> Path:
     return path.with_name(path.name + ".parts")
 
 
+def kept_folder(path: Path) -> Path:
+    """The folder beside the archive at `path` for the points that its study does not have."""
+    return path.with_name(path.name + ".kept")
+
+
 class PartsWriter:
     """Writes records as parts into a folder that it has for itself.
 
@@ -48,7 +56,7 @@ class PartsWriter:
 
     def __init__(self, folder: Path, present: Records) -> None:
         self._folder = folder
-        self._number = 1 + max((int(path.stem) for path in _paths(folder)), default=0)
+        self._number = _next_number(folder)
         self._small: list[tuple[Path, Records]] = []
         old = _paths(folder)
         if len(old) > 1:
@@ -65,23 +73,23 @@ class PartsWriter:
             self._small.clear()
 
     def _write(self, records: Records) -> Path:
-        path = self._folder / f"{self._number:06d}.npz"
+        path = _write(self._folder, self._number, records)
         self._number += 1
-        meta = {
-            "layout": _LAYOUT,
-            "runs": [asdict(run) for run in records.runs],
-            "messages": records.messages,
-        }
-        with replacing(path) as temporary, open(temporary, "wb") as file:
-            np.savez(
-                file,
-                meta=np.array(json.dumps(meta)),
-                table=records.table,
-                status=records.status,
-                run=records.run,
-                **{name: getattr(records.solution, name) for name in _ARRAYS},
-            )
         return path
+
+
+@contextmanager
+def keeping(folder: Path, records: Records) -> Iterator[None]:
+    """Have a folder hold these records alone, once the block has ended without an error."""
+    old = _paths(folder)
+    if len(records):
+        folder.mkdir(exist_ok=True)
+        _write(folder, _next_number(folder), records)
+    yield
+    _remove(old)
+    clear_unfinished(folder)
+    if folder.exists() and not len(records):
+        folder.rmdir()
 
 
 def read_parts(folder: Path) -> Records:
@@ -114,6 +122,10 @@ def clear_unfinished(folder: Path) -> None:
     _remove(folder.glob(".*"))
 
 
+def _next_number(folder: Path) -> int:
+    return 1 + max((int(path.stem) for path in _paths(folder)), default=0)
+
+
 def _paths(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob("*.npz") if path.stem.isdigit())
 
@@ -121,6 +133,25 @@ def _paths(folder: Path) -> list[Path]:
 def _remove(paths: Iterable[Path]) -> None:
     for path in paths:
         path.unlink(missing_ok=True)
+
+
+def _write(folder: Path, number: int, records: Records) -> Path:
+    path = folder / f"{number:06d}.npz"
+    meta = {
+        "layout": _LAYOUT,
+        "runs": [asdict(run) for run in records.runs],
+        "messages": records.messages,
+    }
+    with replacing(path) as temporary, open(temporary, "wb") as file:
+        np.savez(
+            file,
+            meta=np.array(json.dumps(meta)),
+            table=records.table,
+            status=records.status,
+            run=records.run,
+            **{name: getattr(records.solution, name) for name in _ARRAYS},
+        )
+    return path
 
 
 def _read(path: Path) -> Records | None:

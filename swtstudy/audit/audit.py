@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 #: Told how many more points are done.
 Progress = Callable[[int], object]
 
+#: Points of a larger grid cannot be numbered.
+LARGEST_SAMPLED = 2**63 - 1
+
 #: Seconds between two savings of what has been found so far.
 _SAVE_EVERY = 20.0
 
@@ -100,7 +103,15 @@ def audit_study(
 
 
 def sample_rows(grid: Grid, points: int, seed: int) -> FloatArray:
-    """Canonical rows of random points of a grid, without repetition, shape (n, columns)."""
+    """Canonical rows of random points of a grid, without repetition, shape (n, columns).
+
+    Raises
+    ------
+    ValueError
+        If it has more than `LARGEST_SAMPLED` points.
+    """
+    if grid.size > LARGEST_SAMPLED:
+        raise ValueError(f"{grid.size} points are too many to sample, at most {LARGEST_SAMPLED}")
     rng = np.random.default_rng(seed)
     # More than are asked for: two points of the grid can be one physically.
     many = 2 * points

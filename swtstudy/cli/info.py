@@ -18,7 +18,7 @@ def info(archive: str) -> None:
     From which study and versions, how complete, how accurate.
     """
     from swtstudy.archive.describe import describe
-    from swtstudy.archive.parts import parts_folder, points_saved
+    from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
     from swtstudy.archive.read import ArchiveError, open_results
 
     dataset = open_results(archive)
@@ -30,3 +30,8 @@ def info(archive: str) -> None:
     saved = points_saved(parts_folder(Path(archive)))
     if saved:
         click.echo(f"  unfinished     {saved} distinct points are saved by a run that has not ended")
+    kept = points_saved(kept_folder(Path(archive)))
+    if kept:
+        click.echo(
+            f"  kept           {kept} distinct points of other studies are in {kept_folder(Path(archive))}"
+        )

@@ -109,9 +109,13 @@ def _summarize(dataset: xr.Dataset, target: Path) -> bool:
     """Say what a run came to; whether points failed."""
     import json
 
-    worst = float((dataset.s_error / dataset.s).max())
-    seconds = dataset.attrs["wall_time_seconds"]
-    click.echo(f"{target}: {dataset.s.size} points in {seconds:.1f} s, relative error up to {worst:.1e}")
+    import numpy as np
+
+    relative = (dataset.s_error / dataset.s).values
+    relative = relative[np.isfinite(relative)]
+    none = "s finite and positive at none of them"
+    worst = f"relative error up to {relative.max():.1e}" if relative.size else none
+    click.echo(f"{target}: {dataset.s.size} points in {dataset.attrs['wall_time_seconds']:.1f} s, {worst}")
     failures = json.loads(dataset.status.attrs["failures"])
     for failure in failures[:_NAMED]:
         click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)

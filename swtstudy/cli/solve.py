@@ -54,8 +54,8 @@ def solve(rtol: float, **texts: str | None) -> None:
             f"{s:.6f}",
             f"{error:.1e}",
             f"{surface:.6f}",
-            f"{x:.5f}",
-            f"{angle:.2f}",
+            f"{x:z.5f}",
+            f"{angle:z.2f}",
             REGIMES[int(regime)],
         )
         click.echo("\t".join([*map(_short, place), *numbers]))

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.body import TimeNodes, nodes_at
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
 
 _NAMES = {
@@ -48,9 +49,14 @@ def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.D
     return result
 
 
+def numbers(values: object) -> FloatArray:
+    """What a user gave as an array of floats; NaN where it is masked."""
+    return np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)
+
+
 def _coordinate(name: str, values: object) -> xr.DataArray:
     if not isinstance(values, xr.DataArray):
-        array = np.asarray(values, dtype=float)
+        array = numbers(values)
         if array.ndim > 1:
             raise ValueError(
                 f"{name}: found {array.ndim} dimensions; allowed: a number, a sequence or a DataArray"
@@ -81,7 +87,7 @@ def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNode
     q = scene.cycle.protocol.q
     if time is None:
         time = 2.0 * np.pi * q * np.arange(DEFAULT_INSTANTS) / DEFAULT_INSTANTS
-    array = np.asarray(time, dtype=float)
+    array = numbers(time)
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise ValueError("time: allowed: a finite number or a sequence of them, ω1 t in rad")
     nodes = nodes_at(scene, np.mod(array.ravel() / q, 2.0 * np.pi))

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import read_time
+from swtstudy.fields.places import numbers, read_time
 
 #: In the order of the flag values.
 STATES = ("open", "stick", "forward_slip", "backward_slip")
@@ -20,7 +20,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     Parameters
     ----------
     r
-        Distance from the axis in a_H, a one-dimensional sequence.
+        Distance from the axis in a_H, a number or a one-dimensional sequence.
     time
         ω1 t in rad, as for `swtstudy.stress_field`.
     **parameters
@@ -31,11 +31,19 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     xarray.Dataset
         state (a flag), over time and r, and slip_radius and contact_radius in a_H over time: from the one to
         the other the contact slips. In forward slip the body under the indenter is dragged to +x.
+
+    Raises
+    ------
+    ValueError
+        If a distance, an instant or a parameter is not allowed.
     """
     scene = read_scene(parameters)
     cycle, profile = scene.cycle, scene.profile
     instants, nodes = read_time(scene, time)
-    radius = xr.DataArray(np.atleast_1d(np.asarray(r, dtype=float)), dims="r")
+    distances = np.atleast_1d(numbers(r))
+    if distances.ndim > 1 or distances.size == 0 or not (np.isfinite(distances) & (distances >= 0.0)).all():
+        raise ValueError("r: allowed: a finite distance r ≥ 0 in a_H or a sequence of them")
+    radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
     states = cycle.states(nodes.interval[None], nodes.instant[None])
     depth, front, sign = states.depth, states.front, states.sign

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -45,7 +46,7 @@ class Grid:
     @property
     def size(self) -> int:
         """Number of grid points."""
-        return int(np.prod(self.shape, dtype=np.int64))
+        return math.prod(self.shape)
 
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid; empty if it has none."""

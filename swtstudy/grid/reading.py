@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -140,13 +142,16 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
         return []
     if axis.spacing == "linear":
         return [start + index * step for index in range(axis.num - 1)] + [stop]
-    if start <= 0 or stop <= 0:
+    first, last = float(start), float(stop)
+    if first <= 0.0 or last <= 0.0:
         ends_found = f"from {literal(axis.start)} to {literal(axis.stop)}"
         report(key, f"equal ratios {ends_found}", "two positive ends")
         return []
-    ratio = float(stop) / float(start)
-    inner = [float(start) * ratio ** (index / (axis.num - 1)) for index in range(1, axis.num - 1)]
-    return [start, *inner, stop]
+    parts = [index / (axis.num - 1) for index in range(1, axis.num - 1)]
+    ratio = last / first
+    if sys.float_info.min < ratio < math.inf:
+        return [start, *(first * ratio**part for part in parts), stop]
+    return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]
 
 
 def _check_shapes(
@@ -187,14 +192,13 @@ def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> N
             continue
         from swtstudy.mechanics.profiles import check_shape
 
-        messages = []
+        refused, first = 0, ("", "")
         for values in itertools.product(*(grid.values(name) for name in names)):
             shape = {name: float(value) for name, value in zip(names, values, strict=True)}
             message = check_shape(profile, shape, normal_amplitude)
-            if message is not None:
-                messages.append((shape, message))
-        if messages:
-            shape, message = messages[0]
-            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
-            more = f"; {len(messages) - 1} more like it" if len(messages) > 1 else ""
-            report(", ".join(map(keys, names)), f"{found}{more}", message)
+            if message is not None and not refused:
+                first = ", ".join(f"{name} = {value:g}" for name, value in shape.items()), message
+            refused += message is not None
+        if refused:
+            more = f"; {refused - 1} more like it" if refused > 1 else ""
+            report(", ".join(map(keys, names)), first[0] + more, first[1])

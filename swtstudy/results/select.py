@@ -15,8 +15,10 @@ from swtstudy.parameters import PARAMETERS
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Distance at which a value counts as the one that was asked for, in the unit of its parameter.
+#: Distance at which a value counts as the one that was asked for, relative to the larger of the two.
 TOLERANCE = 1e-6
+#: Distance from 0 that counts as none: the rounding of a phase, say.
+_ROUNDING = 1e-14
 #: Values of an axis that a message lists one by one.
 _LISTED = 12
 
@@ -32,7 +34,7 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
         By name a single value, whose dimension becomes a scalar coordinate, or a sequence of values, which
         keeps it. Values are written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
     tolerance
-        Largest distance from the nearest value there, in the unit of the parameter.
+        Largest distance from the nearest value there, relative to the larger of the two.
 
     Raises
     ------
@@ -65,11 +67,14 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mi
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
         return 0
     known = np.atleast_1d(there.values)
-    distance = (
-        np.where(known == value, 0.0, np.inf) if isinstance(value, str) else np.abs(known - float(value))
-    )
+    if isinstance(value, str):
+        distance, allowed = np.where(known == value, 0.0, np.inf), np.zeros(len(known))
+    else:
+        asked = float(value)
+        distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
+        allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
     index = int(distance.argmin())
-    if not distance[index] <= tolerance:
+    if not distance[index] <= allowed[index]:
         mistakes.append(Mistake(name, f"{literal(raw)}, which is not there", _listed(name, known)))
     return index
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import shutil
 import time
 from datetime import UTC, datetime
 from os import PathLike
@@ -17,7 +16,7 @@ from swtstudy.runner.engines import Engine, Here, LocalWorkers
 from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
 from swtstudy.runner.plan import chunks, weights
 from swtstudy.runner.progress import Progress
-from swtstudy.runner.records import COMPUTED, MISSING, Records, Run, look_up
+from swtstudy.runner.records import MISSING, Records, Run
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study
 
@@ -53,7 +52,9 @@ def run(
     """Compute a study and leave its archive at `path`.
 
     Every finished chunk is saved beside the archive at once. A run that was killed goes on where it was;
-    an archive that has some of the points already gives these.
+    an archive that has some of the points already gives these. What is known of points that the study does
+    not have is kept in a folder beside the archive, ``figure3.nc.kept``, where a study that has them finds
+    them.
 
     Parameters
     ----------
@@ -99,21 +100,30 @@ def _run_locked(
 ) -> xr.Dataset:
     from swtstudy.archive.archive import build, history_line, versions
     from swtstudy.archive.files import save
-    from swtstudy.archive.parts import PartsWriter, clear_parts, clear_unfinished, parts_folder, read_parts
+    from swtstudy.archive.parts import (
+        PartsWriter,
+        clear_parts,
+        clear_unfinished,
+        keeping,
+        kept_folder,
+        parts_folder,
+        read_parts,
+    )
     from swtstudy.archive.read import read_archive
 
     begin = time.perf_counter()
-    folder = parts_folder(path)
+    folder, kept = parts_folder(path), kept_folder(path)
     clear_unfinished(folder)
     work = assess(study, path, retry_failed)
     records, todo = work.records, int(work.missing.sum())
     old = read_archive(path) if path.exists() else None
-    if todo == 0 and old is not None and old.attrs["study"] == study.text:
-        clear_parts(folder)
+    present = read_parts(folder)
+    if todo == 0 and old is not None and old.attrs["study"] == study.text and not len(present):
+        clear_parts(folder)  # what could not be read
         return old
     _tell(work, todo)
     if todo:
-        writer = PartsWriter(folder, read_parts(folder))
+        writer = PartsWriter(folder, present)
         now = datetime.now(UTC).isoformat(timespec="seconds")
         this = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
         engine = _engine(work, workers, client)
@@ -121,30 +131,16 @@ def _run_locked(
     history = history_line(f"{todo} of {len(records)} distinct points computed")
     if old is not None:
         history += "\n" + old.attrs["history"]
-        _keep_dropped(path, work, old)
     dataset = build(study, work.points, records.trimmed(), history, time.perf_counter() - begin)
     try:
-        save(dataset, path, beside=folder)
+        with keeping(kept, work.dropped):
+            save(dataset, path, beside=folder)
     except (OSError, RuntimeError) as error:  # netCDF4 raises the latter on a full disk
         raise _interrupted(OSError(f"cannot write the archive ({error})"), records, path) from error
     clear_parts(folder)
+    if len(work.dropped):
+        _log.info("%d points are not in this study: %s keeps them", len(work.dropped), kept)
     return read_archive(path)
-
-
-def _keep_dropped(path: Path, work: Work, old: xr.Dataset) -> None:
-    """Keep the old archive under another name if it has points that the study no longer has."""
-    from swtstudy.archive.files import replacing
-    from swtstudy.archive.recall import records_of
-
-    there = records_of(old)
-    there = there.take(there.status == COMPUTED)
-    everything = Records.missing(work.points.table)
-    dropped = int((look_up(there.table, everything, everything.status == MISSING) < 0).sum())
-    if dropped:
-        previous = path.with_name(f"{path.stem}.previous{path.suffix}")
-        with replacing(previous) as temporary:
-            shutil.copyfile(path, temporary)
-        _log.info("%d points are not in this study any more: %s keeps them", dropped, previous)
 
 
 def _tell(work: Work, todo: int) -> None:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.grid.canonical import group_rows
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.version import SOLVER_VERSION
 from swtstudy.runner.plan import UniquePoints, unique_points
@@ -27,6 +28,8 @@ class Work:
         All records at the place of the archive.
     records
         The records of the points that can be used, "missing" for the others.
+    dropped
+        The records at that place of points that the study does not have.
     outdated, coarse
         Number of points that are known from another version of the solver, or with less accuracy.
     """
@@ -34,6 +37,7 @@ class Work:
     points: UniquePoints
     known: Records
     records: Records
+    dropped: Records
     outdated: int
     coarse: int
 
@@ -53,7 +57,20 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     records = Records.missing(points.table)
     records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
     outdated, coarse = _unusable(points.table, known, found, study.rtol)
-    return Work(points, known, records, outdated, coarse)
+    return Work(points, known, records, _dropped(points.table, known, records), outdated, coarse)
+
+
+def _dropped(table: FloatArray, known: Records, used: Records) -> Records:
+    """What is known of points that are not in a table; the time of a run is told with what is used of it."""
+    everything = Records.missing(table)
+    elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0
+    rows = np.flatnonzero(elsewhere & (known.status != MISSING))
+    # A kill may have left a record in two places.
+    first, _ = group_rows(np.column_stack([known.table[rows], known.run[rows]]))
+    dropped = known.take(rows[first]).trimmed()
+    told = used.trimmed().runs
+    runs = tuple(replace(run, seconds=0.0) if run in told else run for run in dropped.runs)
+    return replace(dropped, runs=runs)
 
 
 def _unusable(table: FloatArray, known: Records, found: IntArray, rtol: float) -> tuple[int, int]:

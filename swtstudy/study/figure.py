@@ -101,7 +101,7 @@ def reference(y: str) -> tuple[str, Value] | None:
 
 
 def wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
-    """Key, found and allowed of every role that this kind of figure must or must not have."""
+    """Key, found and allowed of everything that this kind of figure must or must not have."""
     if layout.kind not in KINDS:
         yield ".kind", literal(layout.kind), nearest(layout.kind, KINDS)
     elif layout.kind == "lines":
@@ -115,6 +115,8 @@ def wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     for role, name in (("x", layout.x), ("vertical", layout.vertical)):
         if name == "profile" and layout.kind != "heatmap":
             yield f".{role}", "'profile'", "an axis of numbers"
+    if not layout.y:
+        yield ".y", "an empty list", 'at least one of "s" or "s/s(name=value)"'
 
 
 def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, report: Report) -> None:
@@ -148,8 +150,6 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
     for name in dims:
         if name not in used and name in PARAMETERS:
             report("figure", f"no place for the axis {name}", "every axis as x, hue, vertical or panels")
-    if not layout.y:
-        report("figure.y", "an empty list", 'at least one of "s" or "s/s(name=value)"')
     for y in layout.y:
         _check_quantity(y, dims, grid, report)
 

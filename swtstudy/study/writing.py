@@ -36,6 +36,8 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
         lines.append(f"y = [{', '.join(map(quoted, figure.y))}]")
         if figure.title:
             lines.append(f"title = {quoted(figure.title)}")
+        if figure.regimes:
+            lines.append("regimes = true")
     return "\n".join(lines) + "\n"
 
 

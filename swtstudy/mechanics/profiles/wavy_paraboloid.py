@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,11 +155,16 @@ def smallest_compact_wavelength(phase: float) -> float:
 
     g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with A = H₀ + z (2/π − H₁).
     """
+    return float(np.sqrt(np.pi**3 * max(np.interp(phase, *_steepest_falls()), 0.0)))
+
+
+@lru_cache
+def _steepest_falls() -> tuple[FloatArray, FloatArray]:
+    """Phases kξ, and the greatest −A/z up to each: a grid of shapes asks for thousands."""
     # The first minimum of A/z, near 4.7, is the deepest.
-    z = np.linspace(1e-3, min(phase, 8.0), 2001)
+    z = np.linspace(1e-3, 8.0, 2001)
     zeroth, first = struve_functions(z)
-    steepest = float((-(zeroth / z + 2.0 / np.pi - first)).max())
-    return float(np.sqrt(np.pi**3 * max(steepest, 0.0)))
+    return z, np.maximum.accumulate(-(zeroth / z + 2.0 / np.pi - first))
 
 
 def _upper_radius(depth: FloatArray, amplitude: FloatArray, wave_number: FloatArray) -> FloatArray:
