@@ -95,7 +95,7 @@ STATEMENTS = (
     Statement(
         "Title",
         "The contacts oscillate in partial slip.",
-        "at 95% of all points the regime is partial slip: there is tangential load to slip by, no gross slip "
+        "at 95% of all points the regime is partial slip: part of the contact slips, no gross slip "
         "(max(u − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off",
         _ALL,
         slips_partially,
