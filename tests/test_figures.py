@@ -216,4 +216,4 @@ regimes = true
         [line.get_xdata()[0] for line in marks], results.tangential_amplitude[first]
     )
     assert [text.get_text() for text in figure.legends[0].get_texts()][-1] == "gross slip begins"
-    assert len(figure.legends[0].get_texts()) == 3
+    assert len(figure.legends[0].get_texts()) == 4  # and where partial slip begins
