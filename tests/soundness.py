@@ -43,4 +43,5 @@ def regime_names(found: Solution) -> list[str]:
 
 
 def close(first: ArrayLike, second: ArrayLike, rtol: float) -> None:
-    np.testing.assert_allclose(first, second, rtol=rtol, atol=1e-300)
+    # Where nothing is in tension, s is the rounding of stresses of the order 1, squared.
+    np.testing.assert_allclose(first, second, rtol=rtol, atol=1e-24)
