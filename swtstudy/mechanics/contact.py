@@ -25,7 +25,7 @@ GROWTH = 2.0
 #: Growth of the depth below which there is none, in δ0.
 NO_GROWTH = 1e-12
 #: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, as a share of the depth.
-NO_SLIP = 1e-9
+NO_SLIP = 1e-13
 
 
 @dataclass(frozen=True)
