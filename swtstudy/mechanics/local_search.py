@@ -138,6 +138,12 @@ class Climb:
         """The local maxima at ``index``."""
         return Climb(*(values[index] for values in vars(self).values()))
 
+    def leading(self, height: FloatArray, share: float) -> Climb:
+        """Those whose height, shape (m,), is at least a share of the largest one at their point."""
+        largest = np.zeros(self.point.max(initial=0) + 1)
+        np.maximum.at(largest, self.point, height)
+        return self.take(height >= share * largest[self.point])
+
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
         """Without those that have just moved to a position around which another one searches."""
         order = np.lexsort((moved, self.column, self.side, self.point))

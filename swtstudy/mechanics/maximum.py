@@ -95,16 +95,9 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
         parts = np.array_split(active, -(-active.size // largest_part))
         twins = [step(split, positions, climb, part, accuracy) for part in parts]
         climb = Climb.joined([climb.without_followers(climb.column != before), *twins])
-        largest = np.zeros(len(scene))
-        np.maximum.at(largest, climb.point, climb.top)
-        share = SHARES[min(turn, len(SHARES) - 1)]
-        climb = climb.take(climb.top >= share * largest[climb.point])
+        climb = climb.leading(climb.top, SHARES[min(turn, len(SHARES) - 1)])
     # What is still on its way counts for what was seen of it.
-    top = np.where(climb.settled, climb.top, climb.seen)
-    largest = np.zeros(len(scene))
-    np.maximum.at(largest, climb.point, top)
-    close = top >= SHARES[-1] * largest[climb.point]
-    climb, top = climb.take(close), top[close]
+    climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])
     r = climb.brackets(positions).radius(climb.centre[:, None])
     value, angle = refine(
         split.select(climb.point, climb.hot), r, climb.side, climb.angle[:, None], accuracy.check
