@@ -46,24 +46,7 @@ class CriticalPlane(NamedTuple):
 
 
 def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
-    """Largest Smith–Watson–Topper parameter over all planes (eq. 9).
-
-    Parameters
-    ----------
-    stress
-        Shape (..., time, 6): one cycle, components xx, yy, zz, yz, xz, xy; tension positive.
-    poisson_ratio, youngs_modulus
-        ν and E of Hooke's law. In this package's units (stress in E* √(δ0/R), s = swt/(E* δ0/R)) the half-
-        space has E = 1 − ν².
-
-    Examples
-    --------
-    Uniaxial tension from 0 to 1 along x, E = 1: σ_max = 1, Δε/2 = 1/2.
-
-    >>> swt, normal = swt_of_history([[0, 0, 0, 0, 0, 0], [1, 0, 0, 0, 0, 0]], poisson_ratio=0.3)
-    >>> float(swt), abs(normal).round(6).tolist()
-    (0.5, [1.0, 0.0, 0.0])
-    """
+    """Largest swt over all planes (eq. 9); `swtstudy.swt_of_history`, without its checks of the input."""
     history = np.asarray(stress, dtype=float)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
