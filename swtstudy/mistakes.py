@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from numbers import Real
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,17 @@ def literal(value: object, longest: int = 60) -> str:
     """A value as it stands in a message: like Python writes it, shortened if long."""
     text = repr(value)
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def plain_number(value: object) -> float:
+    """A plain number as a float; NaN, which no range holds, for all else."""
+    # NumPy's bool is no Real, Python's is.
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

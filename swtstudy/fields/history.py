@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics import critical_plane_3d
 from swtstudy.mechanics.critical_plane_3d import CriticalPlane
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 
 
 def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
@@ -55,14 +54,10 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
         elif not np.isfinite(history).all():
             wrong = np.count_nonzero(~np.isfinite(history))
             mistakes.append(Mistake("stress", f"{wrong} components that are not finite", "finite numbers"))
-    if not (_is_plain(poisson_ratio) and -1.0 < poisson_ratio <= 0.5):
+    if not -1.0 < plain_number(poisson_ratio) <= 0.5:
         mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
-    if not (_is_plain(youngs_modulus) and 0.0 < youngs_modulus < math.inf):
+    if not 0.0 < plain_number(youngs_modulus) < math.inf:
         mistakes.append(Mistake("youngs_modulus", literal(youngs_modulus), "a positive number"))
     if mistakes:
         raise StudyError(mistakes)
     return critical_plane_3d.swt_of_history(history, poisson_ratio, youngs_modulus)
-
-
-def _is_plain(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
@@ -42,8 +41,7 @@ class FatigueConstants:
         mistakes = []
         for name, value in vars(self).items():
             sign = -1.0 if name.endswith("exponent") else 1.0
-            number = isinstance(value, Real) and not isinstance(value, bool)
-            if not (number and np.isfinite(value) and sign * value > 0.0):
+            if not 0.0 < sign * plain_number(value) < np.inf:
                 allowed = "a negative number" if sign < 0.0 else "a positive number"
                 mistakes.append(Mistake(name, literal(value), allowed))
         if mistakes:

@@ -6,12 +6,11 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from numbers import Real
 from typing import Any
 
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.contact import PhysicalContact
 from swtstudy.units.moduli import Moduli
@@ -123,28 +122,18 @@ def _pair(value: Any) -> tuple[Any, Any]:
     return (value[0], value[1]) if isinstance(value, list | tuple) and len(value) == 2 else (value, value)
 
 
-def _number(value: object) -> float:
-    """A plain number as a float; NaN for all else."""
-    if isinstance(value, bool) or not isinstance(value, Real):
-        return math.nan
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf
-
-
 def _wrong_bodies(young: tuple[Any, Any], poisson: tuple[Any, Any], similar: object) -> list[Mistake]:
     mistakes = [
         Mistake("young_modulus", literal(value), "a positive number, or a pair of them")
         for value in young
-        if not 0.0 < _number(value) < math.inf
+        if not 0.0 < plain_number(value) < math.inf
     ]
     mistakes += [
         Mistake("poisson_ratio", literal(value), "a number in [0, 0.5], or a pair of them")
         for value in poisson
-        if not 0.0 <= _number(value) <= 0.5
+        if not 0.0 <= plain_number(value) <= 0.5
     ]
-    if not 0.0 <= _number(similar) < math.inf:
+    if not 0.0 <= plain_number(similar) < math.inf:
         mistakes.append(Mistake("similar", literal(similar), "a number ≥ 0"))
     if not mistakes and abs(beta := Moduli(young, poisson).mismatch) > float(similar):  # type: ignore[arg-type]
         found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
@@ -161,7 +150,7 @@ def _wrong_load(depth: object, normal_force: object) -> list[Mistake]:
     return [
         Mistake(name, literal(value), "a positive number")
         for name, value in given.items()
-        if not 0.0 < _number(value) < math.inf
+        if not 0.0 < plain_number(value) < math.inf
     ]
 
 
@@ -172,7 +161,7 @@ def _wrong_lengths(lengths: Mapping[str, object], needed: Collection[str]) -> li
         if value is None and optional:
             continue
         zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
-        number = _number(value)
+        number = plain_number(value)
         if not (0.0 < number < math.inf or (zero and number == 0.0)):
             allowed = "a length ≥ 0" if zero else "a positive length"
             if name in needed:
