@@ -18,7 +18,7 @@ from swtstudy.mechanics.field import ContactStates, contact_states
 from swtstudy.mechanics.instants import cosine_nodes, stretches
 from swtstudy.mechanics.plane_ascent import normal_weights
 from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.profiles import make_profile, resolved_shape
+from swtstudy.mechanics.profiles import make_profile
 from swtstudy.mechanics.protocol import Protocol
 from swtstudy.mechanics.swt_line import Scene
 
@@ -32,9 +32,7 @@ def scene_of(points: Points) -> Scene:
     """The contact cycle, profile and material of a batch of one parameter point."""
     load = points.normal_amplitude, points.tangential_amplitude, points.phase
     cycle = solve_cycle(Protocol(*load, int(points.p[0]), int(points.q[0])))
-    largest_depth = 1.0 + points.normal_amplitude
-    shape, _ = resolved_shape(points.profile, points.shape, largest_depth)
-    profile = make_profile(points.profile, shape, largest_depth)
+    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
     return Scene(cycle, profile, points.poisson_ratio, points.friction)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.profiles import Profile, make_profile, resolved_shape
+from swtstudy.mechanics.profiles import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.moduli import Moduli
@@ -101,7 +101,6 @@ class PhysicalContact:
 
     def _profile(self) -> Profile:
         shape = {name: np.array([value]) for name, value in self._shape_parameters().items()}
-        shape, _ = resolved_shape(self.profile, shape, np.ones(1))
         return make_profile(self.profile, shape, np.ones(1))
 
     def _shape_parameters(self) -> dict[str, float]:

@@ -17,8 +17,12 @@ PROFILES: dict[str, type[Profile]] = {
 
 
 def make_profile(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> Profile:
-    """n profiles of family ``name`` with shape parameters of shape (n,), in contact up to a depth (n,)."""
-    return PROFILES[name](largest_depth, **shape)
+    """n profiles of family ``name`` with shape parameters of shape (n,), in contact up to a depth (n,).
+
+    What cannot be resolved is left out, see `resolved_shape`.
+    """
+    resolved, _ = resolved_shape(name, shape, largest_depth)
+    return PROFILES[name](largest_depth, **resolved)
 
 
 def roughness(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> IntArray:
