@@ -75,7 +75,9 @@ def test_every_result_is_sound(point: Points) -> None:
 def test_s_has_its_period_in_the_phase(point: Points) -> None:
     period = (1.0 if point.q[0] % 2 else 2.0) * np.pi / point.p[0]
     found = solve_points(several(point, phase=point.phase[0] + period * np.array([0.0, 1.0, -2.0])), RTOL)
-    close(found.s, found.s[0], 3 * RTOL)
+    # Where nothing is in tension, s is the rounding of stresses of the order 1, squared.
+    s = np.where(found.s < 1e-24, 0.0, found.s)
+    close(s, s[0], 3 * RTOL)
 
 
 @few
