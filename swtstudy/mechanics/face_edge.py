@@ -1,6 +1,6 @@
 """swt of the truncated paraboloid next to r = b, where the stress grows like L = ln(1/ε), r = b (1 + ε).
 
-To the order √ε the stress at r = b⁺ is a finite part plus L/2 times a logarithmic part, both in closed form:
+To the order ε the stress at r = b⁺ is a finite part plus L/2 times a logarithmic part, both in closed form:
 for b⁺ all springs are outside of r but for those at G → 0⁺, whose pull is finite. L takes the place of the
 position, so that distances far below what a number near b can hold cost nothing:
 
@@ -27,11 +27,11 @@ from swtstudy.mechanics.contact import Cycle
 from swtstudy.mechanics.critical_plane import climb_over_planes, product
 from swtstudy.mechanics.gather import pick
 from swtstudy.mechanics.instants import split_at_breakpoints
-from swtstudy.mechanics.local_search import Accuracy
+from swtstudy.mechanics.local_search import SETTLED, Accuracy
 from swtstudy.mechanics.maximum import LEAST_ERROR, Maximum
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
-from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE, TruncatedParaboloid
+from swtstudy.mechanics.profiles.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.protocol import Protocol, turning_instants
 from swtstudy.mechanics.swt_line import Look, Scene
 from swtstudy.mechanics.vertex import parabola
@@ -42,10 +42,16 @@ LEAST_FRICTION = 0.8
 FIRST_COUNT, NEXT_COUNT, ROUND_COUNT = 24, 9, 5
 #: Steps of each smooth stretch of the cycle, and how often the plane is improved.
 STEPS_PER_DIGIT, ANGLE_ROUND_COUNT = 3, 4
+#: So many times the steps check the value, one after the other until it changes little enough.
+FINER = 2, 4, 8, 16
 #: The spring at r = b⁺ for the events of the cycle, by its w/b, and how exactly that is known.
-ONSET, BESIDE = 1e-5, 1e-3
-#: Relative error by what is left out: of the order √ε, measured at r = b (1 + NEAREST), and of the onset.
-LEFT_OUT = 1e-5
+ONSET, BESIDE = 1e-7, 0.3
+#: Distance from r = b, over the face or the ring beside it, from which the limit has more digits than r.
+REACH = 1e-8
+#: Where |q| is nearer to μp than this, relative, the spring at r slips.
+SLIDES = 1e-9
+#: Relative error by what is left out: of the orders ε and `ONSET`.
+LEFT_OUT = 2e-7
 
 
 def not_finite(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
@@ -81,8 +87,22 @@ def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDAr
     return np.asarray(face & slides & (friction >= LEAST_FRICTION))
 
 
-def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
-    """Largest swt at 0 < ε ≤ `NEAREST` of n truncated paraboloids that slide, μ < 1."""
+def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
+    """The maxima found along x of n truncated paraboloids that slide, μ < 1, or those next to r = b."""
+    edge = _maximum_at_edge(scene, accuracy)
+    distance = np.abs(found.position) / scene.profile.flat_radius - 1.0
+    better = (edge.swt > found.swt) | ((distance > 0.0) & (distance < _reach(scene.profile)))
+    return found.put(better, edge.take(better))
+
+
+def _reach(profile: Profile) -> FloatArray:
+    """ε up to which the limit is used, shape (n,)."""
+    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
+    return REACH * np.minimum(radius - flat, flat) / flat
+
+
+def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
+    """Largest swt at 0 < ε ≤ `_reach`."""
     # The instant at which the front arrives at G = 0 is a breakpoint.
     scene = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
     n = len(scene)
@@ -90,7 +110,7 @@ def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     found = Maximum.unknown(n, 0.0)
     radius = scene.profile.radius(scene.profile.largest_depth)
     flat = scene.profile.flat_radius
-    nearest = -np.log(NEAREST * np.minimum(radius - flat, flat) / flat)
+    nearest = -np.log(_reach(scene.profile))
     # Beyond this no plane is in tension.
     farthest = nearest + 20.0 * (1.0 + radius / flat) / (1.0 - scene.friction)
     steps = STEPS_PER_DIGIT * math.ceil(-math.log10(accuracy.tolerance))
@@ -107,11 +127,33 @@ def maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
                 high = distance[rows, np.minimum(best + 1, count - 1)]
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
-            check = _swt(scene, there, side, start, 2 * steps, digits)[0][:, 0]
-            error = np.abs(check - swt[rows, best]) + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * check
-            larger = check > found.swt
-            found = found.put(larger, Maximum(check, error, side * flat, angle[rows, best]).take(larger))
+            value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
+            error = change + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * value
+            larger = value > found.swt
+            found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
     return found
+
+
+def _checked(
+    scene: Scene,
+    distance: FloatArray,
+    swt: FloatArray,
+    side: float,
+    start: float,
+    steps: int,
+    accuracy: Accuracy,
+) -> tuple[FloatArray, FloatArray]:
+    """swt (n,) at L = ``distance`` (n, 1) with ever more steps, until it changes little; its last change."""
+    value, change = swt.copy(), np.zeros_like(swt)
+    rows = np.arange(len(swt))
+    for times in FINER:
+        finer, _ = _swt(scene.take(rows), distance[rows], side, start, times * steps, accuracy.check.digits)
+        change[rows] = np.abs(finer[:, 0] - value[rows])
+        value[rows] = finer[:, 0]
+        rows = rows[change[rows] > SETTLED * accuracy.tolerance * value[rows]]
+        if not rows.size:
+            break
+    return value, change
 
 
 def _swt(
@@ -127,7 +169,10 @@ def _swt(
     position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
     look = Look.at(replace(scene, profile=edge), position, steps, digits)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
-    inside = look.inside & (look.stretch % 3 == 0)
+    # Shortly before, the front passes r itself, where the pressure's logarithm ends at once: a kink, too.
+    sticks = np.abs(look.history.traction) < (1.0 - SLIDES) * look.history.pressure
+    sticks &= np.roll(sticks, 1, axis=-1) & np.roll(sticks, -1, axis=-1)
+    inside = look.inside & (look.stretch % 3 == 0) & sticks
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     stress, strain = planes.on_plane(angle)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle, solve_cycle
-from swtstudy.mechanics.face_edge import maximum_at_edge, may_be_largest, not_finite
+from swtstudy.mechanics.face_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.local_search import Accuracy
 from swtstudy.mechanics.maximum import Maximum, maximum
 from swtstudy.mechanics.points import REGIMES, Points, Solution
@@ -108,9 +108,7 @@ def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maxi
         found = found.put(finite, maximum(scene.take(finite), accuracy))
     near = finite[may_be_largest(scene.profile, scene.cycle, scene.friction)[finite]]
     if near.size:
-        edge = maximum_at_edge(scene.take(near), accuracy)
-        higher = edge.swt > found.swt[near]
-        found = found.put(near[higher], edge.take(higher))
+        found = found.put(near, at_edge(scene.take(near), found.take(near), accuracy))
     return found
 
 
