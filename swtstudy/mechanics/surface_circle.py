@@ -115,7 +115,8 @@ def _decisive_history(
     def planes(history: History) -> PlaneHistory:
         return scene.planes(history, side[:, None, None])
 
-    brackets = look.brackets(extreme_instants(planes(look.history), double_angle[:, None]))
+    found = extreme_instants(planes(look.history), double_angle[:, None], look.inside)
+    brackets = look.brackets(found)
     wide = look.line.history(brackets.samples())
     closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
     narrow = look.line.history(brackets.narrowed(closer).samples())

@@ -188,7 +188,7 @@ def refine(
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     best, other = _best_planes(planes, look.inside, double_angle + STARTS)
-    found, elsewhere = extreme_instants(planes, best), extreme_instants(planes, other)
+    found, elsewhere = (extreme_instants(planes, angle, look.inside) for angle in (best, other))
     swt, angle = _zoomed(scene, look, side, best, found, resolution.zooms)
     # Two planes that the nodes cannot tell apart are both followed; neighbouring nodes have the same bracket.
     rows = np.flatnonzero((np.abs(found - elsewhere) > 1).any(axis=(1, 2)))
@@ -235,29 +235,33 @@ def _best_planes(
     angle = climb_over_planes(planes, angle, ANGLE_ROUNDS)
     stress, strain = planes.on_plane(angle)
     found = []
-    for top in (lambda curve: curve.max(axis=-1), lambda curve: _peak(curve, inside)):
+    for top in (lambda curve: curve.max(axis=-1), lambda curve: _lifted(curve, inside).max(axis=-1)):
         swt = product(top(stress), top(strain), -top(-strain))
         best = np.moveaxis(swt, 0, -1).argmax(axis=-1)
         found.append(pick(np.moveaxis(angle, 0, -1), best))
     return found[0], found[1]
 
 
-def _peak(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Maximum over the instants, interpolated in the stretches that the largest value belongs to."""
-    best = curve.argmax(axis=-1)
-    top = pick(curve, best)
-    for step in (-1, 0, 1):
-        middle = np.clip(best + step, 1, curve.shape[-1] - 2)
-        left, centre, right = (pick(curve, middle + k) for k in (-1, 0, 1))
-        vertex = centre + parabola(left, centre, right)[1]
-        top = np.where(pick(inside, middle), np.maximum(top, vertex), top)
-    return top
-
-
-def extreme_instants(planes: PlaneHistory, angle: FloatArray) -> NDArray[np.intp]:
-    """Instants of largest σ_n, largest ε_n, smallest ε_n, shape (…, 3)."""
+def extreme_instants(
+    planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
     stress, strain = planes.on_plane(angle)
-    return np.stack([stress.argmax(axis=-1), strain.argmax(axis=-1), strain.argmin(axis=-1)], axis=-1)
+    return np.stack([_lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
+
+
+def _lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """The curve with its local maxima as high as the parabolas through them and their neighbours.
+
+    Of two maxima that are nearly as high, the instants alone would tell the wrong one.
+    """
+    middle = curve[..., 1:-1]
+    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
+    at = np.nonzero(peak)
+    left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
+    lifted = curve.copy()
+    lifted[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
+    return lifted
 
 
 def of_extremes(planes: PlaneHistory) -> FloatArray:
