@@ -158,6 +158,22 @@ class Climb:
         columns = zip(*(vars(one).values() for one in several), strict=True)
         return cls(*(np.concatenate(values) for values in columns))
 
+    def twins(
+        self, index: NDArray[np.intp], centre: FloatArray, value: FloatArray, angle: FloatArray
+    ) -> Climb:
+        """Searches between the same neighbours as those at ``index``, around other values that were seen."""
+        twins = self.take(index)
+        return replace(
+            twins,
+            angle=angle,
+            centre=centre,
+            width=twins.width * SHRINKING,
+            top=value,
+            seen=value,
+            remaining=value,
+            rounds=twins.rounds + 1,
+        )
+
     def brackets(self, positions: Positions) -> PositionBrackets:
         """Where the positions around which is searched lie."""
         return PositionBrackets.around(positions, self.point, self.column)
@@ -214,17 +230,40 @@ def step(
     new = np.flatnonzero(now.rounds == 0)
     row, second = _other_peaks(values[new], best[new], accuracy.tolerance)
     row = new[row]
-    twins = now.take(row)
-    return replace(
-        twins,
-        angle=angles[row, second],
-        centre=c[row, second],
-        width=twins.width * SHRINKING,
-        top=values[row, second],
-        seen=values[row, second],
-        remaining=values[row, second],
-        rounds=twins.rounds + 1,
-    )
+    peaks = now.twins(row, c[row, second], values[row, second], angles[row, second])
+    return Climb.joined([peaks, _behind_corners(chosen, positions, now, c, values, accuracy)])
+
+
+def _behind_corners(
+    scene: Scene,
+    positions: Positions,
+    climb: Climb,
+    c: FloatArray,
+    values: FloatArray,
+    accuracy: Accuracy,
+) -> Climb:
+    """Local maxima beside corners that a first look took no value of, behind lower ones on the other side.
+
+    Parameters
+    ----------
+    scene, climb
+        m points and the searches at them.
+    c, values
+        Shape (m, k): where was looked, and swt there.
+    """
+    best = values.argmax(axis=1)
+    largest = pick(values, best)
+    corner = np.full(len(c), len(OFFSETS) // 2)
+    place, height = vertex_near(c, values, corner, climb.brackets(positions).is_corner)
+    behind = (climb.rounds == 0) & (climb.centre == 0.0) & (pick(c, best) * place < 0.0)
+    row = np.flatnonzero(behind & (height > (1.0 + accuracy.tolerance) * largest))
+    some, place = climb.take(row), place[row]
+    if not row.size:
+        return some
+    r = some.brackets(positions).radius(place[:, None])
+    value, angle = refine(scene.take(row), r, some.side, some.angle[:, None], accuracy.search)
+    higher = np.flatnonzero(value[:, 0] > largest[row])
+    return some.twins(higher, place[higher], value[higher, 0], angle[higher, 0])
 
 
 def _other_peaks(

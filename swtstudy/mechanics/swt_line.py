@@ -242,9 +242,7 @@ def _best_planes(
     return found[0], found[1]
 
 
-def extreme_instants(
-    planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]
-) -> NDArray[np.intp]:
+def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
     stress, strain = planes.on_plane(angle)
     return np.stack([_lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
