@@ -34,7 +34,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     xarray.Dataset
         s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
         the surface line is not enough), with the sequences as dimensions in the order given and the single
-        values as scalar coordinates.
+        values as scalar coordinates; the attributes say by which version and to which rtol.
 
     Raises
     ------
@@ -48,6 +48,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
+    from swtstudy import __version__
     from swtstudy.labelled import arrays_of, label
     from swtstudy.mechanics import solve_points
     from swtstudy.runner.chunk import joined, solution_at
@@ -76,7 +77,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
-    return label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
+    dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
+    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
 
 
 def _scalar(raw: object) -> object:

@@ -357,6 +357,16 @@ def test_a_study_too_large_to_compute_is_refused(tmp_path, monkeypatch, command)
     assert "too many to compute" in result.stderr
 
 
+def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
+    def refuse(*_):
+        raise MemoryError("Unable to allocate 4.85 GiB")
+
+    monkeypatch.setattr("swtstudy.runner.work.assess", refuse)
+    result = call("plan", "figure3")
+    assert result.exit_code == 2
+    assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"
+
+
 def test_run_says_what_it_needs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = call("run")

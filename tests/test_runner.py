@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import stand_in
 
-from swtstudy import Study, run
+from swtstudy import Study, StudyError, run
 from swtstudy.runner.chunk import Chunk, Result
 from swtstudy.runner.engines import LOST_WORKER, Here, LocalWorkers
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
@@ -118,6 +118,11 @@ class Clock:
     def __call__(self) -> float:
         self.now += 5.0
         return self.now
+
+
+def test_the_name_of_a_study_is_no_study(tmp_path):
+    with pytest.raises(StudyError, match="study: found 'figure3'; allowed: a Study"):
+        run("figure3", tmp_path / "figure3.nc")
 
 
 def test_a_terminal_shows_points_rate_and_time_left():

@@ -56,6 +56,7 @@ def test_attributes_follow_the_table():
     assert dataset.phase.attrs["units"] == "rad"
     assert dataset.friction.attrs["symbol"] == r"\mu"
     assert dataset.s.attrs["units"] == "1"
+    assert dataset.attrs == {"source": f"swtstudy {swtstudy.__version__}", "rtol": 1e-2}
     assert dataset.s.attrs["ancillary_variables"] == "s_error regime s_surface"
     meanings = dataset.regime.attrs["flag_meanings"].split()
     assert len(meanings) == len(dataset.regime.attrs["flag_values"])

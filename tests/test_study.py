@@ -274,6 +274,13 @@ def test_a_file_that_cannot_be_read_is_one_message(tmp_path, name, content, mess
     assert len(caught.value.mistakes) == 1
 
 
+def test_a_study_of_the_paper_by_its_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert Study.from_toml("figure3").title.startswith("Figure 3")
+    with pytest.raises(StudyError, match=r"^figure33: found no such file; .* did you mean figure3\?"):
+        Study.from_toml("figure33")
+
+
 def test_a_folder_is_no_study(tmp_path):
     with pytest.raises(StudyError, match="directory"):
         Study.from_toml(tmp_path)

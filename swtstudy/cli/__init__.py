@@ -39,7 +39,7 @@ class _Commands(click.Group):
         _log_to_terminal()
         try:
             return super().invoke(context)
-        except (ValueError, OSError) as error:
+        except (ValueError, OSError, MemoryError) as error:
             for line in (str(error) or type(error).__name__).splitlines():
                 click.echo(f"Error: {line}", err=True)
             sys.exit(BAD_INPUT)

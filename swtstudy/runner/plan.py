@@ -28,8 +28,8 @@ _SMALLEST_BLOCK = 4
 #: Points that are worth more than one block: then there are as many for one of two workers as for the other.
 _WORTH_SHARING = 64
 
-#: More grid points than this do not fit into the memory of one machine (about 0.3 kB each).
-LARGEST_GRID = 10**9
+#: More grid points than this need more memory than most machines have (about 0.3 kB each).
+LARGEST_GRID = 50_000_000
 
 #: Grid points that are made canonical at once.
 _SLAB = 100_000

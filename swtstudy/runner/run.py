@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import check_writable
 from swtstudy.mechanics.version import SOLVER_VERSION
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.runner.chunk import Result, Solver, solve_points
 from swtstudy.runner.engines import Engine, Here, LocalWorkers
 from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
@@ -78,6 +79,8 @@ def run(
 
     Raises
     ------
+    StudyError
+        A ValueError, if `study` is none.
     OSError
         If the archive cannot be written, found out before anything is computed, or if another run is
         writing it (`LockedError`).
@@ -89,6 +92,8 @@ def run(
     from swtstudy.archive.lock import locked
     from swtstudy.archive.parts import parts_folder
 
+    if not isinstance(study, Study):
+        raise StudyError([Mistake("study", literal(study), "a Study, as Study.from_toml reads it")])
     path = Path(path)
     check_writable(path)
     with locked(parts_folder(path)):

@@ -11,9 +11,10 @@ from typing import Any
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Range, read_grid
-from swtstudy.mistakes import Mistake, StudyError, meant
+from swtstudy.mistakes import Mistake, StudyError, meant, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import FigureLayout, check_figure
+from swtstudy.study.shipped import find_study, shipped_studies
 
 
 @dataclass(frozen=True, repr=False)
@@ -65,6 +66,11 @@ class Study:
     def from_toml(cls, path: str | PathLike[str]) -> Study:
         """Read and validate a study file.
 
+        Parameters
+        ----------
+        path
+            The file, or the name of a study that comes with the package, such as "figure3".
+
         Raises
         ------
         StudyError
@@ -72,9 +78,12 @@ class Study:
         """
         source = str(path)
         try:
-            text = Path(path).read_text(encoding="utf-8")
+            text = find_study(source).read_text(encoding="utf-8")
         except FileNotFoundError:
-            raise StudyError([Mistake("", "no such file", "a study file (TOML)", source)]) from None
+            allowed = "a study file (TOML)"
+            if not Path(path).suffix:
+                allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
+            raise StudyError([Mistake("", "no such file", allowed, source)]) from None
         except UnicodeDecodeError:
             raise StudyError(
                 [Mistake("", "bytes that are no UTF-8", "a study file (TOML)", source)]

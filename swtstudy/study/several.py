@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from swtstudy.mistakes import Mistake, StudyError, nearest
+from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.study.definition import Study
-from swtstudy.study.shipped import shipped_studies
+from swtstudy.study.shipped import find_study
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
@@ -37,16 +37,9 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
 
 
 def _files(paths: Iterable[str], mistakes: list[Mistake]) -> Iterator[str]:
-    shipped = shipped_studies()
     for path in paths:
         if not Path(path).is_dir():
-            if Path(path).exists() or Path(path).suffix:
-                yield path
-            elif path in shipped:
-                yield str(shipped[path])
-            else:
-                allowed = f"a study file (TOML), or a study of the paper: {nearest(path, shipped)}"
-                mistakes.append(Mistake("", "no such file", allowed, path))
+            yield str(find_study(path))
             continue
         inside = sorted(map(str, Path(path).glob("*.toml")))
         if not inside:

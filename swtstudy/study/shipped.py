@@ -21,3 +21,10 @@ def shipped_studies() -> dict[str, Path]:
     return {
         path.stem: path for path in [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]
     }
+
+
+def find_study(path: str) -> Path:
+    """The file at ``path``, or else the study of the paper with that name."""
+    if Path(path).exists() or Path(path).suffix:
+        return Path(path)
+    return shipped_studies().get(path, Path(path))
