@@ -25,7 +25,6 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact import Cycle
 from swtstudy.mechanics.critical_plane import climb_over_planes, product
-from swtstudy.mechanics.gather import pick
 from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.local_search import SETTLED, Accuracy
 from swtstudy.mechanics.maximum import LEAST_ERROR, Maximum
@@ -33,8 +32,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
 from swtstudy.mechanics.profiles.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.protocol import Protocol, turning_instants
-from swtstudy.mechanics.swt_line import Look, Scene
-from swtstudy.mechanics.vertex import parabola
+from swtstudy.mechanics.swt_line import Look, Scene, lifted
 
 #: Below this friction swt falls towards r = b from where the search over x ends.
 LEAST_FRICTION = 0.8
@@ -176,15 +174,8 @@ def _swt(
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     stress, strain = planes.on_plane(angle)
-    return product(_top(stress, inside), _top(strain, inside), -_top(-strain, inside)), angle
-
-
-def _top(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """Maximum over the instants, by a parabola where it is not at the end of a stretch."""
-    best = curve.argmax(axis=-1)
-    middle = np.clip(best, 1, curve.shape[-1] - 2)
-    _, rise = parabola(*(pick(curve, middle + k) for k in (-1, 0, 1)))
-    return pick(curve, best) + np.where(pick(inside, best), rise, 0.0)
+    peak, high, low = (lifted(curve, inside).max(axis=-1) for curve in (stress, strain, -strain))
+    return product(peak, high, -low), angle
 
 
 class _Edge(TruncatedParaboloid):

@@ -235,7 +235,7 @@ def _best_planes(
     angle = climb_over_planes(planes, angle, ANGLE_ROUNDS)
     stress, strain = planes.on_plane(angle)
     found = []
-    for top in (lambda curve: curve.max(axis=-1), lambda curve: _lifted(curve, inside).max(axis=-1)):
+    for top in (lambda curve: curve.max(axis=-1), lambda curve: lifted(curve, inside).max(axis=-1)):
         swt = product(top(stress), top(strain), -top(-strain))
         best = np.moveaxis(swt, 0, -1).argmax(axis=-1)
         found.append(pick(np.moveaxis(angle, 0, -1), best))
@@ -245,13 +245,20 @@ def _best_planes(
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
     stress, strain = planes.on_plane(angle)
-    return np.stack([_lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
+    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
 
 
-def _lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     """The curve with its local maxima as high as the parabolas through them and their neighbours.
 
     Of two maxima that are nearly as high, the instants alone would tell the wrong one.
+
+    Parameters
+    ----------
+    curve
+        Values at T instants, shape (…, T).
+    inside
+        Shape (…, T) or broadcast to it: which instants are not at the end of a smooth stretch.
     """
     middle = curve[..., 1:-1]
     peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
