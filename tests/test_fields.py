@@ -156,8 +156,9 @@ def test_nonlocal_values_tend_to_s():
         near = values.isel(critical_distance=0)
         np.testing.assert_allclose(near, dataset.s.broadcast_like(near), rtol=1e-3)
         assert (values.diff("critical_distance") < 0).all()
-    with pytest.raises(ValueError, match="critical_distance"):
-        swtstudy.nonlocal_swt(0.0)
+    for wrong in (0.0, np.ma.masked_equal([0.1, 0.2], 0.2)):
+        with pytest.raises(ValueError, match="critical_distance"):
+            swtstudy.nonlocal_swt(wrong)
 
 
 def one_point(**changes):
