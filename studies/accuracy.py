@@ -14,7 +14,7 @@ import numpy as np
 
 from swtstudy.mechanics import Points, solve_points
 
-RTOLS = (1e-3, 1e-4, 1e-5, 1e-6)
+RTOLS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 REFERENCE_RTOL = 1e-8
 SHAPES = {
     "paraboloid": {},

@@ -27,7 +27,7 @@ from swtstudy.mechanics.contact import Cycle
 from swtstudy.mechanics.critical_plane import climb_over_planes, product
 from swtstudy.mechanics.instants import split_at_breakpoints
 from swtstudy.mechanics.local_search import SETTLED, Accuracy
-from swtstudy.mechanics.maximum import LEAST_ERROR, Maximum
+from swtstudy.mechanics.maximum import LEAST_SHARE, Maximum
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.profiles.base import Primitives, Profile
 from swtstudy.mechanics.profiles.flat_faced import SMALLEST_FACE, TruncatedParaboloid
@@ -126,7 +126,7 @@ def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
             value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
-            error = change + (LEFT_OUT + LEAST_ERROR * accuracy.tolerance) * value
+            error = change + (LEFT_OUT + LEAST_SHARE * accuracy.tolerance) * value
             larger = value > found.swt
             found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
     return found

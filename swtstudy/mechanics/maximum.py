@@ -23,7 +23,7 @@ LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that one look takes at a time: its memory is bounded.
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
-LEAST_ERROR = 0.25
+LEAST_SHARE = 0.25
 
 
 @dataclass(frozen=True)
@@ -107,5 +107,5 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     swt = value[best, 0]
     error = np.abs(swt - climb.top[best]) + climb.remaining[best]
     # Nothing finer than this was looked at.
-    error = np.maximum(error, LEAST_ERROR * accuracy.tolerance * swt)
+    error = np.maximum(error, LEAST_SHARE * accuracy.tolerance * swt)
     return Maximum(swt, error, climb.side[best] * r[best, 0], angle[best, 0])
