@@ -32,6 +32,9 @@ def test_run_leaves_archive_and_figures(study, tmp_path):
     assert {path.name for path in (tmp_path / "results").iterdir()} == {"small.nc", "small.png", "small.pdf"}
     dataset = swtstudy.open_results(tmp_path / "results" / "small.nc")
     assert (dataset.s > 0).all()
+    assert f"{dataset.s.size} points in " in result.output
+    again = call("run", study, "--results", tmp_path / "results")
+    assert f"{dataset.s.size} points all there already" in again.output
 
 
 def test_plot_needs_the_archive_alone(study, tmp_path):

@@ -80,10 +80,13 @@ def run(
     failed = False
     for source, study in defined.items():
         target = targets[source]
+        before = _written(target)
         dataset = run_and_draw(
             study, target, formats, workers=workers, client=client, retry_failed=retry_failed
         )
-        failed |= _summarize(dataset, target)
+        seconds = dataset.attrs["wall_time_seconds"]
+        effort = "all there already" if _written(target) == before else f"in {seconds:.1f} s"
+        failed |= _summarize(dataset, target, effort)
         for ending in formats if study.figure is not None else ():
             click.echo(str(target.with_suffix(f".{ending}")))
     if failed:
@@ -105,7 +108,12 @@ def _connect(address: str) -> Client:
     return client
 
 
-def _summarize(dataset: xr.Dataset, target: Path) -> bool:
+def _written(target: Path) -> int | None:
+    """When an archive was written."""
+    return target.stat().st_mtime_ns if target.exists() else None
+
+
+def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Say what a run came to; whether points failed."""
     import json
 
@@ -115,7 +123,7 @@ def _summarize(dataset: xr.Dataset, target: Path) -> bool:
     relative = relative[np.isfinite(relative)]
     none = "s finite and positive at none of them"
     worst = f"relative error up to {relative.max():.1e}" if relative.size else none
-    click.echo(f"{target}: {dataset.s.size} points in {dataset.attrs['wall_time_seconds']:.1f} s, {worst}")
+    click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
     failures = json.loads(dataset.status.attrs["failures"])
     for failure in failures[:_NAMED]:
         click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)
