@@ -9,7 +9,7 @@ position, so that distances far below what a number near b can hold cost nothing
 * The whole contact slides and μ ≥ 1: besides, Δε_n grows like L; at μ = 1 the tension is finite.
 * Contact is lost: springs that just touch at r pull with a finite stress before the pressure of −L comes.
   Short of that s ~ ln(1/(1 − δA/δ0)), at the least radius of the contact, and is given up once that is nearer
-  than `NEAREST`.
+  than `NEAREST` (of the profile).
 
 In these cases s is not finite. Else it is; if the whole contact slides, σ_n falls like (1 − μ) L while Δε_n
 rises like L, and the maximum lies at an L of some (π/2)/(1 − μ).
