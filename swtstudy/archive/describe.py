@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.figures.words import value_words
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.runner.records import COMPUTED, STATES
 
 #: Values of an axis, or failed points, that are listed one by one.
@@ -63,9 +64,14 @@ def _completeness(dataset: xr.Dataset) -> str:
     return ", ".join(f"{count} {state}" for count, state in zip(counts, STATES, strict=False) if count)
 
 
+def relative_errors(dataset: xr.Dataset) -> FloatArray:
+    """s_error over s wherever s is known, finite and positive, in one row."""
+    relative = (dataset.s_error / dataset.s).values
+    return relative[np.isfinite(relative)]
+
+
 def _accuracy(dataset: xr.Dataset) -> str:
-    relative = (dataset.s_error / dataset.s).values[dataset.status.values == COMPUTED]
-    relative = relative[np.isfinite(relative)]
+    relative = relative_errors(dataset)
     if not relative.size:
         return "nothing to tell"
     above = int((relative > dataset.attrs["rtol"]).sum())

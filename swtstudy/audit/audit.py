@@ -12,8 +12,7 @@ import numpy as np
 
 from swtstudy.grid.grid import Grid
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.study.definition import Study
+from swtstudy.study.definition import Study, require_study
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,9 +66,7 @@ def audit_study(
     ValueError
         If the file is there and holds no audit, or `study` is no Study.
     """
-    if not isinstance(study, Study):
-        allowed = 'a Study, as from Study.from_toml("studies/figure3.toml")'
-        raise StudyError([Mistake("study", literal(study), allowed)])
+    require_study(study)
     from swtstudy.archive.files import save
     from swtstudy.audit.point import audit_point
     from swtstudy.audit.table import findings_dataset, open_audit, read_findings

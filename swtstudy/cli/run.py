@@ -117,10 +117,9 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Say what a run came to; whether points failed."""
     import json
 
-    import numpy as np
+    from swtstudy.archive.describe import relative_errors
 
-    relative = (dataset.s_error / dataset.s).values
-    relative = relative[np.isfinite(relative)]
+    relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {relative.max():.1e}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")

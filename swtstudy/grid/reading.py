@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from swtstudy.grid.canonical import canonical_number
+from swtstudy.grid.canonical import SHAPE_COLUMNS, canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete, shapes_needed
 from swtstudy.grid.values import Value, read_value
@@ -174,9 +174,8 @@ def _check_shapes(
         if name not in fixed and name not in axes:
             owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
             report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
-    shapes = {name for shape in PROFILE_SHAPES.values() for name in shape}
     for name in good_axes:
-        if name in shapes and name not in needed and profiles:
+        if name in SHAPE_COLUMNS and name not in needed and profiles:
             report(
                 keys(name), f"an axis that no profile here has ({', '.join(profiles)})", "axes that matter"
             )

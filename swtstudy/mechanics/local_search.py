@@ -251,18 +251,20 @@ def _behind_corners(
     c, values
         Shape (m, k): where was looked, and swt there.
     """
-    best = values.argmax(axis=1)
+    middle, best = len(OFFSETS) // 2, values.argmax(axis=1)
+    row = np.flatnonzero((climb.rounds == 0) & (climb.centre == 0.0) & (best != middle))
+    c, values, best = c[row], values[row], best[row]
     largest = pick(values, best)
-    corner = np.full(len(c), len(OFFSETS) // 2)
-    place, height = vertex_near(c, values, corner, climb.brackets(positions).is_corner)
-    behind = (climb.rounds == 0) & (climb.centre == 0.0) & (pick(c, best) * place < 0.0)
-    row = np.flatnonzero(behind & (height > (1.0 + accuracy.tolerance) * largest))
-    some, place = climb.take(row), place[row]
+    is_corner = climb.take(row).brackets(positions).is_corner
+    place, height = vertex_near(c, values, np.full(len(row), middle), is_corner)
+    behind = (pick(c, best) * place < 0.0) & (height > (1.0 + accuracy.tolerance) * largest)
+    row, place, largest = row[behind], place[behind], largest[behind]
+    some = climb.take(row)
     if not row.size:
         return some
     r = some.brackets(positions).radius(place[:, None])
     value, angle = refine(scene.take(row), r, some.side, some.angle[:, None], accuracy.search)
-    higher = np.flatnonzero(value[:, 0] > largest[row])
+    higher = np.flatnonzero(value[:, 0] > largest)
     return some.twins(higher, place[higher], value[higher, 0], angle[higher, 0])
 
 

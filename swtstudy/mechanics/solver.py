@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,8 +43,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         Arrays of shape (n,). The value of a point does not depend on the others.
     """
     n = len(points)
-    shape, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
-    points = replace(points, shape=shape)
+    _, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
     s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)

@@ -264,9 +264,9 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
     at = np.nonzero(peak)
     left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    lifted = curve.copy()
-    lifted[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
-    return lifted
+    result = curve.copy()
+    result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
+    return result
 
 
 def of_extremes(planes: PlaneHistory) -> FloatArray:

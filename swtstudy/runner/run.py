@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import check_writable
 from swtstudy.mechanics.version import SOLVER_VERSION
-from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.runner.chunk import Result, Solver, solve_points
 from swtstudy.runner.engines import Engine, Here, LocalWorkers
 from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
@@ -19,7 +18,7 @@ from swtstudy.runner.plan import chunks, weights
 from swtstudy.runner.progress import Progress
 from swtstudy.runner.records import MISSING, Records, Run
 from swtstudy.runner.work import Work, assess
-from swtstudy.study.definition import Study
+from swtstudy.study.definition import Study, require_study
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -92,8 +91,7 @@ def run(
     from swtstudy.archive.lock import locked
     from swtstudy.archive.parts import parts_folder
 
-    if not isinstance(study, Study):
-        raise StudyError([Mistake("study", literal(study), "a Study, as Study.from_toml reads it")])
+    require_study(study)
     path = Path(path)
     check_writable(path)
     with locked(parts_folder(path)):

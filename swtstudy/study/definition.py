@@ -11,10 +11,16 @@ from typing import Any
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Range, read_grid
-from swtstudy.mistakes import Mistake, StudyError, meant, nearest
+from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
+
+
+def require_study(study: object) -> None:
+    """Raise a StudyError unless it is a Study: the name or path of one is not."""
+    if not isinstance(study, Study):
+        raise StudyError([Mistake("study", literal(study), 'a Study, as from Study.from_toml("figure3")')])
 
 
 @dataclass(frozen=True, repr=False)

@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
@@ -157,8 +158,7 @@ def _wrong_load(depth: object, normal_force: object) -> list[Mistake]:
 def _wrong_lengths(lengths: Mapping[str, object], needed: Collection[str]) -> list[Mistake]:
     mistakes = []
     for name, value in lengths.items():
-        optional = name in ("flat_radius", "waviness_amplitude", "wavelength") and name not in needed
-        if value is None and optional:
+        if value is None and name in SHAPE_COLUMNS and name not in needed:
             continue
         zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
         number = plain_number(value)
