@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.profiles import check_shape
+from swtstudy.mechanics.indenter import check_shape
 
 PROFILE_NAMES = ("paraboloid", "rounded_punch", "truncated_paraboloid", "wavy_paraboloid")
 

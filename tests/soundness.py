@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics import REGIMES, Points, Solution, solve_points
-from swtstudy.mechanics.profiles import make_profile
+from swtstudy.mechanics.indenter import make_profile
 
 RTOL = 1e-4
 #: s that is only rounding.

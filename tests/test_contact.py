@@ -9,8 +9,8 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 from oracles.springs import bimodal, spring_forces
 
-from swtstudy.mechanics.contact import solve_cycle
-from swtstudy.mechanics.protocol import Protocol
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.load.bimodal import Protocol
 
 Array = NDArray[np.float64]
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (5, 4)]

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.contact import GROWTH, solve_cycle
-from swtstudy.mechanics.field import contact_states
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.profiles import make_profile
-from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+from swtstudy.mechanics.contact.cycle import GROWTH, solve_cycle
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
 PROFILES = {
     "paraboloid": {},

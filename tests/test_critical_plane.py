@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.contact import solve_cycle
-from swtstudy.mechanics.critical_plane import PlaneHistory, best_angle, coarse_swt, product
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.profiles import make_profile
-from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt, product
+from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
 Array = NDArray[np.float64]
 Stress = tuple[Array, Array, Array, Array]

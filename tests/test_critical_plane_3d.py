@@ -5,9 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import swtstudy
-from swtstudy.mechanics.critical_plane_3d import swt_of_history, swt_on_planes
-from swtstudy.mechanics.hemisphere import hemisphere
-from swtstudy.mechanics.plane_ascent import symmetric_tensor
+from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
+from swtstudy.mechanics.planes.ascent import symmetric_tensor
 
 POISSON = 0.3
 

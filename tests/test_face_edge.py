@@ -10,11 +10,12 @@ from numpy.typing import ArrayLike
 from scenes import points
 from soundness import regime_names, sound
 
-from swtstudy.mechanics import Points, body, solve_points
-from swtstudy.mechanics.critical_plane import product
-from swtstudy.mechanics.face_edge import _swt
-from swtstudy.mechanics.instants import split_at_breakpoints
-from swtstudy.mechanics.swt_line import Look, Resolution, Scene, refine
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.body import body
+from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.line.singular_edge import _swt
+from swtstudy.mechanics.line.value import Look, Resolution, Scene, refine
+from swtstudy.mechanics.planes.through_y import product
 
 
 def scene_of(batch: Points) -> Scene:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from ContactMechanics.ReferenceSolutions import Hertz
 
-from swtstudy.mechanics.field import SlopeCells, graded_radii, slope_cells, stress_history
-from swtstudy.mechanics.field.punch import (
+from swtstudy.mechanics.stress.field import SlopeCells, graded_radii, slope_cells, stress_history
+from swtstudy.mechanics.stress.field.punch import (
     PunchFunctions,
     normal_components,
     punch_functions,

@@ -7,11 +7,11 @@ from ContactMechanics.ReferenceSolutions import Hertz
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics.body import nodes_at, scene_of
-from swtstudy.mechanics.body_maximum import body_maximum
-from swtstudy.mechanics.instants import Nodes
+from swtstudy.mechanics.body.body import nodes_at, scene_of
+from swtstudy.mechanics.body.body_maximum import body_maximum
+from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():

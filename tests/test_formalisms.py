@@ -15,10 +15,10 @@ from oracles.memory_diagram import MemoryDiagram
 from oracles.springs import bimodal, polygon, spring_forces
 from scipy.integrate import trapezoid
 
-from swtstudy.mechanics.contact import solve_cycle
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.profiles import make_profile
-from swtstudy.mechanics.surface_stress import SurfaceLine
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.stress.line import SurfaceLine
 
 Array = NDArray[np.float64]
 

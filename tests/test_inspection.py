@@ -6,8 +6,8 @@ import pytest
 import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.springs import spring_forces
-from swtstudy.mechanics.body import nodes_at
-from swtstudy.mechanics.textbook import march_springs
+from swtstudy.mechanics.body.body import nodes_at
+from swtstudy.reference.textbook import march_springs
 
 SCENES = {
     "Table 1": {},

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from scipy.special import struve, y0
 
-from swtstudy.mechanics.profiles import PROFILES, Profile, check_shape, make_profile, wavy_paraboloid
-from swtstudy.mechanics.profiles.struve import safe_struve, struve_functions
+from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile, wavy_paraboloid
+from swtstudy.mechanics.indenter.struve import safe_struve, struve_functions
 from swtstudy.parameters import PROFILE_SHAPES
 
 Array = NDArray[np.float64]

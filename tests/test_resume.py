@@ -168,7 +168,7 @@ def test_only_what_is_too_coarse_is_computed_again(tmp_path):
 def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
-    monkeypatch.setattr("swtstudy.mechanics.version.SOLVER_VERSION", "next")
+    monkeypatch.setattr("swtstudy.version.SOLVER_VERSION", "next")
     for module in (run_module, work):
         if hasattr(module, "SOLVER_VERSION"):
             monkeypatch.setattr(module, "SOLVER_VERSION", "next")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.roots import Brackets, monotone_roots
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.roots import Brackets, monotone_roots
 
 LOW, HIGH = np.array([0.0, -1.0, 0.2]), np.array([0.5 * np.pi, 1.2, 1.4])
 

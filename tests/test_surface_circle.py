@@ -5,15 +5,15 @@ import pytest
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics import surface_circle
-from swtstudy.mechanics.body import Body, time_nodes
-from swtstudy.mechanics.contact import solve_cycle
-from swtstudy.mechanics.field import contact_states
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.profiles import make_profile
-from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_circle import circle_stress
-from swtstudy.mechanics.surface_stress import SurfaceLine
+from swtstudy.mechanics.body.body import Body, time_nodes
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.line import circle_gain
+from swtstudy.mechanics.line.circle_gain import circle_stress
+from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.line import SurfaceLine
 
 
 def contact():
@@ -69,6 +69,6 @@ def test_the_line_is_enough_for_more_compressible_bodies():
 
 def test_a_safe_ratio_is_not_looked_at(monkeypatch):
     """The bound only saves time: without it the line has the maximum all the same."""
-    monkeypatch.setattr(surface_circle, "SAFE_POISSON_RATIO", -1.0)
+    monkeypatch.setattr(circle_gain, "SAFE_POISSON_RATIO", -1.0)
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}), friction=[0.1, 0.8])
     np.testing.assert_array_equal(solved.s_surface, solved.s)

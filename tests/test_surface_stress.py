@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.hamilton import hamilton
 
-from swtstudy.mechanics.contact import Cycle, solve_cycle
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.profiles import Profile, make_profile
-from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
+from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.indenter import Profile, make_profile
+from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
 
 Array = NDArray[np.float64]
 DIGITS = 12.0

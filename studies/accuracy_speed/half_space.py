@@ -8,8 +8,8 @@ import numpy as np
 from histories import INSTANTS, history_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.body import scene_of
-from swtstudy.mechanics.textbook import brute_force
+from swtstudy.mechanics.body.body import scene_of
+from swtstudy.reference.textbook import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
 WIDTH, LAYERS, PLANES = 2.0, 2, 180

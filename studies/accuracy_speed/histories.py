@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.body import nodes_at, scene_of
-from swtstudy.mechanics.instants import Nodes
-from swtstudy.mechanics.surface_stress import History, SurfaceLine
+from swtstudy.mechanics.body.body import nodes_at, scene_of
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.stress.line import History, SurfaceLine
 
 INSTANTS, DIGITS = 64, 6.0
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from swtstudy.grid.canonical import points_from
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body import scene_of
-from swtstudy.mechanics.body_maximum import body_maximum
+from swtstudy.mechanics.body.body import scene_of
+from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
 
 #: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;

@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics import critical_plane_3d
-from swtstudy.mechanics.critical_plane_3d import CriticalPlane
+from swtstudy.mechanics.planes import all_planes
+from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 
 
@@ -60,4 +60,4 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
         mistakes.append(Mistake("youngs_modulus", literal(youngs_modulus), "a positive number"))
     if mistakes:
         raise StudyError(mistakes)
-    return critical_plane_3d.swt_of_history(history, poisson_ratio, youngs_modulus)
+    return all_planes.swt_of_history(history, poisson_ratio, youngs_modulus)

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
-from swtstudy.mechanics.body import TimeNodes, nodes_at, time_nodes, together
-from swtstudy.mechanics.first_look import first_look
-from swtstudy.mechanics.instants import Nodes
+from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
+from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.line.first_look import first_look
+from swtstudy.mechanics.line.value import Resolution, Scene
+from swtstudy.mechanics.load.bimodal import stick_depth
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.protocol import stick_depth
-from swtstudy.mechanics.surface_stress import History, SurfaceLine, stresses
-from swtstudy.mechanics.swt_line import Resolution, Scene
+from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
 from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]

@@ -8,9 +8,9 @@ from fractions import Fraction
 import numpy as np
 
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.body import scene_of
+from swtstudy.mechanics.body.body import scene_of
+from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.swt_line import Scene
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PROFILE_SHAPES
 

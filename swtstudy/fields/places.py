@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.body import TimeNodes, nodes_at
+from swtstudy.mechanics.body.body import TimeNodes, nodes_at
+from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.swt_line import Scene
 
 _NAMES = {
     "x": "position in the direction of sliding",

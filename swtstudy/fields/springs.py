@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.body import TimeNodes
-from swtstudy.mechanics.contact import held_offset
+from swtstudy.mechanics.body.body import TimeNodes
+from swtstudy.mechanics.contact.cycle import held_offset
+from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.swt_line import Scene
 
 
 def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[FloatArray, FloatArray]:

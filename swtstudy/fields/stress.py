@@ -7,8 +7,8 @@ import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import as_given, read_places, read_time
-from swtstudy.mechanics.body import Body
-from swtstudy.mechanics.field.punch import COMPONENTS
+from swtstudy.mechanics.body.body import Body
+from swtstudy.mechanics.stress.field.punch import COMPONENTS
 
 #: Cells that give the stress to 1e-8 p0 at depths, in a_H, of more than so much: more towards the surface.
 _CELLS = ((0.03, 200), (0.001, 800), (-np.inf, 2400))

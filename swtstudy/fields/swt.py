@@ -7,7 +7,7 @@ import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import as_given, read_places
-from swtstudy.mechanics.body import Body, time_nodes
+from swtstudy.mechanics.body.body import Body, time_nodes
 
 _CELLS = 60
 #: Steps on each stretch of the cycle.

@@ -189,7 +189,7 @@ def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> N
         names = PROFILE_SHAPES[profile]
         if not names:
             continue
-        from swtstudy.mechanics.profiles import check_shape
+        from swtstudy.mechanics.indenter import check_shape
 
         refused, first = 0, ("", "")
         for values in itertools.product(*(grid.values(name) for name in names)):

@@ -7,15 +7,15 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact import Cycle, solve_cycle
-from swtstudy.mechanics.face_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.local_search import Accuracy
-from swtstudy.mechanics.maximum import Maximum, maximum
+from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
+from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
+from swtstudy.mechanics.line.circle_gain import circle_gain
+from swtstudy.mechanics.line.climb import Accuracy
+from swtstudy.mechanics.line.maximum import Maximum, maximum
+from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
+from swtstudy.mechanics.line.value import Scene
+from swtstudy.mechanics.load.bimodal import Protocol
 from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.profiles import make_profile, resolved_shape, roughness
-from swtstudy.mechanics.protocol import Protocol
-from swtstudy.mechanics.surface_circle import circle_gain
-from swtstudy.mechanics.swt_line import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter.
 BATCH_SIZE = 1600

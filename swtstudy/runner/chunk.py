@@ -90,7 +90,7 @@ class Result:
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     """Solve a chunk, whatever happens to single points of it; runs in a worker."""
-    from swtstudy.mechanics.version import SOLVER_VERSION
+    from swtstudy.version import SOLVER_VERSION
 
     begin = time.perf_counter()
     solutions: list[Solution] = []
@@ -120,7 +120,7 @@ def _kept_apart(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solutio
 
 def given_up(chunk: Chunk, message: str) -> Result:
     """The result of a chunk that could not be brought to an end."""
-    from swtstudy.mechanics.version import SOLVER_VERSION
+    from swtstudy.version import SOLVER_VERSION
 
     size = len(chunk)
     messages = dict.fromkeys(range(size), message)

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import check_writable
-from swtstudy.mechanics.version import SOLVER_VERSION
 from swtstudy.runner.chunk import Result, Solver, solve_points
 from swtstudy.runner.engines import Engine, Here, LocalWorkers
 from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
@@ -19,6 +18,7 @@ from swtstudy.runner.progress import Progress
 from swtstudy.runner.records import MISSING, Records, Run
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
+from swtstudy.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     import xarray as xr

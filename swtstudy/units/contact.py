@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.profiles import Profile, make_profile
+from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.moduli import Moduli

@@ -10,7 +10,7 @@ from typing import Any
 
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
+from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.contact import PhysicalContact

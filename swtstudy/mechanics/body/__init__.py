@@ -1,0 +1,1 @@
+"""swt over the whole body and all planes: the surface line's assumptions left out."""

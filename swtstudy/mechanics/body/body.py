@@ -1,0 +1,187 @@
+"""swt at points of the body: one contact cycle, all plane orientations (eqs. 9, 15–18)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.events.instants import cosine_nodes, stretches
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.line.value import Scene
+from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.planes.all_planes import (
+    CriticalPlane,
+    highest_coarse_swt,
+    strain_history,
+    swt_of_history,
+)
+from swtstudy.mechanics.planes.ascent import normal_weights
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.stress.field import ContactStates, contact_states
+
+#: Parts into which a gap between instants is divided beside an extreme over the cycle.
+_SUBDIVISIONS = 6
+#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
+_HOT = 0.15
+
+
+def scene_of(points: Points) -> Scene:
+    """The contact cycle, profile and material of a batch of one parameter point."""
+    load = points.normal_amplitude, points.tangential_amplitude, points.phase
+    cycle = solve_cycle(Protocol(*load, int(points.p[0]), int(points.q[0])))
+    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    return Scene(cycle, profile, points.poisson_ratio, points.friction)
+
+
+@dataclass(frozen=True)
+class TimeNodes:
+    """Instants of a cycle, each with its interval, shape (T,)."""
+
+    interval: NDArray[np.intp]
+    instant: FloatArray
+
+
+@dataclass(frozen=True)
+class Body:
+    """The elastic half-space under one contact cycle.
+
+    Attributes
+    ----------
+    scene
+        A batch of one point: cycle, profile, ν and μ.
+    states
+        The contact at the instants of the cycle.
+    """
+
+    scene: Scene
+    states: ContactStates
+
+    @classmethod
+    def of(cls, scene: Scene, nodes: TimeNodes, cells: int) -> Body:
+        """The body at the given instants; ``cells`` as for `contact_states`."""
+        return cls(scene, contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, cells))
+
+    def stress(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
+        """Stress history at points of shape S in a_H, shape S + (T, 6), in E* √(δ0/R)."""
+        return self.states.stress(x, y, z, float(self.scene.friction[0]), float(self.scene.poisson_ratio[0]))
+
+    def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
+        """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
+        ν = float(self.scene.poisson_ratio[0])
+        return swt_of_history(self.stress(x, y, z), ν, 1.0 - ν**2)
+
+    def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
+        """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
+        ν = float(self.scene.poisson_ratio[0])
+        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2)
+
+
+def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
+    """Cosine-spaced instants of the cycle, aligned with the events at some radii.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    count
+        Steps on each stretch between two events.
+    radius
+        Shape (X,): distances from the axis in a_H at whose surface the stress has square-root cusps in time,
+        when the contact edge or a slip front passes. Without any, all events but these are nodes.
+    """
+    r = np.asarray(radius, dtype=float).reshape(1, -1)
+    # A spring that never touches sees neither edge nor front.
+    depth = scene.profile.depth(r) if r.size else 2.0 + scene.cycle.protocol.normal_amplitude[:, None]
+    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, depth), count)
+    return _sorted_nodes(scene, nodes.instant[0])
+
+
+def closer_nodes(
+    scene: Scene, nodes: TimeNodes, point: tuple[float, ...], cells: int, looks: int = 3
+) -> TimeNodes:
+    """The same instants and others around those that make swt at one point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    nodes
+        Instants from which to start.
+    point
+        x, y, z in a_H.
+    cells
+        As for `contact_states`.
+    looks
+        How often the gaps beside the extremes over the cycle are divided.
+    """
+    share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
+    for _ in range(looks):
+        body = Body.of(scene, nodes, cells)
+        stress, strain = _on_critical_plane(body, point)
+        extremes = np.array([stress.argmax(), strain.argmax(), strain.argmin()])
+        left = np.concatenate([extremes - 1, extremes])
+        left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
+        low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
+        nodes = _sorted_nodes(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
+    return nodes
+
+
+@dataclass(frozen=True)
+class Spells:
+    """Parts of a cycle: those gaps between sorted instants that are ``open``, shapes (T,) and (T − 1,)."""
+
+    instant: FloatArray
+    open: NDArray[np.bool_]
+
+    def of(self, nodes: TimeNodes) -> TimeNodes:
+        """Those instants that lie in the parts, the ends included."""
+        last = len(self.open) - 1
+        before, after = (
+            np.clip(np.searchsorted(self.instant, nodes.instant, side) - 1, 0, last)
+            for side in ("left", "right")
+        )
+        keep = self.open[before] | self.open[after]
+        return TimeNodes(nodes.interval[keep], nodes.instant[keep])
+
+
+def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> Spells:
+    """The parts of the cycle in which a stress or strain at a point is near the extreme that makes swt.
+
+    Parameters
+    ----------
+    body, nodes
+        The body at instants.
+    point
+        x, y, z in a_H; close to it, the same parts make swt.
+    """
+    stress, strain = _on_critical_plane(body, point)
+    hot = np.zeros(len(nodes.instant), dtype=bool)
+    for curve in (stress, strain, -strain):
+        hot |= curve >= curve.max() - _HOT * np.ptp(curve)
+    return Spells(nodes.instant, hot[1:] | hot[:-1])
+
+
+def together(scene: Scene, *several: TimeNodes) -> TimeNodes:
+    """All instants of several sets."""
+    return _sorted_nodes(scene, np.concatenate([nodes.instant for nodes in several]))
+
+
+def nodes_at(scene: Scene, instant: FloatArray) -> TimeNodes:
+    """Instants φ in [0, 2π], in any order, with their intervals; two that meet share their stress."""
+    interval = (instant[:, None] > scene.cycle.end[0]).sum(axis=1)
+    return TimeNodes(np.minimum(interval, scene.cycle.end.shape[1] - 1), instant)
+
+
+def _on_critical_plane(body: Body, point: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
+    """σ_n and E ε_n over the instants, shape (T,), on the critical plane of one point."""
+    ν = float(body.scene.poisson_ratio[0])
+    stress = body.stress(*point)
+    weights = normal_weights(swt_of_history(stress, ν).normal)
+    return stress @ weights, strain_history(stress, ν) @ weights
+
+
+def _sorted_nodes(scene: Scene, instant: FloatArray) -> TimeNodes:
+    return nodes_at(scene, np.unique(instant))

@@ -1,0 +1,220 @@
+"""The maximum of swt over the whole body and all planes: the surface line's assumptions left out.
+
+Positions are (r, θ, z): x = r cos θ, y = r sin θ. The cusps of swt lie on circles r = const about the axis,
+and y → −y is a symmetry, so that 0 ≤ θ ≤ π holds every value.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from swtstudy.mechanics.body.body import (
+    Body,
+    Spells,
+    TimeNodes,
+    closer_nodes,
+    decisive_spells,
+    time_nodes,
+    together,
+)
+from swtstudy.mechanics.line.value import Scene
+from swtstudy.mechanics.planes.all_planes import CriticalPlane
+from swtstudy.mechanics.points import FloatArray
+
+#: Steps of the time nodes on a stretch: first look and climb, and value.
+_LOOK, _VALUE = 3, 5
+#: Cells of a profile that is not a paraboloid and of each growth: stresses to about 1e-4 and 1e-6 p0.
+_CELLS, _VALUE_CELLS = 16, 60
+#: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius.
+_BETWEEN = 12
+_ANGLES = np.linspace(0.0, np.pi, 9)
+_DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
+_FIRST_STEPS = np.array([0.03, 0.15, 0.02])
+_SUMMITS = 3
+#: Places below this share of the highest in the first look are not climbed from; nor those below the second
+#: share once their instants resolve the cycle, nor further below the third.
+_PROMISING, _WORTHY, _NEAR = 0.75, 0.9, 0.97
+_ROUNDS = 8
+#: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
+#: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
+_RING = 1e-3
+
+
+@dataclass(frozen=True)
+class BodyMaximum:
+    """Largest swt of the body.
+
+    Attributes
+    ----------
+    swt
+        Over E* δ0/R.
+    position
+        Shape (3,): x, y, z in a_H.
+    normal
+        Shape (3,): the critical plane's.
+    """
+
+    swt: float
+    position: FloatArray
+    normal: FloatArray
+
+
+@dataclass(frozen=True)
+class _Search:
+    """Where the maximum is looked for.
+
+    Attributes
+    ----------
+    scene
+        A batch of one point.
+    largest
+        Largest contact radius of the cycle.
+    ring
+        Half the width of the ring around the edge of a flat face that is left out.
+    """
+
+    scene: Scene
+    largest: float
+    ring: float
+
+
+def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlane]:
+    """Largest swt over the body, and swt over all planes at the surface line's critical point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    line_x
+        Signed x of the surface line's maximum.
+
+    Returns
+    -------
+    maximum, at_line
+        The search starts from the highest places of a first look and from the line's own maximum.
+    """
+    largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
+    own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
+    flat = float(scene.profile.flat_radius[0])
+    search = _Search(scene, largest, min(_RING * largest, 0.9 * abs(own[0] - flat)))
+    place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
+    both = np.stack([place, own])
+    distinct = both[: 1 + bool(np.any(place != own))]
+    nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
+    swt, normal = Body.of(scene, nodes, _VALUE_CELLS).swt(*_cartesian(both))
+    best = int(swt[1] >= swt[0])
+    position = np.array(_cartesian(both[best]))
+    return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
+
+
+def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
+    """Instants that resolve the extremes over the cycle at one place, and the parts of it that matter."""
+    point = tuple(float(v) for v in _cartesian(place))
+    nodes = time_nodes(scene, _VALUE, place[:1])
+    spells = decisive_spells(Body.of(scene, nodes, _CELLS), nodes, point)
+    return closer_nodes(scene, spells.of(nodes), point, _CELLS, looks), spells
+
+
+def _first_look(search: _Search, own: FloatArray) -> FloatArray:
+    """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
+    scene, largest = search.scene, search.largest
+    grid = np.stack(
+        np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
+    ).reshape(-1, 3)
+    grid = _off_ring(search, grid)
+    swt = Body.of(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
+    chosen = [own]
+    for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= _PROMISING * swt.max())]:
+        apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
+        if apart.any(axis=1).all():
+            chosen.append(place)
+        if len(chosen) > _SUMMITS:
+            break
+    return np.array(chosen[1:]).reshape(-1, 3)
+
+
+def _radii(scene: Scene, largest: float) -> FloatArray:
+    """Distances from the axis of the first look: ends of the memory's pieces and edges, and in between."""
+    cycle, profile = scene.cycle, scene.profile
+    start = cycle.memory.start[np.isfinite(cycle.memory.start)]
+    turns = np.maximum(1.0 + cycle.protocol.normal_amplitude[0] * np.array([-1.0, 1.0]), 0.0)
+    cusps = profile.radius(np.unique(np.concatenate([start, turns]))[None])[0]
+    b = float(profile.flat_radius[0])
+    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _BETWEEN))
+    rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
+    return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
+
+
+def _climb(search: _Search, places: FloatArray) -> FloatArray:
+    """The highest of the summits to which a pattern search leads from each of the places, shape (3,)."""
+    resolved = [_closer(search.scene, place, looks=1) for place in places]
+    height = np.array(
+        [
+            Body.of(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
+            for (nodes, _), place in zip(resolved, places, strict=True)
+        ]
+    )
+    best, highest = places[0], float(height[0])
+    for start in np.argsort(-height):
+        if height[start] < _WORTHY * highest:
+            break
+        nodes, spells = resolved[start]
+        summit, swt = _climb_from(search, places[start], nodes, spells, highest)
+        if swt > highest * (1.0 + 1e-9):
+            best, highest = summit, swt
+    return best
+
+
+def _climb_from(
+    search: _Search, place: FloatArray, sharp: TimeNodes, spells: Spells, rival: float
+) -> tuple[FloatArray, float]:
+    """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
+    stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    scene = search.scene
+    steps = _FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
+    height = 0.0
+    for _ in range(_ROUNDS):
+        trial = _off_ring(search, _folded(place + steps * stencil))
+        # Reflection maps trials onto one another where the place is on the line or on the surface.
+        trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
+        # The trials have three radii, at each of which the stress has its own cusps in time.
+        aligned = time_nodes(scene, _LOOK, np.unique(trial[:, 0]))
+        nodes = together(scene, sharp, spells.of(aligned))
+        swt = Body.of(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
+        here = int(np.abs(trial - place).max(axis=1).argmin())
+        best = int(swt.argmax())
+        if swt[best] <= swt[here] * (1.0 + 1e-9):
+            steps = 0.4 * steps
+        else:
+            place = trial[best]
+        height = float(swt[best])
+        if height < _NEAR * rival:
+            break
+    return place, height
+
+
+def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
+    """Places moved away from the edge of a flat face."""
+    b, near = float(search.scene.profile.flat_radius[0]), search.ring
+    if b == 0.0:
+        return places
+    offset = places[..., 0] - b
+    r = np.where(np.abs(offset) < near, b + np.where(offset < 0.0, -near, near), places[..., 0])
+    return np.concatenate([r[..., None], places[..., 1:]], axis=-1)
+
+
+def _folded(places: FloatArray) -> FloatArray:
+    """Places mapped to r ≥ 0, 0 ≤ θ ≤ π, z ≥ 0 by the symmetry in y and by reflection."""
+    r, angle, z = np.moveaxis(places, -1, 0)
+    angle = np.where(r < 0.0, np.pi - angle, angle)
+    angle = np.pi - np.abs(np.pi - np.mod(angle, 2.0 * np.pi))
+    return np.stack([np.abs(r), angle, np.maximum(z, 0.0)], axis=-1)
+
+
+def _cartesian(places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    r, angle, z = np.moveaxis(places, -1, 0)
+    # sin π is not 0 in floating point: keep the line y = 0 a line.
+    y = np.where(np.sin(angle) < 1e-9, 0.0, r * np.sin(angle))
+    return r * np.cos(angle), y, z

@@ -1,0 +1,1 @@
+"""The contact solution in the diagram's coordinate: it knows no indenter."""

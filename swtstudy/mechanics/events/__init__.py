@@ -1,0 +1,1 @@
+"""When the stress at a place has cusps in time, and closer looks between them."""

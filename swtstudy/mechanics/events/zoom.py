@@ -1,0 +1,175 @@
+"""Closer looks at the extremes over the cycle.
+
+The extreme found at a node lies between the node's neighbours. Around a node inside of a stretch these are in
+the same stretch; around the end of a stretch, where the stress may have a cusp, they are in two. Both sides
+are walked in the angle α of their cosine-spaced nodes, in which the stress is smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.events.instants import GAP, NO_STRETCH, Nodes
+from swtstudy.mechanics.numerics.arrays import gather, pick
+from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values
+from swtstudy.mechanics.points import FloatArray
+
+T = TypeVar("T", bound=np.generic)
+
+#: Steps into which each side of a bracket is divided.
+STEPS = 3
+OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
+#: Number of the last sample.
+LAST = 2 * STEPS
+
+
+@dataclass(frozen=True)
+class TimeBrackets:
+    """Brackets of e extremes at n × X positions, walked by c from −1 (left neighbour) to 1 (right one).
+
+    Attributes
+    ----------
+    low, high, interval, start
+        Shape (n, X, e, 2), for the left and the right side: the ends of the stretch, its interval of the
+        cycle, and the angle α at c = 0.
+    step
+        Change of α between c = 0 and 1.
+    corner
+        Shape (n, X, e): whether stretches meet at c = 0.
+    centre
+        Shape (n, X, e): c of the best instant so far.
+    width
+        Half the width of the bracket in c.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    interval: NDArray[np.intp]
+    start: FloatArray
+    step: float
+    corner: NDArray[np.bool_]
+    centre: FloatArray
+    width: float
+
+    @classmethod
+    def around(cls, ends: FloatArray, count: int, node: NDArray[np.intp]) -> TimeBrackets:
+        """Brackets around nodes of `swtstudy.mechanics.events.instants.cosine_nodes`.
+
+        Parameters
+        ----------
+        ends
+            Shape (n, X, i, 4), see `swtstudy.mechanics.events.instants.stretches`.
+        count
+            Number of steps of each stretch.
+        node
+            Shape (n, X, e).
+        """
+        shape = ends.shape[:2]
+        low, high = ends[..., :-1].reshape(*shape, -1), ends[..., 1:].reshape(*shape, -1)
+        total = low.shape[-1]
+        real = high - low > NO_STRETCH
+        number = np.arange(total)
+        # The cycle is periodic: before its first stretch comes its last one.
+        last = np.maximum.accumulate(np.where(real, number, -1), axis=-1)
+        last = np.where(last < 0, last[..., -1:], last)
+        following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
+        following = np.where(following == total, following[..., :1], following)
+
+        stretch, place = node // (count + 1), node % (count + 1)
+        at_begin, at_end = place == 0, place == count
+        before = gather(last, np.where(at_begin, (stretch - 1) % total, stretch))
+        after = gather(following, np.where(at_end, (stretch + 1) % total, stretch))
+        # A side that does not border on the node stays at the node.
+        before = np.where(at_begin & ~_meet(gather(high, before), gather(low, stretch)), stretch, before)
+        after = np.where(at_end & ~_meet(gather(high, stretch), gather(low, after)), stretch, after)
+        alpha = place * (np.pi / count)
+        left = np.where(at_begin & (before != stretch), np.pi, alpha)
+        right = np.where(at_end & (after != stretch), 0.0, alpha)
+        sides = np.stack([before, after], axis=-1)
+        flat = sides.reshape(*shape, -1)
+        low, high = (gather(v, flat).reshape(sides.shape) for v in (low, high))
+        start = np.stack([left, right], axis=-1)
+        corner = at_begin | at_end
+        return cls(low, high, sides // 3, start, np.pi / count, corner, np.zeros(node.shape), 1.0)
+
+    def samples(self) -> Nodes:
+        """The samples of the extremes, index of shape (n, X, e · k)."""
+        c = self.centre[..., None] + self.width * OFFSETS
+        right = c > 0.0
+
+        def side(values: NDArray[T]) -> NDArray[T]:
+            return np.where(right, values[..., 1:], values[..., :1])
+
+        alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
+        low = side(self.low)
+        instant = low + (side(self.high) - low) * (0.5 - 0.5 * np.cos(alpha))
+        n, columns = c.shape[:2]
+        instant = instant.reshape(n, -1)
+        index = np.broadcast_to(np.arange(instant.shape[1]), instant.shape).reshape(n, columns, -1)
+        return Nodes(side(self.interval).reshape(n, -1), instant, index)
+
+    def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
+        """The brackets around the best samples, shape (n, X, e)."""
+        width = self.width / STEPS
+        centre = np.clip(self.centre + self.width * OFFSETS[best], width - 1.0, 1.0 - width)
+        return replace(self, centre=centre, width=width)
+
+    def weights_at_peak(self, curve: FloatArray) -> FloatArray:
+        """Weights of the samples that interpolate them at the maximum of each curve.
+
+        A polynomial goes through all samples. Where two stretches meet at c = 0, each side has its own.
+
+        Parameters
+        ----------
+        curve
+            Shape (n, X, e, k).
+
+        Returns
+        -------
+        Shape (n, X, e, k).
+        """
+        best = curve.argmax(axis=-1)
+        top, place, left = pick(curve, best), best.astype(float), best < STEPS
+        corner = self.corner & (self.centre == 0.0)
+        for lowest, highest in ((1, STEPS - 1), (STEPS + 1, LAST - 1)):
+            # Away from a corner both are the parabola around the best sample.
+            middle = np.where(corner, np.clip(best, lowest, highest), np.clip(best, 1, LAST - 1))
+            before, centre, after = (pick(curve, middle + k) for k in (-1, 0, 1))
+            shift, rise = parabola(before, centre, after)
+            higher = centre + rise > top
+            top = np.where(higher, centre + rise, top)
+            place, left = np.where(higher, middle + shift, place), np.where(higher, middle < STEPS, left)
+        power = _POWERS[np.where(corner, np.where(left, 1, 2), 0)]
+        low = np.maximum(place - 1.0, np.where(corner & ~left, STEPS, 0))
+        high = np.minimum(place + 1.0, np.where(corner & left, STEPS, LAST))
+        series = np.moveaxis(np.einsum("...pk,...k->...p", power, curve), -1, 0)
+        u = polynomial_maximum(series, place / STEPS - 1.0, low / STEPS - 1.0, high / STEPS - 1.0)
+        weights = np.einsum("...p,...pk->...k", u[..., None] ** np.arange(LAST + 1), power)
+        # Never below what has been seen.
+        worse = (weights * curve).sum(axis=-1) <= pick(curve, best)
+        return np.where(worse[..., None], np.arange(LAST + 1) == best[..., None], weights)
+
+
+def _interpolation() -> FloatArray:
+    """Matrices from samples to powers of u = −1 … 1: through all samples, and through those on either side.
+
+    Shape (3, k, k).
+    """
+    matrices = np.zeros((3, LAST + 1, LAST + 1))
+    for matrix, used in zip(matrices, (slice(None), slice(STEPS + 1), slice(STEPS, None)), strict=True):
+        powers = powers_from_values(OFFSETS[used])
+        matrix[: len(powers), used] = powers
+    return matrices
+
+
+_POWERS = _interpolation()
+
+
+def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
+    """Whether one stretch ends where the other begins, in the periodic cycle."""
+    gap = np.abs(begin - end)
+    return np.asarray((gap <= GAP) | (2.0 * np.pi - gap <= GAP))

@@ -1,0 +1,45 @@
+"""The registry of profiles: a new profile is one file here and one line below."""
+
+from __future__ import annotations
+
+from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
+from swtstudy.mechanics.indenter.paraboloid import Paraboloid
+from swtstudy.mechanics.indenter.wavy_paraboloid import WavyParaboloid
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+PROFILES: dict[str, type[Profile]] = {
+    "paraboloid": Paraboloid,
+    "rounded_punch": RoundedPunch,
+    "truncated_paraboloid": TruncatedParaboloid,
+    "wavy_paraboloid": WavyParaboloid,
+}
+
+
+def make_profile(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> Profile:
+    """n profiles of family ``name`` with shape parameters of shape (n,), in contact up to a depth (n,).
+
+    What cannot be resolved is left out, see `resolved_shape`.
+    """
+    resolved, _ = resolved_shape(name, shape, largest_depth)
+    return PROFILES[name](largest_depth, **resolved)
+
+
+def roughness(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> IntArray:
+    """Levels of `Profile.roughness` of n profiles."""
+    return PROFILES[name].roughness(largest_depth, **shape)
+
+
+def resolved_shape(
+    name: str, shape: dict[str, FloatArray], largest_depth: FloatArray
+) -> tuple[dict[str, FloatArray], FloatArray]:
+    """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
+    return PROFILES[name].resolved(largest_depth, **shape)
+
+
+def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:
+    """Why a profile cannot be used up to the depth 1 + ``normal_amplitude``, or None."""
+    return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
+
+
+__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile", "resolved_shape", "roughness"]

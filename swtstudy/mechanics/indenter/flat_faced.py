@@ -1,0 +1,179 @@
+"""Profiles with a flat face of radius b: the rounded punch (eq. 4) and the truncated paraboloid (eq. 5).
+
+Their formulas are simplest in w = √(ξ² − b²), with arccos(b/ξ) = arctan(w/b).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.tables import OuterTable
+from swtstudy.mechanics.points import FloatArray
+
+#: Chebyshev nodes of the tables for each digit, for any width of the face (tests/test_profiles.py).
+NODES_PER_DIGIT = 4.5
+#: Distance from the singular r = b up to which positions are looked at, over the face or the ring beside it.
+NEAREST = 1e-9
+#: A face smaller than this share of the contact is not looked at closely: its singularity has no weight.
+SMALLEST_FACE = 1e-3
+APPROACH_COUNT = 9
+
+
+class FlatFaced(Profile):
+    """n profiles with g = 0 up to the radius b/a_H = ``flat_radius``, shape (n,)."""
+
+    def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray) -> None:
+        super().__init__(largest_depth)
+        self._flat_radius = np.asarray(flat_radius, dtype=float)
+
+    @property
+    def flat_radius(self) -> FloatArray:
+        return self._flat_radius
+
+    def take(self, index: NDArray[np.intp]) -> FlatFaced:
+        return type(self)(self.largest_depth[index], self._flat_radius[index])
+
+    def _face(self, like: FloatArray) -> FloatArray:
+        return align(self._flat_radius, like)
+
+    def _rise(self, radius: FloatArray) -> FloatArray:
+        """w = √(ξ² − b²), 0 on the face."""
+        b = self._face(radius)
+        return np.sqrt(np.maximum((radius - b) * (radius + b), 0.0))
+
+
+class RoundedPunch(FlatFaced):
+    """g = ξ (w − b arctan(w/b))."""
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        b, w = self._face(radius), self._rise(radius)
+        return np.maximum(radius, b) * (w - b * np.arctan2(w, b))
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        b, depth = self._face(depth), np.maximum(depth, 0.0)
+        # Exact for small and for large b²/G; the table knows what is in between.
+        scale = np.sqrt(depth) + np.cbrt(3.0 * b * depth)
+        ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(depth)), 1e-100)
+        w = scale * np.interp(1.0 / (1.0 + ratio), *_rise_table())
+        radius = np.sqrt(b * b + w * w)
+        # One Newton step in w squares the table's error.
+        error = radius * (w - b * np.arctan2(w, b)) - depth
+        slope = (2.0 * w - b * np.arctan2(w, b)) * w / np.maximum(radius, 1e-300)
+        w = w - np.divide(error, slope, out=np.zeros_like(w), where=slope > 0.0)
+        return np.sqrt(b * b + w * w)
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        b, w = self._face(radius), self._rise(radius)
+        return w * (2.0 * w - b * np.arctan2(w, b))
+
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        b, w = self._face(radius), self._rise(radius)
+        return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * np.arctan2(w, b) - b * w)
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return RoundedPrimitives(self, position, self.radius(self.largest_depth), digits)
+
+
+class FacePrimitives(Primitives):
+    """Elementary inner integrals in α, w = √(r² − b²) sin α, and tabulated outer ones."""
+
+    def __init__(self, profile: FlatFaced, position: FloatArray, largest: FloatArray, digits: float) -> None:
+        self.position, self.flat = position, profile.flat_radius[:, None]
+        self._outer = OuterTable(profile, position, int(NODES_PER_DIGIT * digits), largest)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        return self._outer(radius)
+
+    def _angle(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """r, b, (r² − b²), sin α and cos α, which broadcast against the radius."""
+        r, b = align(self.position, radius), align(self.flat, radius)
+        gap = np.maximum((r - b) * (r + b), 0.0)
+        share = np.maximum((radius - b) * (radius + b), 0.0) / np.maximum(gap, 1e-300)
+        share = np.where(gap > 0.0, np.minimum(share, 1.0), 0.0)
+        return r, b, gap, np.sqrt(share), np.sqrt(1.0 - share)
+
+
+class RoundedPrimitives(FacePrimitives):
+    """m = 2w² − b w arctan(w/b); the integrals of the second term follow by parts."""
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        r, b, gap, sine, cosine = self._angle(radius)
+        root = np.sqrt(gap)
+        angle = np.arcsin(sine)
+        product = sine * cosine
+        lens = angle - product
+        bend = np.arctan2(root * sine, b)
+        # ∫ cos²α dα/(b² + (r² − b²) sin²α) times b (r² − b²).
+        turn = r * np.arctan2(r * sine, b * cosine) - b * angle
+        first = turn - root * cosine * bend
+        cubic = (2.0 * gap - b * b) * turn + 0.5 * b * gap * (angle + product)
+        cubic = cubic / 3.0 - root * gap * (cosine - cosine**3 / 3.0) * bend
+        quartic = 0.75 * lens - 0.5 * sine * sine * product
+        b2 = b * b
+        one = gap * lens - b * first
+        three = b2 * one + gap * gap * quartic - b * cubic
+        return np.stack([(2.0 / r) * one, (2.0 / r**3) * three])
+
+
+@lru_cache(maxsize=1)
+def _rise_table() -> tuple[FloatArray, FloatArray]:
+    """w/(√G + (3 b G)^⅓) over 1/(1 + (b²/G)^⅙), for `RoundedPunch.radius`."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
+    # With b = 1: w = tan, G = (tan − angle)/cos; the series keeps the difference exact for small angles.
+    tangent = np.tan(angle)
+    difference = np.where(angle < 0.02, angle**3 / 3.0 + angle**5 * (2.0 / 15.0), tangent - angle)
+    depth = difference / np.cos(angle)
+    ratio = tangent / (np.sqrt(depth) + np.cbrt(3.0 * depth))
+    abscissa = 1.0 / (1.0 + depth ** (-1.0 / 6.0))
+    return np.concatenate([[0.0], abscissa, [1.0]]), np.concatenate([[1.0], ratio, [1.0]])
+
+
+class TruncatedParaboloid(FlatFaced):
+    """g = ξ w; the pressure is logarithmically infinite at r = b."""
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return radius * self._rise(radius)
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        b2, depth = self._face(depth) ** 2, np.maximum(depth, 0.0)
+        square = 2.0 * depth * depth / np.maximum(b2 + np.sqrt(b2 * b2 + 4.0 * depth * depth), 1e-300)
+        return np.sqrt(b2 + square)
+
+    @property
+    def singular_approach(self) -> FloatArray:
+        b = self._flat_radius[:, None]
+        largest = self.radius(self.largest_depth)[:, None]
+        width = 0.1 * (largest - b)
+        nearest = NEAREST * np.minimum(largest - b, np.maximum(b, SMALLEST_FACE * largest))
+        share = np.linspace(0.0, 1.0, APPROACH_COUNT)
+        distance = width * (nearest / width) ** share
+        return np.asarray(np.where(b >= SMALLEST_FACE * largest, b + distance, b))
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        b = self._face(radius)
+        return 2.0 * np.maximum(radius, b) ** 2 - b * b
+
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        b, w = self._face(radius), self._rise(radius)
+        return w * ((2.0 / 3.0) * w * w + b * b)
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return TruncatedPrimitives(self, position, self.radius(self.largest_depth), digits)
+
+
+class TruncatedPrimitives(FacePrimitives):
+    """m = 2w² + b²."""
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        r, b, gap, sine, cosine = self._angle(radius)
+        b2, sine2, product = b * b, sine * sine, sine * cosine
+        angle = np.arcsin(sine)
+        lens = angle - product
+        first = (2.0 / r) * (b2 * angle + gap * lens)
+        quartic = 0.75 * lens - 0.5 * sine2 * product
+        third = (2.0 / r**3) * (b2 * b2 * angle + 1.5 * b2 * gap * lens + gap * gap * quartic)
+        return np.stack([first, third])

@@ -1,0 +1,108 @@
+"""Full-slip primitives without a closed form: Chebyshev tables of their running integrals."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.numerics import chebyshev
+from swtstudy.mechanics.points import FloatArray
+
+
+class InnerTable:
+    """T1 and T3 as series in α, ξ² = b² + (r² − b²) sin²α.
+
+    Parameters
+    ----------
+    profile
+        n profiles with b ≥ 0.
+    position
+        Shape (n, X), r = |x| > b; 0 results where r ≤ b.
+    count
+        Number of Chebyshev nodes.
+    """
+
+    def __init__(self, profile: Profile, position: FloatArray, count: int) -> None:
+        self.flat = profile.flat_radius[:, None]
+        self.gap = np.maximum(position**2 - self.flat**2, 0.0)
+        angle = 0.25 * np.pi * (1.0 + chebyshev.nodes(count))
+        radius2 = self.flat[..., None] ** 2 + self.gap[..., None] * np.sin(angle) ** 2
+        weight = 0.5 * np.pi * profile.weighted_slope(np.sqrt(radius2)) / position[..., None]
+        weight = np.where(self.gap[..., None] > 0.0, weight, 0.0)
+        values = np.stack([weight, weight * radius2 / position[..., None] ** 2])
+        self.series = chebyshev.running_integral(values)
+
+    def __call__(self, radius: FloatArray) -> FloatArray:
+        gap, flat = align(self.gap, radius), align(self.flat, radius)
+        share = np.maximum(radius * radius - flat * flat, 0.0) / np.maximum(gap, 1e-300)
+        y = np.arcsin(np.sqrt(np.minimum(share, 1.0))) * (4.0 / np.pi) - 1.0
+        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
+        return chebyshev.evaluate(series, y)
+
+
+class OuterTable:
+    """Π and W as series: in v = √(ξ² − r²), or, about a flat face, in ω with ε = √|r² − b²|.
+
+    For r > b: v = ε sinh ω; for r < b: √(ξ² − b²) = ε sinh ω. Then dΠ = (m/ξ) dω, which takes the
+    logarithmic singularity at r = b out of the integrand. Without a face W turns within v ~ r, so that it has
+    fewer digits next to the axis, where swt is never largest.
+
+    Parameters
+    ----------
+    profile
+        n profiles.
+    position
+        Shape (n, X), r = |x|.
+    count
+        Number of Chebyshev nodes.
+    largest
+        Shape (n,): largest contact radius.
+    """
+
+    def __init__(self, profile: Profile, position: FloatArray, count: int, largest: FloatArray) -> None:
+        flat = profile.flat_radius[:, None]
+        self.has_face = bool(np.any(flat > 0.0))
+        self.low2 = np.maximum(position, flat) ** 2
+        self.position = position
+        if self.has_face:
+            distance = np.abs((position - flat) * (position + flat))
+            self.scale = np.sqrt(np.maximum(distance, 1e-20 * largest[:, None] ** 2))
+        else:
+            self.scale = np.ones_like(position)
+        self.span = np.maximum(self._abscissa(largest[:, None], self.low2, self.scale), 1e-300)
+        node = self.span[..., None] * 0.5 * (1.0 + chebyshev.nodes(count))
+        rise = self.scale[..., None] * np.sinh(node) if self.has_face else node
+        radius = np.sqrt(self.low2[..., None] + rise * rise)
+        r = position[..., None]
+        v = np.sqrt(np.maximum((radius - r) * (radius + r), 0.0))
+        m = profile.weighted_slope(radius) / radius
+        if not self.has_face:
+            m = m / radius
+        values = 0.5 * self.span[..., None] * np.stack([m, m * v / (radius + v)])
+        self.series = chebyshev.running_integral(values)
+
+    def _abscissa(self, radius: FloatArray, low2: FloatArray, scale: FloatArray) -> FloatArray:
+        rise = np.sqrt(np.maximum(radius * radius - low2, 0.0))
+        return np.asarray(np.arcsinh(rise / scale)) if self.has_face else rise
+
+    def __call__(self, radius: FloatArray) -> FloatArray:
+        low2, scale, span = (align(v, radius) for v in (self.low2, self.scale, self.span))
+        y = np.minimum(2.0 * self._abscissa(radius, low2, scale) / span, 2.0) - 1.0
+        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
+        return chebyshev.evaluate(series, y)
+
+
+class TablePrimitives(Primitives):
+    """Primitives of any profile from its m(ξ) alone; see `InnerTable` and `OuterTable`."""
+
+    def __init__(
+        self, profile: Profile, position: FloatArray, inner_nodes: int, outer_nodes: int, largest: FloatArray
+    ) -> None:
+        self._inner = InnerTable(profile, position, inner_nodes)
+        self._outer = OuterTable(profile, position, outer_nodes, largest)
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        return self._inner(radius)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        return self._outer(radius)

@@ -1,0 +1,176 @@
+"""The paraboloid with superimposed waviness (eq. 6): g = ξ² + (π/2) h z H₀(z), z = kξ, k = 2π/λ."""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.struve import struve_functions
+from swtstudy.mechanics.indenter.tables import TablePrimitives
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+#: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
+NODES_PER_DIGIT, NODES_PER_RADIAN, NODES_PER_RADIAN_AND_DIGIT = 2.2, 0.55, 0.025
+#: Positions of the first guess of the contact radius of a smooth profile.
+GUESSES = 64
+#: Step of kξ in rad between levels of roughness.
+ROUGHNESS_STEP = 16.0
+#: Level beyond which the waves are left out: h/δ0 of some 1e-5.
+ROUGHEST = 32
+
+
+class WavyParaboloid(Profile):
+    """n paraboloids with waviness.
+
+    Parameters
+    ----------
+    largest_depth
+        Shape (n,), δ0.
+    waviness_amplitude
+        Shape (n,): h/δ0.
+    wavelength
+        Shape (n,): λ/√(hR).
+    """
+
+    def __init__(
+        self, largest_depth: FloatArray, waviness_amplitude: FloatArray, wavelength: FloatArray
+    ) -> None:
+        super().__init__(largest_depth)
+        self.waviness_amplitude, self.wavelength = waviness_amplitude, wavelength
+        length = wavelength * np.sqrt(waviness_amplitude)
+        self.wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        self.reach = _upper_radius(largest_depth, waviness_amplitude, self.wave_number)
+        # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
+        level = self.roughness(largest_depth, waviness_amplitude, wavelength).max(initial=0)
+        self.phase = ROUGHNESS_STEP * float(level)
+
+    @classmethod
+    def roughness(cls, largest_depth: FloatArray, *shape: FloatArray, **named: FloatArray) -> IntArray:
+        amplitude, wavelength = shape or (named["waviness_amplitude"], named["wavelength"])
+        length = wavelength * np.sqrt(amplitude)
+        wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        reach = _upper_radius(largest_depth, amplitude, wave_number)
+        level = np.minimum(wave_number * reach / ROUGHNESS_STEP, ROUGHEST + 1.0)
+        return np.ceil(level).astype(np.int64)
+
+    @classmethod
+    def resolved(
+        cls, largest_depth: FloatArray, **shape: FloatArray
+    ) -> tuple[dict[str, FloatArray], FloatArray]:
+        # Waves too short to follow are left out. They change the slope f′ by h k sin kx, and s, which is
+        # quadratic in the stress, by twice that; as much again for what they do to the contact.
+        amplitude = shape["waviness_amplitude"]
+        short = cls.roughness(largest_depth, **shape) > ROUGHEST
+        slope = 2.0 * np.pi * np.sqrt(amplitude) / shape["wavelength"]
+        return shape | {"waviness_amplitude": np.where(short, 0.0, amplitude)}, np.where(
+            short, 4.0 * slope, 0.0
+        )
+
+    @classmethod
+    def check(cls, largest_depth: float, **shape: float) -> str | None:
+        h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
+        if h == 0.0:
+            return None
+        k = 2.0 * np.pi / (wavelength * np.sqrt(h))
+        reach = float(np.sqrt(largest_depth)) + np.pi / k
+        limit = smallest_compact_wavelength(k * reach)
+        if wavelength >= limit:
+            return None
+        return (
+            f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays "
+            f"compact at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
+        )
+
+    def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
+        return WavyParaboloid(
+            self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
+        )
+
+    def extra_nodes(self, digits: float) -> int:
+        return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
+
+    @property
+    def feature_length(self) -> FloatArray:
+        with np.errstate(divide="ignore"):
+            return 2.0 * np.pi / self.wave_number
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return self._with_slope(radius)[0]
+
+    def _with_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """g and g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        z = k * radius
+        zeroth, first = struve_functions(z)
+        wave = (0.5 * np.pi) * h
+        slope = 2.0 * radius + wave * k * (zeroth + z * (2.0 / np.pi - first))
+        return radius * radius + wave * z * zeroth, slope
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        depth = np.maximum(depth, 0.0)
+        guess, root = np.empty_like(depth), np.sqrt(depth)
+        for row, (known, radius) in enumerate(zip(*self._guesses, strict=True)):
+            guess[row] = np.interp(root[row], known, radius)
+        # To the last digit: at a turning point an error of r is an error of its root in time.
+        for _ in range(2):
+            value, slope = self._with_slope(guess)
+            error = value - depth
+            step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
+            guess = np.maximum(guess - step, 0.0)
+        return guess
+
+    @cached_property
+    def _guesses(self) -> tuple[FloatArray, FloatArray]:
+        """√g, whose both ends are straight, at radii, each (n, k)."""
+        radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
+        return np.sqrt(np.maximum(self.depth(radius), 0.0)), radius
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        return radius * self._with_slope(radius)[1]
+
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        depth, slope = self._with_slope(radius)
+        return depth, radius * slope
+
+    def half_load(self, radius: FloatArray) -> FloatArray:
+        # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        z = k * radius
+        zeroth, first = struve_functions(z)
+        wave = z * z * zeroth - z * first
+        scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
+        return (2.0 / 3.0) * radius**3 + scale * wave
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        largest = self.radius(self.largest_depth)
+        nodes = int(NODES_PER_DIGIT * digits) + self.extra_nodes(digits)
+        return TablePrimitives(self, position, nodes, nodes, largest)
+
+
+def smallest_compact_wavelength(phase: float) -> float:
+    """Smallest λ/√(hR) for which g′ ≥ 0 up to kξ = ``phase``.
+
+    g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with A = H₀ + z (2/π − H₁).
+    """
+    return float(np.sqrt(np.pi**3 * max(np.interp(phase, *_steepest_falls()), 0.0)))
+
+
+@lru_cache
+def _steepest_falls() -> tuple[FloatArray, FloatArray]:
+    """Phases kξ, and the greatest −A/z up to each: a grid of shapes asks for thousands."""
+    # The first minimum of A/z, near 4.7, is the deepest.
+    z = np.linspace(1e-3, 8.0, 2001)
+    zeroth, first = struve_functions(z)
+    return z, np.maximum.accumulate(-(zeroth / z + 2.0 / np.pi - first))
+
+
+def _upper_radius(depth: FloatArray, amplitude: FloatArray, wave_number: FloatArray) -> FloatArray:
+    """A radius at which g surely exceeds ``depth``."""
+    radius = np.sqrt(depth)
+    for _ in range(3):
+        # |H₀| < 0.8, and its part of g cannot make up for a wavelength.
+        radius = np.sqrt(depth + 0.5 * np.pi * amplitude * np.minimum(0.8 * wave_number * radius, 1e6))
+    return radius

@@ -1,0 +1,135 @@
+"""swt on the circle through the critical point of the surface line: the assumption y = 0, tested.
+
+The stress at (r cos θ, r sin θ) on the surface is made of the same building blocks as on the line. By
+pressure it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
+
+    σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
+
+since ζ = iξ at the surface makes the functions of `field.punch` depend on one another: r² L³/R = 2 L² − L/R.
+The building blocks know only r: edge and slip fronts pass the whole circle at once, and the instants that
+make swt on the line make it on the circle.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.line.value import Look, Scene, extreme_instants, of_extremes, on_plane
+from swtstudy.mechanics.planes.all_planes import strain_history
+from swtstudy.mechanics.planes.ascent import climb
+from swtstudy.mechanics.planes.through_y import PlaneHistory
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import History
+
+#: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
+SAFE_POISSON_RATIO = 0.35
+#: Angles from the line that are looked at first, then in a narrower range.
+_ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
+_CLOSER = np.linspace(-1.0, 1.0, 9)[None] * _ANGLES[1]
+_TIME_STEPS, _DIGITS = 4, 5.5
+
+
+def circle_gain(
+    scene: Scene, position: FloatArray, double_angle: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """By how much swt on the circle through the line's maximum exceeds swt on the line.
+
+    Parameters
+    ----------
+    scene
+        n points.
+    position
+        Shape (n,): signed x in a_H of the line's maximum.
+    double_angle
+        Shape (n,): 2θ of its critical plane, rad.
+
+    Returns
+    -------
+    gain, angle
+        Shape (n,): the relative excess, 0 where the line has the maximum, and where on the circle it is, rad
+        from the line; over all plane orientations, at the instants that make swt on the line. NaN where the
+        maximum is at the edge of a flat face itself: on that circle the pressure has no bound.
+    """
+    r, flat = np.abs(position), scene.profile.flat_radius
+    at_edge = (flat > 0.0) & (r == flat)
+    gain, angle = (np.where(at_edge, np.nan, 0.0) for _ in range(2))
+    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (r > 0.0) & ~at_edge)
+    if rows.size:
+        some = scene.take(rows)
+        history, normal = _decisive_history(some, position[rows], double_angle[rows])
+        swt = _on_circle(some, history, normal, np.broadcast_to(_ANGLES, (rows.size, _ANGLES.size)))
+        base, best = swt[:, 0], swt.argmax(axis=1)
+        off = np.flatnonzero((best > 0) & (base > 0.0))
+        if off.size:
+            near = _ANGLES[best[off], None] + _CLOSER
+            found = _on_circle(some.take(off), history.take(off), normal[off], near)
+            top = found.argmax(axis=1), np.arange(off.size)
+            gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
+            angle[rows[off]] = near[top[::-1]]
+    return gain, angle
+
+
+def circle_stress(
+    history: History, poisson_ratio: FloatArray, friction: FloatArray, angle: FloatArray
+) -> FloatArray:
+    """Stress on circles of the surface, shape (n, k, T, 6), components xx, yy, zz, yz, xz, xy.
+
+    Parameters
+    ----------
+    history
+        Building blocks in E* √(δ0/R) at one r for each of n points, shape (n, T).
+    poisson_ratio, friction
+        Shape (n,): ν, μ.
+    angle
+        Shape (n, k): θ from the x axis.
+    """
+    ν, μ = poisson_ratio[:, None], friction[:, None]
+    c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
+    spread = 0.5 * (1.0 - 2.0 * ν) * history.mean_pressure
+    radial, hoop = spread - history.pressure, -spread - 2.0 * ν * history.pressure
+    blocks = radial, hoop, μ * history.tangential_1, μ * history.tangential_3
+    radial, hoop, t1, t3 = (block[:, None] for block in blocks)
+    ν = ν[..., None]
+    j, k = t1 - t3, 1.5 * t1 - 2.0 * t3
+    across = ν * c * (2.0 * c * c * k - 3.0 * j)
+    stress = np.zeros((*np.broadcast_shapes(c.shape, t1.shape), 6))
+    stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * t1 * c + across
+    stress[..., 1] = radial * s * s + hoop * c * c - across
+    stress[..., 2] = -history.pressure[:, None]
+    stress[..., 4] = (μ * history.traction)[:, None]
+    stress[..., 5] = (radial - hoop) * c * s + 0.5 * t1 * s + ν * s * (2.0 * c * c * k - j)
+    return stress
+
+
+def _decisive_history(
+    scene: Scene, position: FloatArray, double_angle: FloatArray
+) -> tuple[History, FloatArray]:
+    """Building blocks around the three instants that make swt on the line, and its plane's normal.
+
+    A maximum at x < 0 is mirrored to x > 0.
+    """
+    r = np.abs(position)[:, None]
+    look = Look.at(scene, r, _TIME_STEPS, _DIGITS)
+    side = np.where(position < 0.0, -1.0, 1.0)
+
+    def planes(history: History) -> PlaneHistory:
+        return scene.planes(history, side[:, None, None])
+
+    found = extreme_instants(planes(look.history), double_angle[:, None], look.inside)
+    brackets = look.brackets(found)
+    wide = look.line.history(brackets.samples())
+    closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
+    narrow = look.line.history(brackets.narrowed(closer).samples())
+    history = wide.joined(narrow).take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
+    history = history.with_tangential_sign(side[:, None])
+    θ = 0.5 * double_angle
+    return history, np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)
+
+
+def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatArray) -> FloatArray:
+    """swt at angles (n, k) on the circles; the planes are climbed to from the line's."""
+    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
+    strain = strain_history(stress, scene.poisson_ratio[:, None, None, None])
+    start = np.broadcast_to(normal[:, None], (*angle.shape, 3)).reshape(-1, 3)
+    flat = (-1, *stress.shape[-2:])
+    return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)

@@ -1,0 +1,160 @@
+"""A first look at swt along the surface line, and which parts of the cycle make it.
+
+Few event-aligned instants and planes show where swt may be largest, and in which intervals of the cycle its
+three extremes can be: the local search looks nowhere else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.events.instants import NO_STRETCH
+from swtstudy.mechanics.line.value import Look, Resolution, Scene, near_extremes
+from swtstudy.mechanics.numerics.arrays import gather
+from swtstudy.mechanics.planes.through_y import coarse_swt
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import History
+
+#: Local maxima below this share of the largest are not followed.
+CANDIDATE_SHARE = 0.85
+#: Change of 2θ to the next position by which another plane has taken over, rad, and the share of the largest
+#: swt from which that is followed.
+JUMP, HIDDEN_SHARE = 0.15, 0.97
+#: Two local maxima whose heights differ by less, relative, are both followed.
+TWIN = 0.01
+#: Positions nearer than this share of their range lie side by side.
+SIDE_BY_SIDE = 1e-4
+#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
+FIRST_HOT = 0.5
+#: Planes that are tried where the first look finds a local maximum.
+CLOSER_PLANES = 72
+
+
+@dataclass(frozen=True)
+class FirstLook:
+    """swt at n × X positions on both sides of the contact, to the accuracy of a first look.
+
+    Attributes
+    ----------
+    swt, double_angle
+        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad.
+    interval
+        Shape (n, X, T): interval of the cycle in which each instant of `history` is, or whose mirror image.
+    first, last
+        Shape (n, 2, i): intervals of the whole cycle that each interval, and its mirror image, is made of.
+    history
+        What was seen there; where both sides are alike, the second half is the mirror image of the first.
+    """
+
+    swt: FloatArray
+    double_angle: FloatArray
+    interval: NDArray[np.intp]
+    first: NDArray[np.intp]
+    last: NDArray[np.intp]
+    history: History
+
+    def closer(
+        self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """A closer look at single positions, on more planes.
+
+        Parameters
+        ----------
+        scene
+            The n points.
+        point, side, column
+            Shape (m,): index of the positions.
+
+        Returns
+        -------
+        double_angle
+            Shape (m,): 2θ of the best plane, rad.
+        hot
+            Shape (m, i): intervals of the cycle that can hold an extreme.
+        """
+        x_sign = np.where(side == 0, 1.0, -1.0)[:, None]
+        planes = scene.take(point).planes(self.history.take(point, column), x_sign)
+        _, angle = coarse_swt(planes, CLOSER_PLANES)
+        both = angle, self.double_angle[point, side, column]
+        row, instant = np.nonzero(near_extremes(planes, both, FIRST_HOT))
+        count = self.interval.shape[-1]
+        at = point[row], instant // count, self.interval[point[row], column[row], instant % count]
+        # Ranges of intervals, as steps up and down.
+        steps = np.zeros((len(point), scene.cycle.begin.shape[1] + 1), dtype=np.intp)
+        np.add.at(steps, (row, self.first[at]), 1)
+        np.add.at(steps, (row, self.last[at] + 1), -1)
+        return angle, np.cumsum(steps, axis=1)[:, :-1] > 0
+
+
+def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
+    """Look at swt on both sides of the contact.
+
+    Parameters
+    ----------
+    scene
+        n points.
+    position
+        Shape (n, X): r = |x|.
+    resolution
+        Its zooms are not used.
+    planes
+        Number of planes that are tried.
+    """
+    # For even q, half a common period later δ is the same and u has changed sign: half of it is enough.
+    mirrored = scene.cycle.protocol.q % 2 == 0
+    cycle = scene.cycle.first_half() if mirrored else scene.cycle
+    look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
+    nodes, history = look.nodes, look.history
+    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(nodes.index.shape)
+    # An interval of the first half may reach beyond it, and its mirror image into several.
+    begin, end = (np.stack([v, v + np.pi], axis=1)[..., None] for v in (cycle.begin, cycle.end))
+    first = (scene.cycle.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
+    last = np.maximum((scene.cycle.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
+    first, last = (np.minimum(v, scene.cycle.begin.shape[1] - 1) for v in (first, last))
+    if mirrored:
+        # The same instants with the tangential load reversed.
+        history = history.joined(history.with_tangential_sign(-1.0))
+    sides = (
+        coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
+    )
+    swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
+    return FirstLook(swt, angle, interval, first, last, history)
+
+
+def local_maxima(
+    swt: FloatArray, double_angle: FloatArray, r: FloatArray
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Point, side and column of the local maxima that may hold the largest swt.
+
+    Parameters
+    ----------
+    swt, double_angle
+        Shape (n, 1 or 2, X), on one or both sides; 2θ of the best planes, rad.
+    r
+        Shape (n, X): the positions, ascending; shorter rows repeat their first one.
+    """
+    largest = swt.max(axis=(1, 2), keepdims=True)
+    falls, rises = swt[..., :-1] >= swt[..., 1:], swt[..., 1:] > swt[..., :-1]
+    ends = ((0, 0), (0, 0))
+    above = np.pad(falls, (*ends, (0, 1)), constant_values=True)
+    before = np.pad(rises, (*ends, (1, 0)), constant_values=True)
+    # Two cusps side by side that make a maximum together: each has its own neighbour on the other side.
+    gap = np.diff(r)
+    close = ((gap > 0.0) & (gap < SIDE_BY_SIDE * (r.max(axis=1) - r[:, 0])[:, None]))[:, None]
+    least = (1.0 - TWIN) * np.maximum(swt[..., 1:], swt[..., :-1])
+    close = close & (np.minimum(swt[..., 1:], swt[..., :-1]) >= least)
+    above[..., :-1] |= close & above[..., 1:]
+    before[..., 1:] |= close & before[..., :-1]
+    peak = above & before & (swt >= CANDIDATE_SHARE * largest)
+    # Where another plane takes over, its maximum may hide beside the flank of the former one's.
+    turn = np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP
+    turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= HIDDEN_SHARE * largest
+    peak[..., 1:] |= turn & above[..., 1:]
+    peak[..., :-1] |= turn & before[..., :-1]
+    # A point without tension anywhere keeps one bracket all the same.
+    peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
+    point, side, column = np.nonzero(peak)
+    return point, side, column

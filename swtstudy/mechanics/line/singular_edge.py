@@ -1,0 +1,222 @@
+"""swt of the truncated paraboloid next to r = b, where the stress grows like L = ln(1/ε), r = b (1 + ε).
+
+To the order ε the stress at r = b⁺ is a finite part plus L/2 times a logarithmic part, both in closed form:
+for b⁺ all springs are outside of r but for those at G → 0⁺, whose pull is finite. L takes the place of the
+position, so that distances far below what a number near b can hold cost nothing:
+
+* |τ| = w at the innermost spring and μ > 1: a plane near 45° is in tension that grows like L. Short of that
+  the maximum is where the permanent stick zone ends, and is given up once that is nearer than `NEAREST`.
+* The whole contact slides and μ ≥ 1: besides, Δε_n grows like L; at μ = 1 the tension is finite.
+* Contact is lost: springs that just touch at r pull with a finite stress before the pressure of −L comes.
+  Short of that s ~ ln(1/(1 − δA/δ0)), at the least radius of the contact, and is given up once that is nearer
+  than `NEAREST` (of the profile).
+
+In these cases s is not finite. Else it is; if the whole contact slides, σ_n falls like (1 − μ) L while Δε_n
+rises like L, and the maximum lies at an L of some (π/2)/(1 − μ).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
+from swtstudy.mechanics.line.climb import SETTLED, Accuracy
+from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
+from swtstudy.mechanics.line.value import Look, Scene, lifted
+from swtstudy.mechanics.load.bimodal import Protocol, turning_instants
+from swtstudy.mechanics.planes.through_y import climb_over_planes, product
+from swtstudy.mechanics.points import FloatArray
+
+#: Below this friction swt falls towards r = b from where the search over x ends.
+LEAST_FRICTION = 0.8
+#: Values of L of the first look and of each closer one, and how many of these there are.
+FIRST_COUNT, NEXT_COUNT, ROUND_COUNT = 24, 9, 5
+#: Steps of each smooth stretch of the cycle, and how often the plane is improved.
+STEPS_PER_DIGIT, ANGLE_ROUND_COUNT = 3, 4
+#: So many times the steps check the value, one after the other until it changes little enough.
+FINER = 2, 4, 8, 16
+#: The spring at r = b⁺ for the events of the cycle, by its w/b, and how exactly that is known.
+ONSET, BESIDE = 1e-7, 0.3
+#: Distance from r = b, over the face or the ring beside it, from which the limit has more digits than r.
+REACH = 1e-8
+#: Where |q| is nearer to μp than this, relative, the spring at r slips.
+SLIDES = 1e-9
+#: Relative error by what is left out: of the orders ε and `ONSET`.
+LEFT_OUT = 2e-7
+
+
+def not_finite(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+    """Whether swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
+    if not isinstance(profile, TruncatedParaboloid):
+        return np.zeros(len(friction), dtype=bool)
+    nearest = profile.singular_approach.min(axis=1, keepdims=True)
+    tears = _innermost_spring_slips(cycle.protocol, profile.depth(nearest)) & (friction > 1.0)
+    tears |= cycle.gross_slip & (friction >= 1.0)
+    # Once contact is lost, or nearly, the maximum is where its edge turns.
+    turn = profile.radius(1.0 - cycle.protocol.normal_amplitude[:, None])
+    tears |= (turn <= nearest)[:, 0]
+    moves = (friction > 0.0) & (cycle.protocol.tangential_amplitude > 0.0)
+    return np.asarray(tears & moves & (profile.flat_radius > 0.0))
+
+
+def _innermost_spring_slips(protocol: Protocol, margin: FloatArray) -> NDArray[np.bool_]:
+    """Whether the spring at G → 0 ends on a slip line: |u| ≥ δ at some instant, but for a margin (n, 1)."""
+    instants = turning_instants(protocol)
+    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+    return np.asarray(
+        ((displacement - depth + margin).max(axis=1) >= 0.0)
+        | ((displacement + depth - margin).min(axis=1) <= 0.0)
+    )
+
+
+def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+    """Whether the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
+    if not isinstance(profile, TruncatedParaboloid):
+        return np.zeros(len(friction), dtype=bool)
+    face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
+    slides = cycle.gross_slip & (cycle.protocol.normal_amplitude < 1.0)
+    return np.asarray(face & slides & (friction >= LEAST_FRICTION))
+
+
+def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
+    """The maxima found along x of n truncated paraboloids that slide, μ < 1, or those next to r = b."""
+    edge = _maximum_at_edge(scene, accuracy)
+    distance = np.abs(found.position) / scene.profile.flat_radius - 1.0
+    better = (edge.swt > found.swt) | ((distance > 0.0) & (distance < _reach(scene.profile)))
+    return found.put(better, edge.take(better))
+
+
+def _reach(profile: Profile) -> FloatArray:
+    """ε up to which the limit is used, shape (n,)."""
+    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
+    return REACH * np.minimum(radius - flat, flat) / flat
+
+
+def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
+    """Largest swt at 0 < ε ≤ `_reach`."""
+    # The instant at which the front arrives at G = 0 is a breakpoint.
+    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    n = len(scene)
+    rows = np.arange(n)
+    found = Maximum.unknown(n, 0.0)
+    radius = scene.profile.radius(scene.profile.largest_depth)
+    flat = scene.profile.flat_radius
+    nearest = -np.log(_reach(scene.profile))
+    # Beyond this no plane is in tension.
+    farthest = nearest + 20.0 * (1.0 + radius / flat) / (1.0 - scene.friction)
+    steps = STEPS_PER_DIGIT * math.ceil(-math.log10(accuracy.tolerance))
+    digits = accuracy.check.digits
+    for side in (1.0, -1.0):
+        for start in (0.5 * np.pi, -0.5 * np.pi):
+            low, high, count = nearest, farthest, FIRST_COUNT
+            for _ in range(ROUND_COUNT):
+                share = np.linspace(0.0, 1.0, count)
+                distance = low[:, None] * (high / low)[:, None] ** share
+                swt, angle = _swt(scene, distance, side, start, steps, digits)
+                best = swt.argmax(axis=1)
+                low = distance[rows, np.maximum(best - 1, 0)]
+                high = distance[rows, np.minimum(best + 1, count - 1)]
+                count = NEXT_COUNT
+            there = distance[rows, best][:, None]
+            value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
+            error = change + (LEFT_OUT + LEAST_SHARE * accuracy.tolerance) * value
+            larger = value > found.swt
+            found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
+    return found
+
+
+def _checked(
+    scene: Scene,
+    distance: FloatArray,
+    swt: FloatArray,
+    side: float,
+    start: float,
+    steps: int,
+    accuracy: Accuracy,
+) -> tuple[FloatArray, FloatArray]:
+    """swt (n,) at L = ``distance`` (n, 1) with ever more steps, until it changes little; its last change."""
+    value, change = swt.copy(), np.zeros_like(swt)
+    rows = np.arange(len(swt))
+    for times in FINER:
+        finer, _ = _swt(scene.take(rows), distance[rows], side, start, times * steps, accuracy.check.digits)
+        change[rows] = np.abs(finer[:, 0] - value[rows])
+        value[rows] = finer[:, 0]
+        rows = rows[change[rows] > SETTLED * accuracy.tolerance * value[rows]]
+        if not rows.size:
+            break
+    return value, change
+
+
+def _swt(
+    scene: Scene, distance: FloatArray, side: float, start: float, steps: int, digits: float
+) -> tuple[FloatArray, FloatArray]:
+    """swt and 2θ at L = ``distance``, shape (n, X), on the best plane near 2θ = ``start``.
+
+    Unlike `swtstudy.mechanics.line.value.refine` this knows that the stress may jump at an event: an extreme
+    is interpolated only where its neighbours belong to the same smooth stretch.
+    """
+    profile = scene.profile
+    edge = _Edge(profile.largest_depth, profile.flat_radius, distance)
+    position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
+    look = Look.at(replace(scene, profile=edge), position, steps, digits)
+    # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
+    # Shortly before, the front passes r itself, where the pressure's logarithm ends at once: a kink, too.
+    sticks = np.abs(look.history.traction) < (1.0 - SLIDES) * look.history.pressure
+    sticks &= np.roll(sticks, 1, axis=-1) & np.roll(sticks, -1, axis=-1)
+    inside = look.inside & (look.stretch % 3 == 0) & sticks
+    planes = scene.planes(look.history, side)
+    angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
+    stress, strain = planes.on_plane(angle)
+    peak, high, low = (lifted(curve, inside).max(axis=-1) for curve in (stress, strain, -strain))
+    return product(peak, high, -low), angle
+
+
+class _Edge(TruncatedParaboloid):
+    """n truncated paraboloids seen from r = b⁺ at L of shape (n, X)."""
+
+    def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray, distance: FloatArray) -> None:
+        super().__init__(largest_depth, flat_radius)
+        self.distance = distance
+
+    def take(self, index: NDArray[np.intp]) -> _Edge:
+        return _Edge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return np.maximum(super().depth(radius), ONSET * self._face(radius) ** 2)
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return _EdgePrimitives(self)
+
+
+@dataclass(frozen=True)
+class _EdgePrimitives(Primitives):
+    """The limits of `TruncatedPrimitives` for r → b⁺, L = ln(b/(r − b)).
+
+    A slip front passes the pressure's logarithm first and the springs at G → 0⁺ last: in between there is
+    the instant at which the spring at r starts to slip.
+    """
+
+    edge: _Edge
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        b, w = self.edge._face(radius), self.edge._rise(radius)
+        pull = np.where(w > (1.0 - BESIDE) * ONSET * b, np.pi * b, 0.0)
+        shape = np.broadcast_shapes(radius.shape, (*self.edge.distance.shape, *(1,) * (radius.ndim - 2)))
+        return np.stack([np.broadcast_to(pull, shape)] * 2)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        b, w = self.edge._face(radius), self.edge._rise(radius)
+        half = 0.5 * self.edge.distance.reshape(self.edge.distance.shape + (1,) * (radius.ndim - 2))
+        past = w > (1.0 + BESIDE) * ONSET * b
+        finite = np.log(np.sqrt(2.0) * np.where(past, w, b) / b) - np.log(0.5 * (radius + b) / b)
+        pressure = np.where(past, b * np.maximum(half + finite, 0.0) + 2.0 * (radius - b), 0.0)
+        # ∫ (ξ − w) g′ dξ/b².
+        load = w * ((2.0 / 3.0) * (w / b) ** 2 + 1.0) - (2.0 / 3.0) * (radius**3 - b**3) / b**2 + radius - b
+        return np.stack([pressure, np.broadcast_to(np.where(past, load, 0.0), pressure.shape)])

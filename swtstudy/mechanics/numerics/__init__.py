@@ -1,0 +1,1 @@
+"""Arrays, roots, series, peaks and spread directions: no physics."""

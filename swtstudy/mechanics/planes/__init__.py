@@ -1,0 +1,1 @@
+"""From stress histories to swt over planes: it knows no contact."""

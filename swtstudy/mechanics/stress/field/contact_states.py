@@ -1,0 +1,126 @@
+"""The states of one contact cycle on cells of radii: the memory diagram as input of the superposition."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.mechanics.contact.cycle import GROWTH, Cycle
+from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
+from swtstudy.mechanics.stress.field.superposition import stress_history
+
+#: Breakpoints nearer than this, relative to the contact radius, are one.
+_SAME_RADIUS = 4e-16
+
+
+@dataclass(frozen=True)
+class ContactStates:
+    """Contact states at T instants, see `superposition.stress_history`.
+
+    Attributes
+    ----------
+    cells
+        The slope functions on m cells whose ends hold every contact edge, slip front and end of a piece.
+    touching
+        Shape (T, m).
+    tangential_slope
+        Shape (T, k, m).
+    """
+
+    cells: SlopeCells
+    touching: FloatArray
+    tangential_slope: FloatArray
+
+    def stress(
+        self, x: ArrayLike, y: ArrayLike, z: ArrayLike, friction: float, poisson_ratio: float
+    ) -> FloatArray:
+        """Stress at points of shape S, shape S + (T, 6); see `superposition.stress_history`."""
+        return stress_history(
+            x, y, z, self.cells, self.touching, self.tangential_slope, friction, poisson_ratio
+        )
+
+
+def contact_states(
+    cycle: Cycle, profile: Profile, interval: NDArray[np.intp], instant: FloatArray, cells: int
+) -> ContactStates:
+    """Contact states of one point at instants of its stationary cycle.
+
+    Parameters
+    ----------
+    cycle, profile
+        A batch of one cycle and one profile.
+    interval, instant
+        Shape (T,): numbers of intervals of the cycle and instants φ within them.
+    cells
+        Number of cells for a profile that is not a paraboloid, and for each growth, besides those that
+        the breakpoints make. With 200 the stress in the interior is accurate to 1e-8 p0.
+    """
+    protocol = cycle.protocol
+    memory = cycle.memory.take((np.zeros_like(interval), interval))
+    states = cycle.states(interval[None], instant[None])
+    depth, front, sign = states.depth, states.front, states.sign
+    grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+    branches = np.unique(memory.branch[grown])
+    starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
+    # The deepest contact of the cycle is there for instants without any contact.
+    deepest = 1.0 + protocol.normal_amplitude
+    breaks = np.concatenate([depth.ravel(), front.ravel(), np.unique(starts), deepest])
+    if len(branches):
+        between = _between(np.stack([memory.start[grown], memory.stop[grown]]), cells)
+        breaks = np.concatenate([breaks, between[between < breaks.max()]])
+    radius = _cell_ends(profile, breaks, cells)
+
+    at = profile.depth(0.5 * (radius[1:] + radius[:-1])[None])[0]
+    touching = at < depth[0, :, None]
+    slips = touching & (at > front[0, :, None])
+    piece = np.maximum((memory.start[:, None, :] <= at[:, None]).sum(axis=-1) - 1, 0)
+    slope, branch = (np.take_along_axis(values, piece, axis=1) for values in (memory.slope, memory.branch))
+    # τ′ = −o′: the slopes of the memory diagram change their sign.
+    line = np.where(slips, -sign[0, :, None], np.where(slope == GROWTH, 0.0, -slope))
+    stuck_growth = touching & ~slips & (slope == GROWTH)
+    shares = [np.where(touching, line, 0.0), *(stuck_growth & (branch == b) for b in branches)]
+
+    def weighted_slopes(ξ: FloatArray) -> FloatArray:
+        depth, m = profile.depth_and_weighted_slope(ξ[None])
+        slopes = [cycle.protocol.growth_slope(depth, np.asarray(b)) for b in branches]
+        return np.stack([m[0], *(m[0] * slope[0] for slope in slopes)])
+
+    b = float(profile.flat_radius[0])
+    tangential_slope = np.stack(shares, axis=1).astype(float)
+    return ContactStates(
+        slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope
+    )
+
+
+def _between(ranges: FloatArray, cells: int) -> FloatArray:
+    """Depths that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
+    begin, end = np.unique(ranges, axis=1)
+    share = 0.5 - 0.5 * np.cos(np.pi * np.arange(cells + 1) / cells)
+    return (begin[:, None] + (end - begin)[:, None] * share).ravel()
+
+
+def _cell_ends(profile: Profile, depth: FloatArray, cells: int) -> FloatArray:
+    """Radii of the depths, and those that resolve the profile's slope."""
+    radius = np.maximum(profile.radius(depth[None])[0], profile.flat_radius[0])
+    ends = np.sort(np.concatenate([radius, _resolving_radii(profile, float(radius.max()), cells)]))
+    return ends[np.diff(ends, prepend=-1.0) > _SAME_RADIUS * ends[-1]]
+
+
+def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
+    """Cells for the slope alone: one where it is straight, graded ones behind a flat face."""
+    b = float(profile.flat_radius[0])
+    if b > 0.0:
+        return graded_radii(b, end, cells)
+    count = 1
+    while True:
+        radius = np.linspace(0.0, end, count + 1)
+        middle = 0.5 * (radius[1:] + radius[:-1])
+        chord = np.diff(profile.depth(radius[None])[0]) * count / end
+        bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord).max()
+        if bend < chord.max() / cells**2 or count > 8 * cells:
+            return radius
+        count *= 2

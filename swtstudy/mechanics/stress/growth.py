@@ -1,0 +1,174 @@
+"""Stress integrals over the springs that touched down and stuck: their slope do/dG = u̇/δ̇ is not constant.
+
+Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
+for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
+integral is exact to rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact.cycle import GROWTH, Cycle, Memory
+from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.numerics import chebyshev
+from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.points import FloatArray
+
+#: Chebyshev nodes for each oscillation of u while the ground grows.
+NODES_PER_OSCILLATION = 1.6
+
+#: Densities at abscissae of some ranges, see `_RunningIntegrals`.
+Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
+
+
+class GrowthIntegrals:
+    """Running integrals of the primitives' kernels times −u̇/δ̇ over each growth of each cycle.
+
+    Parameters
+    ----------
+    cycle, profile
+        n cycles and n profiles.
+    position
+        Shape (n, X), r = |x|.
+    digits
+        Digits that the stress is to have.
+    """
+
+    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
+        # u may oscillate several times while δ rises once.
+        oscillations = cycle.protocol.p / cycle.protocol.q
+        smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * oscillations
+        count = math.ceil(smooth) + profile.extra_nodes(digits)
+        memory = cycle.memory
+        n = len(memory.start)
+        grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+        key = np.where(grown, _identity(memory), np.inf).reshape(n, -1)
+        order = np.argsort(key, axis=1, kind="stable")
+        key, start, stop, branch = (
+            gather(v.reshape(n, -1), order) for v in (key, memory.start, memory.stop, memory.branch)
+        )
+        first = np.isfinite(key)
+        first[:, 1:] &= key[:, 1:] != key[:, :-1]
+        self.count = int(first.sum(axis=1).max(initial=0))
+        if not self.count:
+            return
+        # Rows with fewer growths repeat one; nothing refers to it.
+        first[:, 0] = True
+        begin = np.where(np.isfinite(key), start, 0.0)
+        begin, end, branch, key = packed(first, begin, stop, branch, key)
+        #: Shape (n, k): tells the growths apart.
+        self.key = key
+        # Axes from here on: profile n, position X, growth k, node.
+        self.position = position[:, :, None]
+        self.flat = profile.flat_radius[:, None, None]
+        low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
+        self.cycle, self.profile, self.branch = cycle, profile, branch
+        r, b = self.position, self.flat
+        self.inner = _RunningIntegrals(
+            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, count
+        )
+        self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, count)
+
+    def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
+        """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
+        r, b = self.position[at[:2]], self.flat[at[0], 0]
+        radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
+        # Under a flat face there are no springs inside r.
+        first = np.where(r > b, 2.0 / r, 0.0) * self._weighted_growth(at, radius)
+        return np.stack([first, first * (radius / r) ** 2])
+
+    def _outer_density(self, at: tuple[NDArray[np.intp], ...], root: FloatArray) -> FloatArray:
+        """Density of Π over the root, shape (1, m, nodes)."""
+        r, b = self.position[at[:2]], self.flat[at[0], 0]
+        radius = np.sqrt(root * root + r * r)
+        gap = np.sqrt(np.maximum(radius * radius - b * b, 1e-300))
+        return (self._weighted_growth(at, radius) / (radius * gap))[None]
+
+    def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
+        """m dτ/dG at the radii of the springs, shape (m, nodes)."""
+        row, _, growth = at
+        depth, slope = self.profile.take(row).depth_and_weighted_slope(radius)
+        return slope * self.cycle.protocol.take(row).growth_slope(depth, self.branch[row, growth, None])
+
+    def index(self, cycle: Cycle) -> NDArray[np.intp]:
+        """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
+        same = _identity(cycle.memory)[..., None] == self.key[:, None, None, :]
+        return np.asarray(same.argmax(axis=-1))
+
+    def up_to(
+        self,
+        row: NDArray[np.intp],
+        column: NDArray[np.intp],
+        index: NDArray[np.intp],
+        radius: FloatArray,
+    ) -> FloatArray:
+        """Integrals T1, T3, Π over single growths up to ``radius``, shape (3, m).
+
+        Parameters
+        ----------
+        row, column, index, radius
+            Shape (m,): point, position, number of the growth (see `index`), upper limit ξ.
+        """
+        columns, count = self.position.shape[1], self.count
+        at = (row * columns + column) * count + index
+        r, b = self.position.take(row * columns + column), self.flat.take(row)
+        angle, root = _inner_angle(radius, r, b), _outer_root(radius, r)
+        return np.concatenate([self.inner.up_to(at, angle), self.outer.up_to(at, root)])
+
+
+class _RunningIntegrals:
+    """Running integrals over ranges, most of which are empty.
+
+    Parameters
+    ----------
+    low, high
+        Shape S: ends of the ranges.
+    density
+        From the index of m ranges and abscissae (m, nodes) in them to c densities there, (c, m, nodes).
+    count
+        Number of nodes.
+    """
+
+    def __init__(self, low: FloatArray, high: FloatArray, density: Density, count: int) -> None:
+        self.low, self.span = low, high - low
+        at = np.nonzero(self.span > 0.0)
+        low, span = low[at][:, None], self.span[at][:, None]
+        y = np.sin(0.25 * np.pi * (1.0 + chebyshev.nodes(count)))
+        # The sin² map.
+        rate = 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
+        #: Shape (count + 1, c, m).
+        self.series = chebyshev.running_integral(density(at, low + span * (y * y)) * (rate * span))
+        self.column = np.zeros(self.span.shape, dtype=np.intp)
+        self.column[at] = np.arange(len(span))
+
+    def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
+        """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
+        result = np.zeros((self.series.shape[1], len(at)))
+        some = np.flatnonzero(self.span.take(at) > 0.0)
+        if some.size:
+            at = at[some]
+            part = np.clip((abscissa[some] - self.low.take(at)) / self.span.take(at), 0.0, 1.0)
+            y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
+            result[:, some] = chebyshev.evaluate(self.series, y, self.column.take(at))
+        return result
+
+
+def _inner_angle(radius: FloatArray, r: FloatArray, b: FloatArray) -> FloatArray:
+    """α of a spring inside r, ξ² = b² + (r² − b²) sin²α; π/2 of one outside."""
+    sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, 1e-300)
+    return np.asarray(np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0))))
+
+
+def _outer_root(radius: FloatArray, r: FloatArray) -> FloatArray:
+    """v = √(ξ² − r²) of a spring outside r; 0 of one inside."""
+    return np.sqrt(np.maximum(radius**2 - r**2, 0.0))
+
+
+def _identity(memory: Memory) -> FloatArray:
+    """A number of its own for every growth: depths are below 4π."""
+    return memory.start + 2.0 * memory.branch

@@ -1,0 +1,1 @@
+"""The textbook method, an oracle for tests and benchmarks alone."""

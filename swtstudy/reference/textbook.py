@@ -1,0 +1,162 @@
+"""The textbook method: springs marched on fixed grids, and brute force over everything else.
+
+An oracle for the tests and a curve in the chart of accuracy against speed: it shares nothing with the solver
+but the profiles' g. However fine, fixed grids see the stress's cusps only to √(step), unless `aligned`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.points import FloatArray, Points
+
+
+class TextbookSolution(NamedTuple):
+    """s, the critical point x/a_H, signed, and the angle of the critical plane's normal to x, degrees."""
+
+    s: float
+    critical_x: float
+    critical_angle: float
+
+
+def textbook_s(
+    point: Points, springs: int, steps: int, positions: int, planes: int, aligned: bool = False
+) -> TextbookSolution:
+    """s of one point (eqs. 7–20): a lower bound but for the error of the stress between springs.
+
+    Parameters
+    ----------
+    point
+        A batch of one point.
+    springs, steps
+        Cells between springs, and uniform time steps of a period.
+    positions, planes
+        Positions on each side, the last at the largest contact radius, and planes evenly spread over 180°.
+    aligned
+        Add the instants of the events at the positions (turning points, edge passages, slip onsets), and the
+        position of the smallest contact radius.
+    """
+    p, q = int(point.p[0]), int(point.q[0])
+    d, u0, psi = (v.item() for v in (point.normal_amplitude, point.tangential_amplitude, point.phase))
+
+    def depth(time: FloatArray) -> FloatArray:
+        return 1.0 + d * np.sin(q * time + psi)
+
+    def displacement(time: FloatArray) -> FloatArray:
+        return u0 * np.sin(p * time)
+
+    # Springs are evenly spread in √(ξ² − b²), in which every profile's g is smooth.
+    profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
+    smallest, largest = profile.radius(np.array([[max(1.0 - d, 0.0), 1.0 + d]]))[0]
+    b = profile.flat_radius[0]
+    radius = np.sqrt(b**2 + np.linspace(0.0, np.sqrt(largest**2 - b**2), springs + 1) ** 2)
+    at = np.linspace(0, springs, positions + 1)[1:].astype(int)
+    if aligned:
+        nearest = 1 + int(np.abs(radius[1:] - smallest).argmin())
+        radius[nearest] = max(smallest, 0.5 * radius[1])
+        at = np.union1d(at, nearest)
+    g = profile.depth(radius[None])[0]
+    time = np.linspace(0.0, 2.0 * np.pi, steps + 1)
+    if aligned:
+        rates = np.stack([p * u0 * np.cos(p * time), q * d * np.cos(q * time + psi)])
+        mixes = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]])
+        falls = mixes @ rates < 0.0
+        mix, step = np.nonzero(falls[:, 1:] != falls[:, :-1])
+        (a, c), fell = mixes[mix].T, falls[mix, step]
+
+        def same_sense(t: FloatArray) -> NDArray[np.bool_]:
+            return (a * p * u0 * np.cos(p * t) + c * q * d * np.cos(q * t + psi) < 0.0) == fell
+
+        time = np.union1d(time, bisect(same_sense, time, step))
+        edge = depth(time)[:, None] > g[at]
+        step, where = np.nonzero(edge[1:] != edge[:-1])
+        touched = edge[step, where]
+        time = np.union1d(time, bisect(lambda t: (depth(t) > g[at[where]]) == touched, time, step))
+        w, tau = march_springs(g[at], depth(time), displacement(time))
+        held = displacement(time)[:, None] - tau
+        step, where = np.nonzero((np.abs(tau) < w)[:-1] & (np.abs(np.diff(held, axis=0)) > 1e-14))
+        held = held[step, where]
+        onset = bisect(lambda t: np.abs(displacement(t) - held) < depth(t) - g[at[where]], time, step)
+        time = np.union1d(time, onset)
+    w, tau = march_springs(g, depth(time), displacement(time))
+    sigma = surface_stresses(radius, radius[at], w, tau, point)
+    s, side, k, angle = brute_force(sigma, point.poisson_ratio.item(), planes)
+    return TextbookSolution(s, float(side * radius[at[k]]), angle)
+
+
+def bisect(
+    before: Callable[[FloatArray], NDArray[np.bool_]], time: FloatArray, step: NDArray[np.intp]
+) -> FloatArray:
+    """Instants within the given steps of ``time`` until which ``before`` holds."""
+    low, high = time[step], time[step + 1]
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        holds = before(middle)
+        low, high = np.where(holds, middle, low), np.where(holds, high, middle)
+    return high
+
+
+def march_springs(
+    g: FloatArray, depth: FloatArray, displacement: FloatArray, periods: int = 2
+) -> tuple[FloatArray, FloatArray]:
+    """Compression w = δ − g and tangential force τ of springs by the clip rule |τ| ≤ w, shape (T, k).
+
+    ``depth`` and ``displacement``, shape (T,), are one period from rest; the last of ``periods`` is returned.
+    """
+    w = np.maximum(depth[:, None] - g, 0.0)
+    tau = np.zeros_like(w)
+    rise, du = np.diff(depth), np.diff(displacement)
+    for _ in range(periods):
+        tau[0] = tau[-1]
+        for i in range(1, len(depth)):
+            # A spring that touches down within the step feels only what u does after that.
+            part = w[i] / rise[i - 1] if rise[i - 1] > 0.0 else 0.0
+            felt = np.where(w[i - 1] > 0.0, 1.0, part)
+            tau[i] = np.clip(tau[i - 1] + felt * du[i - 1], -w[i], w[i])
+    return w, tau
+
+
+def surface_stresses(
+    radius: FloatArray, position: FloatArray, w: FloatArray, tau: FloatArray, point: Points
+) -> tuple[FloatArray, ...]:
+    """Stress at r = ``position``, (X, T): product integration with w and τ linear between springs.
+
+    Returns σ_xx, σ_yy, σ_zz by the normal load, and σ_xx, σ_yy, σ_xz by the tangential load at x = +r.
+    """
+    nu, mu = point.poisson_ratio.item(), point.friction.item()
+    r = position[:, None]
+    outside, inside = np.maximum(radius / r, 1.0), np.minimum(radius / r, 1.0)
+    area = np.arccosh(outside)  # ∫ dξ/√(ξ²−r²)
+    load = radius**2 - r**2 * (outside * np.sqrt(outside**2 - 1.0) - area)  # ∫ 2 (ξ − √(ξ²−r²)) dξ
+    cosine = np.sqrt(1.0 - inside**2)  # ξ = r sin φ
+    first, third = -2.0 * cosine, -2.0 * cosine + (2.0 / 3.0) * cosine**3  # ∫ 2 sin φ dφ, ∫ 2 sin³φ dφ
+
+    def integral(kernel: FloatArray, values: FloatArray) -> FloatArray:
+        return np.diff(kernel, axis=1) @ (np.diff(values, axis=1) / np.diff(radius)).T
+
+    pressure, force = -integral(area, w) / np.pi, -integral(load, w)
+    spread = 0.5 * (1.0 - 2.0 * nu) * force / (np.pi * r * r)
+    pull, pull_3 = (mu / np.pi * integral(kernel, tau) for kernel in (first, third))
+    normal = spread - pressure, -spread - 2.0 * nu * pressure, -pressure
+    return *normal, (1.0 + nu) * pull - nu * pull_3, nu * pull_3, mu / np.pi * integral(area, tau)
+
+
+def brute_force(sigma: tuple[FloatArray, ...], nu: float, planes: int) -> tuple[float, float, int, float]:
+    """Largest swt (eq. 9) over sides, positions and planes: its value, the side, position and angle."""
+    n_xx, n_yy, zz, t_xx, t_yy, t_xz = sigma
+    best = (-1.0, 1.0, 0, 0.0)
+    for side in (1.0, -1.0):
+        xx, yy = n_xx + side * t_xx, n_yy + side * t_yy
+        for angle in np.pi * (np.arange(planes) / planes - 0.5):
+            n_x, n_z = np.cos(angle), np.sin(angle)
+            stress = xx * n_x**2 + zz * n_z**2 + 2.0 * t_xz * n_x * n_z
+            strain = ((1.0 + nu) * stress - nu * (xx + yy + zz)) / (1.0 - nu**2)
+            swt = np.maximum(stress.max(axis=1), 0.0) * 0.5 * np.ptp(strain, axis=1)
+            if swt.max() > best[0]:
+                best = float(swt.max()), side, int(swt.argmax()), float(np.degrees(angle))
+    return best
