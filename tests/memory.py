@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import GROWTH, Cycle
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.load.bimodal import Protocol
 
 Array = NDArray[np.float64]

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.contact.cycle import GROWTH, solve_cycle
+from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import Protocol

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import Protocol

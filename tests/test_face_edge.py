@@ -13,9 +13,11 @@ from soundness import regime_names, sound
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import body
 from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.singular_edge import _swt
-from swtstudy.mechanics.line.value import Look, Resolution, Scene, refine
+from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.planes.through_y import product
+from swtstudy.mechanics.stress.scene import Scene
 
 
 def scene_of(batch: Points) -> Scene:

@@ -6,12 +6,12 @@ import pytest
 import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics.body.body import Body, time_nodes
-from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.line import circle_gain
-from swtstudy.mechanics.line.circle_gain import circle_stress
 from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.line import SurfaceLine
 

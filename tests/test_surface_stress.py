@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.hamilton import hamilton
 
-from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses

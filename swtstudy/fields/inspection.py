@@ -12,12 +12,13 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
+from swtstudy.mechanics.contact.stick_depth import stick_depth
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.line.first_look import first_look
-from swtstudy.mechanics.line.value import Resolution, Scene
-from swtstudy.mechanics.load.bimodal import stick_depth
+from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
+from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]

@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at
-from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 _NAMES = {
     "x": "position in the direction of sliding",

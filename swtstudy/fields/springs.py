@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.body.body import TimeNodes
-from swtstudy.mechanics.contact.cycle import held_offset
-from swtstudy.mechanics.line.value import Scene
+from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 
 def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -66,7 +66,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    from swtstudy.mechanics.load.bimodal import fold_phase
+    from swtstudy.mechanics.load.symmetry import fold_phase
 
     table = np.stack(np.broadcast_arrays(*(np.asarray(columns[name], float) for name in COLUMNS)), axis=-1)
     for code, profile in enumerate(PROFILES):

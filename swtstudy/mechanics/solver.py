@@ -7,15 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
 from swtstudy.mechanics.line.circle_gain import circle_gain
 from swtstudy.mechanics.line.climb import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.load.bimodal import Protocol
 from swtstudy.mechanics.points import REGIMES, Points, Solution
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter.
 BATCH_SIZE = 1600

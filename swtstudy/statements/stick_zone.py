@@ -9,8 +9,9 @@ import numpy as np
 from swtstudy.grid.canonical import COLUMNS, points_from
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.contact.stick_depth import stick_depth
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import Protocol, stick_depth
+from swtstudy.mechanics.load.bimodal import Protocol
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PARAMETERS

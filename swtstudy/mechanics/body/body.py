@@ -7,20 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.events.instants import cosine_nodes, stretches
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.load.bimodal import Protocol
-from swtstudy.mechanics.planes.all_planes import (
-    CriticalPlane,
-    highest_coarse_swt,
-    strain_history,
-    swt_of_history,
-)
+from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
+from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.field import ContactStates, contact_states
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
 _SUBDIVISIONS = 6

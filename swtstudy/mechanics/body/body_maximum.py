@@ -19,9 +19,9 @@ from swtstudy.mechanics.body.body import (
     time_nodes,
     together,
 )
-from swtstudy.mechanics.line.value import Scene
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of the time nodes on a stretch: first look and climb, and value.
 _LOOK, _VALUE = 3, 5

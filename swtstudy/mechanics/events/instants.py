@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle, held_offset
-from swtstudy.mechanics.load.bimodal import filled_rows
-from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import held_offset
+from swtstudy.mechanics.numerics.arrays import filled_rows, gather, packed
 from swtstudy.mechanics.points import FloatArray
 
 #: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet.

@@ -112,8 +112,3 @@ class Profile(ABC):
     @abstractmethod
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         """The full-slip integrals at r = ``position``, shape (n, X), to so many digits of the largest."""
-
-
-def align(values: FloatArray, like: FloatArray) -> FloatArray:
-    """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
-    return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))

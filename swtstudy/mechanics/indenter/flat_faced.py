@@ -10,8 +10,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.tables import OuterTable
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
 #: Chebyshev nodes of the tables for each digit, for any width of the face (tests/test_profiles.py).

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
 

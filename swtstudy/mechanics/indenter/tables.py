@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.numerics import chebyshev
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
 

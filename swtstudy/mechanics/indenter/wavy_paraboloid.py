@@ -7,9 +7,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.indenter.base import Primitives, Profile, align
+from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.indenter.tables import TablePrimitives
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.

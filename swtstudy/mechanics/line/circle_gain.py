@@ -14,12 +14,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.line.value import Look, Scene, extreme_instants, of_extremes, on_plane
-from swtstudy.mechanics.planes.all_planes import strain_history
+from swtstudy.mechanics.line.look import Look, extreme_instants
+from swtstudy.mechanics.line.value import of_extremes, on_plane
 from swtstudy.mechanics.planes.ascent import climb
+from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.line import History
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
 SAFE_POISSON_RATIO = 0.35
@@ -67,38 +70,6 @@ def circle_gain(
             gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
             angle[rows[off]] = near[top[::-1]]
     return gain, angle
-
-
-def circle_stress(
-    history: History, poisson_ratio: FloatArray, friction: FloatArray, angle: FloatArray
-) -> FloatArray:
-    """Stress on circles of the surface, shape (n, k, T, 6), components xx, yy, zz, yz, xz, xy.
-
-    Parameters
-    ----------
-    history
-        Building blocks in E* √(δ0/R) at one r for each of n points, shape (n, T).
-    poisson_ratio, friction
-        Shape (n,): ν, μ.
-    angle
-        Shape (n, k): θ from the x axis.
-    """
-    ν, μ = poisson_ratio[:, None], friction[:, None]
-    c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
-    spread = 0.5 * (1.0 - 2.0 * ν) * history.mean_pressure
-    radial, hoop = spread - history.pressure, -spread - 2.0 * ν * history.pressure
-    blocks = radial, hoop, μ * history.tangential_1, μ * history.tangential_3
-    radial, hoop, t1, t3 = (block[:, None] for block in blocks)
-    ν = ν[..., None]
-    j, k = t1 - t3, 1.5 * t1 - 2.0 * t3
-    across = ν * c * (2.0 * c * c * k - 3.0 * j)
-    stress = np.zeros((*np.broadcast_shapes(c.shape, t1.shape), 6))
-    stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * t1 * c + across
-    stress[..., 1] = radial * s * s + hoop * c * c - across
-    stress[..., 2] = -history.pressure[:, None]
-    stress[..., 4] = (μ * history.traction)[:, None]
-    stress[..., 5] = (radial - hoop) * c * s + 0.5 * t1 * s + ν * s * (2.0 * c * c * k - j)
-    return stress
 
 
 def _decisive_history(

@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import TWIN, FirstLook, local_maxima
+from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.positions import PositionBrackets, Positions
-from swtstudy.mechanics.line.value import Resolution, Scene, hot_intervals, refine
+from swtstudy.mechanics.line.value import hot_intervals, refine
 from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.peaks import polynomial_maximum, powers_from_values, vertex_near
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Distances at which each round of the local search looks, in widths, and how the width shrinks.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])

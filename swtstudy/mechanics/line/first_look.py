@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.instants import NO_STRETCH
-from swtstudy.mechanics.line.value import Look, Resolution, Scene, near_extremes
+from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
 from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.planes.through_y import coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.line import History
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Local maxima below this share of the largest are not followed.
 CANDIDATE_SHARE = 0.85

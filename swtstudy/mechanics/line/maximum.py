@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.events.instants import split_at_breakpoints
 from swtstudy.mechanics.line.climb import Accuracy, Climb, step
 from swtstudy.mechanics.line.first_look import first_look
+from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.positions import positions_of_first_look
-from swtstudy.mechanics.line.value import Resolution, Scene, refine
+from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Planes that the first look tries.
 SCAN_PLANES = 16

@@ -28,11 +28,12 @@ from swtstudy.mechanics.events.instants import split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.climb import SETTLED, Accuracy
+from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
-from swtstudy.mechanics.line.value import Look, Scene, lifted
 from swtstudy.mechanics.load.bimodal import Protocol, turning_instants
 from swtstudy.mechanics.planes.through_y import climb_over_planes, product
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Below this friction swt falls towards r = b from where the search over x ends.
 LEAST_FRICTION = 0.8

@@ -6,21 +6,15 @@ that make swt (the largest σ_n, the largest and the smallest ε_n), ever closer
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.events.instants import Nodes, cosine_nodes, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.indenter.base import Profile
-from swtstudy.mechanics.numerics.arrays import gather, pick
-from swtstudy.mechanics.numerics.peaks import parabola
+from swtstudy.mechanics.line.look import Look, Resolution, extreme_instants, lifted, near_extremes
+from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_over_planes, product
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
+from swtstudy.mechanics.stress.scene import Scene
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew.
 ANGLE_ROUNDS = 2
@@ -29,109 +23,6 @@ STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
 #: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it, and at
 #: positions next to the one that is looked at.
 HOT = 0.35
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """How finely swt is computed.
-
-    Attributes
-    ----------
-    nodes
-        Steps of the cosine-spaced instants of each stretch.
-    zooms
-        How often the extremes are looked at more closely, at least once to refine.
-    digits
-        Digits of the largest stress to which tables and series are made.
-    """
-
-    nodes: int
-    zooms: int
-    digits: float
-
-
-@dataclass(frozen=True)
-class Scene:
-    """n points: what the stress on the surface line depends on.
-
-    Attributes
-    ----------
-    cycle, profile
-        n contact cycles and n profiles.
-    poisson_ratio, friction
-        Shape (n,).
-    """
-
-    cycle: Cycle
-    profile: Profile
-    poisson_ratio: FloatArray
-    friction: FloatArray
-
-    def __len__(self) -> int:
-        return len(self.friction)
-
-    def take(self, index: NDArray[np.intp]) -> Scene:
-        """The points at ``index``, repetitions allowed."""
-        return Scene(
-            self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
-        )
-
-    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
-        """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
-        return replace(self.take(index), cycle=self.cycle.select(index, keep))
-
-    def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
-        """σ_n and ε_n on the planes through y, on the given side of the contact."""
-        sigma = stresses(history, self.poisson_ratio, self.friction, side)
-        return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
-
-
-@dataclass(frozen=True)
-class Look:
-    """The stress at n × X positions and the event-aligned instants of each.
-
-    Attributes
-    ----------
-    line
-        The positions.
-    ends
-        Shape (n, X, i, 4): the stretches, see `swtstudy.mechanics.events.instants.stretches`.
-    count
-        Steps of each stretch.
-    nodes, number
-        The T instants, see `swtstudy.mechanics.events.instants.cosine_nodes`.
-    history
-        Building blocks of the stress at them.
-    """
-
-    line: SurfaceLine
-    ends: FloatArray
-    count: int
-    nodes: Nodes
-    number: NDArray[np.intp]
-    history: History
-
-    @classmethod
-    def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
-        """Look at r = ``position``, shape (n, X)."""
-        line = SurfaceLine(scene.cycle, scene.profile, position, digits)
-        ends = stretches(scene.cycle, scene.profile.depth(position))
-        nodes, number = cosine_nodes(scene.cycle, ends, count)
-        return cls(line, ends, count, nodes, number, line.history(nodes))
-
-    @property
-    def inside(self) -> NDArray[np.bool_]:
-        """Shape (n, X, T): which instants are not at the end of their stretch."""
-        return (self.number % (self.count + 1) % self.count) > 0
-
-    @property
-    def stretch(self) -> NDArray[np.intp]:
-        """Shape (n, X, T): number of the stretch of each instant; three make an interval."""
-        return self.number // (self.count + 1)
-
-    def brackets(self, instants: NDArray[np.intp]) -> TimeBrackets:
-        """Brackets around instants, shape (n, X, e)."""
-        return TimeBrackets.around(self.ends, self.count, gather(self.number, instants))
 
 
 def hot_intervals(
@@ -237,33 +128,6 @@ def _best_planes(
     return found[0], found[1]
 
 
-def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
-    stress, strain = planes.on_plane(angle)
-    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
-
-
-def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """The curve with its local maxima as high as the parabolas through them and their neighbours.
-
-    Of two maxima that are nearly as high, the instants alone would tell the wrong one.
-
-    Parameters
-    ----------
-    curve
-        Values at T instants, shape (…, T).
-    inside
-        Shape (…, T) or broadcast to it: which instants are not at the end of a smooth stretch.
-    """
-    middle = curve[..., 1:-1]
-    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
-    at = np.nonzero(peak)
-    left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    result = curve.copy()
-    result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
-    return result
-
-
 def of_extremes(planes: PlaneHistory) -> FloatArray:
     """Coefficients of σ_n, ε_n and −ε_n, whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
     stress, strain = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.strain))
@@ -281,14 +145,3 @@ def _at_peaks(near: FloatArray, brackets: TimeBrackets, angle: FloatArray) -> tu
     """Coefficients of σ_n, ε_n and −ε_n at their maxima between the samples, each (3, n, X)."""
     weights = brackets.weights_at_peak(on_plane(near, angle))
     return tuple(np.moveaxis((near * weights).sum(axis=-1), -1, 0))
-
-
-def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray], share: float) -> NDArray[np.bool_]:
-    """Instants at which σ_n or ε_n come near to an extreme, within a share of their range, on any plane."""
-    near = np.zeros(planes.stress.shape[1:], dtype=bool)
-    for angle in angles:
-        stress, strain = planes.on_plane(angle)
-        for curve in (stress, strain, -strain):
-            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
-            near |= curve >= high - share * (high - low)
-    return near

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import FloatArray
 
 
 @dataclass(frozen=True)
@@ -137,30 +138,6 @@ def _expand(values: FloatArray, like: FloatArray) -> FloatArray:
     return values.reshape(values.shape + (1,) * (like.ndim - 1))
 
 
-def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
-
-    Shifting time by π/ω2 flips u and mirrors x.
-
-    Parameters
-    ----------
-    phase
-        Shape (n,), rad.
-    p, q
-        Shape (n,), ω2/ω1 = p/q in lowest terms.
-
-    Returns
-    -------
-    folded, mirrored
-        The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
-    """
-    period = np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p
-    turns = np.floor(phase / period + 1e-12)
-    folded = np.maximum(phase - turns * period, 0.0)
-    mirrored = (q % 2 == 1) & (turns % 2 == 1)
-    return folded, mirrored
-
-
 def turning_instants(protocol: Protocol) -> FloatArray:
     """All instants at which δ, u − δ or u + δ turns, or contact is made or lost, sorted.
 
@@ -180,21 +157,6 @@ def turning_instants(protocol: Protocol) -> FloatArray:
             instants = np.mod((angle[:, None] + turns - protocol.phase[:, None]) / q, 2.0 * np.pi)
             columns.append(np.where(d[:, None] > 1.0, instants, 2.0 * np.pi))
     return np.sort(np.concatenate(columns, axis=1), axis=1)
-
-
-def stick_depth(protocol: Protocol) -> FloatArray:
-    """Depth G_s = (min(u + δ) − max(u − δ))/2 up to which springs stick all through the stationary cycle.
-
-    A spring at G can keep one offset if that fits into all of its bounds [u − δ + G, u + δ − G]. Negative
-    if the whole contact slides, or is lost, once a cycle.
-
-    Returns
-    -------
-    Shape (n,), in δ0.
-    """
-    instants = turning_instants(protocol)
-    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
-    return 0.5 * ((displacement + depth).min(axis=1) - (displacement - depth).max(axis=1))
 
 
 def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
@@ -233,13 +195,3 @@ def _turning_points_of_slip_line(protocol: Protocol, sign: float) -> FloatArray:
 
     roots = monotone_roots(rate, np.zeros(len(row)), Brackets.of(rate, low, high))
     return filled_rows(row, np.mod(roots, 2.0 * np.pi), len(protocol), 2.0 * np.pi)
-
-
-def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
-    """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
-    sizes = np.bincount(row, minlength=count)
-    filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
-    order = np.argsort(row, kind="stable")
-    column = np.arange(row.size) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    filled[row[order], column] = values[order]
-    return filled

@@ -8,6 +8,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.points import FloatArray
+
 T = TypeVar("T", bound=np.generic)
 
 
@@ -56,3 +58,18 @@ def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ..
         out[target] = values[where]
         result.append(out)
     return tuple(result)
+
+
+def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
+    """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
+    sizes = np.bincount(row, minlength=count)
+    filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
+    order = np.argsort(row, kind="stable")
+    column = np.arange(row.size) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    filled[row[order], column] = values[order]
+    return filled
+
+
+def align(values: FloatArray, like: FloatArray) -> FloatArray:
+    """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
+    return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))

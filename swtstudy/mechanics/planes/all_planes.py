@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.ascent import climb, normal_weights, swap_instants, symmetric_tensor
+from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 10° apart.
@@ -72,23 +73,6 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
     first = np.argmax(np.abs(normal) > 1e-9, axis=1)
     normal = normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
     return CriticalPlane(swt.reshape(batch), normal.reshape(*batch, 3))
-
-
-def strain_history(
-    stress: FloatArray, poisson_ratio: float | FloatArray, youngs_modulus: float = 1.0
-) -> FloatArray:
-    """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
-
-    Parameters
-    ----------
-    stress
-        Shape (..., 6).
-    poisson_ratio, youngs_modulus
-        ν, E; ν may be an array that can be broadcast to (..., 1).
-    """
-    strain = (1.0 + poisson_ratio) * stress
-    strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)
-    return strain / youngs_modulus
 
 
 def swt_on_planes(

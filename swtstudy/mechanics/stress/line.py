@@ -13,7 +13,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import GROWTH, Cycle
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.arrays import gather, packed

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.contact.cycle import GROWTH, Cycle
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells

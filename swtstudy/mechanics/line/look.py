@@ -1,0 +1,123 @@
+"""A look at the stress at positions of the surface line, at event-aligned instants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.events.instants import Nodes, cosine_nodes, stretches
+from swtstudy.mechanics.events.zoom import TimeBrackets
+from swtstudy.mechanics.numerics.arrays import gather
+from swtstudy.mechanics.numerics.peaks import parabola
+from swtstudy.mechanics.planes.through_y import PlaneHistory
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import History, SurfaceLine
+from swtstudy.mechanics.stress.scene import Scene
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely swt is computed.
+
+    Attributes
+    ----------
+    nodes
+        Steps of the cosine-spaced instants of each stretch.
+    zooms
+        How often the extremes are looked at more closely, at least once to refine.
+    digits
+        Digits of the largest stress to which tables and series are made.
+    """
+
+    nodes: int
+    zooms: int
+    digits: float
+
+
+@dataclass(frozen=True)
+class Look:
+    """The stress at n × X positions and the event-aligned instants of each.
+
+    Attributes
+    ----------
+    line
+        The positions.
+    ends
+        Shape (n, X, i, 4): the stretches, see `swtstudy.mechanics.events.instants.stretches`.
+    count
+        Steps of each stretch.
+    nodes, number
+        The T instants, see `swtstudy.mechanics.events.instants.cosine_nodes`.
+    history
+        Building blocks of the stress at them.
+    """
+
+    line: SurfaceLine
+    ends: FloatArray
+    count: int
+    nodes: Nodes
+    number: NDArray[np.intp]
+    history: History
+
+    @classmethod
+    def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
+        """Look at r = ``position``, shape (n, X)."""
+        line = SurfaceLine(scene.cycle, scene.profile, position, digits)
+        ends = stretches(scene.cycle, scene.profile.depth(position))
+        nodes, number = cosine_nodes(scene.cycle, ends, count)
+        return cls(line, ends, count, nodes, number, line.history(nodes))
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """Shape (n, X, T): which instants are not at the end of their stretch."""
+        return (self.number % (self.count + 1) % self.count) > 0
+
+    @property
+    def stretch(self) -> NDArray[np.intp]:
+        """Shape (n, X, T): number of the stretch of each instant; three make an interval."""
+        return self.number // (self.count + 1)
+
+    def brackets(self, instants: NDArray[np.intp]) -> TimeBrackets:
+        """Brackets around instants, shape (n, X, e)."""
+        return TimeBrackets.around(self.ends, self.count, gather(self.number, instants))
+
+
+def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
+    stress, strain = planes.on_plane(angle)
+    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
+
+
+def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """The curve with its local maxima as high as the parabolas through them and their neighbours.
+
+    Of two maxima that are nearly as high, the instants alone would tell the wrong one.
+
+    Parameters
+    ----------
+    curve
+        Values at T instants, shape (…, T).
+    inside
+        Shape (…, T) or broadcast to it: which instants are not at the end of a smooth stretch.
+    """
+    middle = curve[..., 1:-1]
+    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
+    at = np.nonzero(peak)
+    left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
+    result = curve.copy()
+    result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
+    return result
+
+
+def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray], share: float) -> NDArray[np.bool_]:
+    """Instants at which σ_n or ε_n come near to an extreme, within a share of their range, on any plane."""
+    near = np.zeros(planes.stress.shape[1:], dtype=bool)
+    for angle in angles:
+        stress, strain = planes.on_plane(angle)
+        for curve in (stress, strain, -strain):
+            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
+            near |= curve >= high - share * (high - low)
+    return near

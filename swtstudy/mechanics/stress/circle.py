@@ -1,0 +1,40 @@
+"""Stress on circles of the surface about the axis."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import History
+
+
+def circle_stress(
+    history: History, poisson_ratio: FloatArray, friction: FloatArray, angle: FloatArray
+) -> FloatArray:
+    """Stress on circles of the surface, shape (n, k, T, 6), components xx, yy, zz, yz, xz, xy.
+
+    Parameters
+    ----------
+    history
+        Building blocks in E* √(δ0/R) at one r for each of n points, shape (n, T).
+    poisson_ratio, friction
+        Shape (n,): ν, μ.
+    angle
+        Shape (n, k): θ from the x axis.
+    """
+    ν, μ = poisson_ratio[:, None], friction[:, None]
+    c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
+    spread = 0.5 * (1.0 - 2.0 * ν) * history.mean_pressure
+    radial, hoop = spread - history.pressure, -spread - 2.0 * ν * history.pressure
+    blocks = radial, hoop, μ * history.tangential_1, μ * history.tangential_3
+    radial, hoop, t1, t3 = (block[:, None] for block in blocks)
+    ν = ν[..., None]
+    j, k = t1 - t3, 1.5 * t1 - 2.0 * t3
+    across = ν * c * (2.0 * c * c * k - 3.0 * j)
+    stress = np.zeros((*np.broadcast_shapes(c.shape, t1.shape), 6))
+    stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * t1 * c + across
+    stress[..., 1] = radial * s * s + hoop * c * c - across
+    stress[..., 2] = -history.pressure[:, None]
+    stress[..., 4] = (μ * history.traction)[:, None]
+    stress[..., 5] = (radial - hoop) * c * s + 0.5 * t1 * s + ν * s * (2.0 * c * c * k - j)
+    return stress

@@ -1,0 +1,50 @@
+"""What the stress depends on: contact, indenter, Poisson ratio and friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.planes.through_y import PlaneHistory
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import History, stresses
+
+
+@dataclass(frozen=True)
+class Scene:
+    """n points: what the stress on the surface line depends on.
+
+    Attributes
+    ----------
+    cycle, profile
+        n contact cycles and n profiles.
+    poisson_ratio, friction
+        Shape (n,).
+    """
+
+    cycle: Cycle
+    profile: Profile
+    poisson_ratio: FloatArray
+    friction: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.friction)
+
+    def take(self, index: NDArray[np.intp]) -> Scene:
+        """The points at ``index``, repetitions allowed."""
+        return Scene(
+            self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
+        )
+
+    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
+        """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
+        return replace(self.take(index), cycle=self.cycle.select(index, keep))
+
+    def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
+        """σ_n and ε_n on the planes through y, on the given side of the contact."""
+        sigma = stresses(history, self.poisson_ratio, self.friction, side)
+        return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
