@@ -14,11 +14,12 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body.body import Body, nodes_at, scene_of
+from swtstudy.mechanics.body.body import Body, nodes_at
 from swtstudy.mechanics.line import circle_gain
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.points import Points
+from swtstudy.mechanics.stress.scene import scene_of
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", ImportWarning)

@@ -10,20 +10,22 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 
 Array = NDArray[np.float64]
 
 
-def protocol(
+def harmonic(
     normal_amplitude: float = 0.75,
     tangential_amplitude: float = 5 / 6,
     phase: float = 0.0,
     p: int = 1,
     q: int = 1,
-) -> Protocol:
-    """One protocol."""
-    return Protocol(np.array([normal_amplitude]), np.array([tangential_amplitude]), np.array([phase]), p, q)
+) -> BimodalLoad:
+    """One load."""
+    return BimodalLoad(
+        np.array([normal_amplitude]), np.array([tangential_amplitude]), np.array([phase]), p, q
+    )
 
 
 def front_at(cycle: Cycle, instants: Array) -> tuple[Array, Array, NDArray[np.intp], NDArray[np.intp]]:
@@ -35,9 +37,9 @@ def front_at(cycle: Cycle, instants: Array) -> tuple[Array, Array, NDArray[np.in
 
 def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:
     """τ of the springs at depths ``g`` of the first cycle, shape (len(instants), len(g))."""
-    load = cycle.protocol
+    load = cycle.load
     front, sign, _, interval = front_at(cycle, instants)
-    depth, displacement = load.depth(instants[None])[0], load.displacement(instants[None])[0]
+    depth, displacement = load.normal(instants[None])[0], load.tangential(instants[None])[0]
     result = np.empty((len(instants), len(g)))
     for k, i in enumerate(interval):
         memory = cycle.memory.take((slice(0, 1), slice(i, i + 1)))
@@ -48,7 +50,7 @@ def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:
             start = np.append(0.0, start[1:])
         piece = np.searchsorted(start, g, side="right") - 1
         line = offset[piece] + np.where(slope[piece] == GROWTH, 0.0, slope[piece]) * (g - start[piece])
-        grown = load.displacement(load.touch_down(g[None], branch[piece][None]))[0]
+        grown = load.tangential(load.touch_down(g[None], branch[piece][None]))[0]
         held = np.where(slope[piece] == GROWTH, grown, line)
         w = depth[k] - g
         result[k] = np.where(g < front[k], displacement[k] - held, sign[k] * w)
@@ -58,7 +60,7 @@ def tangential_force(cycle: Cycle, g: Array, instants: Array) -> Array:
 
 def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[float], float]]]:
     """dτ/dG of the first cycle at an instant: from depth, to depth, slope over G."""
-    load = cycle.protocol
+    load = cycle.load
     front, sign, piece, interval = (values[0] for values in front_at(cycle, np.array([instant])))
     start, slope, branch = (getattr(cycle.memory, name)[0, interval] for name in ("start", "slope", "branch"))
 
@@ -66,13 +68,13 @@ def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[f
         if slope[k] != GROWTH:
             return -float(slope[k])
         touch = load.touch_down(np.array([g]), branch[k : k + 1])
-        return -float((load.displacement_rate(touch) / load.depth_rate(touch))[0])
+        return -float((load.tangential_rate(touch) / load.normal_rate(touch))[0])
 
     ends = np.append(np.minimum(start[: piece + 1], front), front)
     found: list[tuple[float, float, Callable[[float], float]]] = [
         (ends[k], ends[k + 1], partial(piece_slope, k=k)) for k in range(piece + 1) if ends[k] < ends[k + 1]
     ]
-    depth = load.depth(np.array([[instant]]))[0, 0]
+    depth = load.normal(np.array([[instant]]))[0, 0]
     if depth > front:
         found.append((front, depth, lambda g: -float(sign)))
     return found

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from memory import front_at, protocol, tangential_force
+from memory import front_at, harmonic, tangential_force
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 from oracles.springs import bimodal, spring_forces
 
 from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 
 Array = NDArray[np.float64]
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (5, 4)]
@@ -28,7 +28,7 @@ def test_memory_diagram_is_the_clip_rule_in_its_second_and_any_later_period(p: i
         load = random_load(rng)
         instants = np.sort(rng.uniform(0.0, 2.0 * np.pi, 40))
         depths = np.sort(rng.uniform(0.0, 1.0 + load[0], 200))
-        found = tangential_force(solve_cycle(protocol(*load, p, q)), depths, instants)
+        found = tangential_force(solve_cycle(harmonic(*load, p, q)), depths, instants)
         path = bimodal(*load, p, q, periods=3)
         for period in (1, 2):
             expected = spring_forces(path, depths, instants + 2.0 * np.pi * period)
@@ -43,7 +43,7 @@ def test_no_spring_exceeds_coulombs_limit_and_the_edge_is_free(p: int, q: int) -
     instants = np.linspace(0.0, 2.0 * np.pi, 101)
     depths = np.linspace(0.0, 1.0 + load[0], 301)
     w = np.maximum(1.0 + load[0] * np.sin(q * instants + load[2])[:, None] - depths, 0.0)
-    force = tangential_force(solve_cycle(protocol(*load, p, q)), depths, instants)
+    force = tangential_force(solve_cycle(harmonic(*load, p, q)), depths, instants)
     assert np.all(np.abs(force) <= w + 1e-14)
 
 
@@ -59,7 +59,7 @@ def test_something_slips_where_a_spring_in_contact_changes_its_offset(p: int, q:
         offset = u * np.sin(p * instants)[:, None] - spring_forces(path, depths, instants)
         touches = 1.0 + d * np.sin(q * instants + phase)[:, None] > depths
         change = np.abs(np.diff(offset, axis=0))[touches[1:] & touches[:-1]].max()
-        slips = solve_cycle(protocol(d, u, phase, p, q)).slips()[0]
+        slips = solve_cycle(harmonic(d, u, phase, p, q)).slips()[0]
         assert slips == (change > 1e-7)
         sticks.append(not slips)
     if p == q:
@@ -76,7 +76,7 @@ def test_the_whole_contact_slides_where_the_slip_lines_cross() -> None:
         displacement = u[:, None] * np.sin(p * fine)
         overlap = (displacement - depth).max(axis=1) - (displacement + depth).min(axis=1)
         clear = np.abs(overlap) > 1e-5  # the sampling's error
-        slides = solve_cycle(Protocol(d, u, psi, p, q)).gross_slip
+        slides = solve_cycle(BimodalLoad(d, u, psi, p, q)).gross_slip
         np.testing.assert_array_equal(slides[clear], overlap[clear] > 0.0)
         seen.extend(slides[clear])
     assert 0.2 < np.mean(seen) < 0.8
@@ -84,7 +84,7 @@ def test_the_whole_contact_slides_where_the_slip_lines_cross() -> None:
 
 def test_contact_is_lost_where_the_oscillation_exceeds_the_depth() -> None:
     amplitudes = np.array([0.0, 0.5, 1.0, np.nextafter(1.0, 2.0), 1.2])
-    loads = Protocol(amplitudes, np.full(5, 0.5), np.zeros(5), 1, 1)
+    loads = BimodalLoad(amplitudes, np.full(5, 0.5), np.zeros(5), 1, 1)
     np.testing.assert_array_equal(solve_cycle(loads).lift_off, [False, False, False, True, True])
 
 
@@ -98,7 +98,7 @@ def test_nothing_is_remembered_through_lift_off() -> None:
     fresh = type(path)(
         path.depth, path.displacement, np.append(touch_down, path.turns[path.turns > touch_down])
     )
-    found = tangential_force(solve_cycle(protocol(d, u, psi)), depths, instants)
+    found = tangential_force(solve_cycle(harmonic(d, u, psi)), depths, instants)
     np.testing.assert_allclose(found, spring_forces(fresh, depths, instants), rtol=0.0, atol=1e-13)
 
 
@@ -112,7 +112,7 @@ def mindlin_force(u: Array) -> Array:
 
 def tangential_load(cycle_amplitude: float, instants: Array) -> Array:
     """F/(μP) of the package's springs: ∫ 2τ dξ, exact by Gauss's rule between the breakpoints."""
-    cycle = solve_cycle(protocol(0.0, cycle_amplitude))
+    cycle = solve_cycle(harmonic(0.0, cycle_amplitude))
     node, weight = leggauss(4)
     load = np.empty(len(instants))
     for k, front in enumerate(front_at(cycle, instants)[0]):
@@ -126,7 +126,7 @@ def tangential_load(cycle_amplitude: float, instants: Array) -> Array:
 
 @pytest.mark.parametrize("amplitude", [0.05, 0.5, 5 / 6, 0.999])
 def test_cattaneo_mindlin_stick_radius(amplitude: float) -> None:
-    cycle = solve_cycle(protocol(0.0, amplitude))
+    cycle = solve_cycle(harmonic(0.0, amplitude))
     instants = np.linspace(0.51 * np.pi, 1.49 * np.pi, 25)  # unloading from +U
     front = front_at(cycle, instants)[0]
     np.testing.assert_allclose(front, 1.0 - 0.5 * amplitude * (1.0 - np.sin(instants)), rtol=1e-13)

@@ -5,9 +5,10 @@ import pytest
 
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
@@ -32,7 +33,7 @@ def contact(load, name):
     amplitude, p, q, displacement, phase = LOADS[load]
     one = (np.array([v]) for v in (amplitude, displacement, phase))
     shape = {key: np.array(value) for key, value in PROFILES[name].items()}
-    return solve_cycle(Protocol(*one, p, q)), make_profile(name, shape, np.array([1.0 + amplitude]))
+    return solve_cycle(BimodalLoad(*one, p, q)), make_profile(name, shape, np.array([1.0 + amplitude]))
 
 
 @pytest.mark.parametrize("name", PROFILES)
@@ -46,10 +47,10 @@ def test_surface_line(load, name):
     # Inside of a flat face, between, and out of contact; not at the ring where the pressure is infinite.
     r = np.array([0.2, 0.45, 0.6, 0.85, 1.1, 1.4, 1.9])
     friction, poisson_ratio = 0.4, 0.3
-    states = contact_states(cycle, profile, interval, instant, cells=100)
+    states = contact_states(cycle, DepthCoordinate(profile), interval, instant, cells=100)
     stress = states.stress(np.concatenate([r, -r]), 0.0, 0.0, friction, poisson_ratio)
 
-    line = SurfaceLine(cycle, profile, r[None], 9.0)
+    line = SurfaceLine(cycle, DepthCoordinate(profile), r[None], 9.0)
     every = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
     history = line.history(Nodes(interval[None], instant[None], every))
     ν, μ = np.array([poisson_ratio]), np.array([friction])
@@ -61,5 +62,5 @@ def test_surface_line(load, name):
 def test_touch_down_leaves_no_ground_of_rounding():
     """Where contact was made at δ = 1e-15, ground had grown with the displacement of an earlier instant."""
     one = (np.array([v]) for v in (1.5, 0.1, 1.0088946151077967))
-    memory = solve_cycle(Protocol(*one, 1, 2)).memory
+    memory = solve_cycle(BimodalLoad(*one, 1, 2)).memory
     assert (memory.stop[np.isfinite(memory.start) & (memory.slope == GROWTH)] > 1e-3).all()

@@ -9,9 +9,10 @@ from scenes import PROFILE_NAMES, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt, product
 from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
@@ -139,12 +140,12 @@ def test_mirror_order_and_scale_of_the_history() -> None:
 
 def stress_history(point: Points, x: float, instants: Array) -> Stress:
     """The stress at x over the stationary cycle of one point, each component (1, T)."""
-    load = Protocol(
+    load = BimodalLoad(
         point.normal_amplitude, point.tangential_amplitude, point.phase, int(point.p[0]), int(point.q[0])
     )
     cycle = solve_cycle(load)
     profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
-    line = SurfaceLine(cycle, profile, np.array([[abs(x)]]), 9.0)
+    line = SurfaceLine(cycle, DepthCoordinate(profile), np.array([[abs(x)]]), 9.0)
     interval = np.searchsorted(cycle.end[0], instants)[None]
     history = line.history(Nodes(interval, instants[None], np.arange(instants.size)[None, None]))
     sigma = stresses(history, point.poisson_ratio, point.friction, np.sign(x))

@@ -11,17 +11,16 @@ from scenes import points
 from soundness import regime_names, sound
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import body
 from swtstudy.mechanics.events.instants import split_at_breakpoints
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.singular_edge import _swt
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.planes.through_y import product
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 
-def scene_of(batch: Points) -> Scene:
-    scene = body.scene_of(batch)
+def split_scene(batch: Points) -> Scene:
+    scene = scene_of(batch)
     return replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
 
 
@@ -56,7 +55,7 @@ def test_not_finite(values: tuple[float, ...]) -> None:
         for plane in (0.0, 0.5 * np.pi, -0.5 * np.pi):
             start = np.full(position.shape, plane)
             tops.append(
-                refine(scene_of(batch), position, np.array([side]), start, Resolution(8, 4, 24))[0][0]
+                refine(split_scene(batch), position, np.array([side]), start, Resolution(8, 4, 24))[0][0]
             )
     growth = np.diff(np.max(tops, axis=0))
     assert growth[-1] > 0.0
@@ -81,7 +80,7 @@ def test_finite(values: tuple[float, ...]) -> None:
 @pytest.mark.parametrize(("side", "start"), [(1.0, 1.5), (1.0, -1.5), (-1.0, 1.5), (-1.0, -1.5)])
 def test_the_limit_agrees_with_the_stress_beside_it(side: float, start: float) -> None:
     # ε = e^−18: what the limit leaves out is of the order ε, and r still holds ε to seven digits.
-    scene = scene_of(truncated(0.95, 0.75, 2.0, 0.7, 1.0))
+    scene = split_scene(truncated(0.95, 0.75, 2.0, 0.7, 1.0))
     position = np.array([[1.0 + np.exp(-18.0)]])
     swt, angle = _swt(scene, -np.log(position - 1.0), side, start, 24, 24)
     # By brute force: all instants, no interpolation.

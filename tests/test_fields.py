@@ -7,11 +7,12 @@ from ContactMechanics.ReferenceSolutions import Hertz
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics.body.body import nodes_at, scene_of
+from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.line import SurfaceLine, stresses
+from swtstudy.mechanics.stress.scene import scene_of
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():
@@ -54,7 +55,7 @@ def test_field_on_the_surface_is_that_of_the_line(profile):
     r = np.array([[0.05, 0.3, 0.51, 0.9, 1.3, 1.7]])
     nodes = nodes_at(scene, instant)
     index = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
-    line = SurfaceLine(scene.cycle, scene.profile, r, 9.0)
+    line = SurfaceLine(scene.cycle, scene.coordinate, r, 9.0)
     history = line.history(Nodes(nodes.interval[None], instant[None], index))
     expected = stresses(history, scene.poisson_ratio, scene.friction, 1.0)
     field = swtstudy.stress_field(r[0], 0.0, 0.0, time=2 * instant, **parameters)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from memory import protocol, tangential_force
+from memory import harmonic, tangential_force
 from numpy.typing import NDArray
 from oracles.jaeger import JaegerContact
 from oracles.memory_diagram import MemoryDiagram
@@ -16,6 +16,7 @@ from oracles.springs import bimodal, polygon, spring_forces
 from scipy.integrate import trapezoid
 
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress.line import SurfaceLine
@@ -87,13 +88,15 @@ def test_the_package_goes_the_same_way_on_harmonic_paths(
     p: int, q: int, amplitudes: tuple[float, float]
 ) -> None:
     load = (*amplitudes, 0.9)
-    cycle = solve_cycle(protocol(*load, p, q))
-    profile = make_profile("paraboloid", {}, 1.0 + cycle.protocol.normal_amplitude)
+    cycle = solve_cycle(harmonic(*load, p, q))
+    profile = make_profile("paraboloid", {}, cycle.load.largest_normal)
     instants = np.array([0.4, 1.7, 3.1, 4.4, 5.9])
     interval = np.searchsorted(cycle.end[0], instants)[None]
     position = np.linspace(0.05, 1.4, 40)
     index = np.broadcast_to(np.arange(instants.size), (1, position.size, instants.size))
-    found = SurfaceLine(cycle, profile, position[None], 9.0).history(Nodes(interval, instants[None], index))
+    found = SurfaceLine(cycle, DepthCoordinate(profile), position[None], 9.0).history(
+        Nodes(interval, instants[None], index)
+    )
 
     # Through all turns; a chord of growth in stick leaves a kink that q sees to (2π/300)^1.5 ~ 3e-3 of it.
     steps = 2.0 * np.pi / (300 * max(p, q))
@@ -115,7 +118,7 @@ def test_the_adapter_reads_the_same_forces_as_jaegers_terms() -> None:
     # δA = 0: no growth, so that Jäger's steps are exact whatever their size.
     instants = np.array([0.8, 2.0, 3.5, 5.0])
     g = np.linspace(0.0, 1.0, 101)
-    found = tangential_force(solve_cycle(protocol(0.0, 0.7)), g, instants)
+    found = tangential_force(solve_cycle(harmonic(0.0, 0.7)), g, instants)
     jaeger = JaegerContact(1.0, 0.0)
     turns = np.array([0.5 * np.pi, 1.5 * np.pi, 2.0 * np.pi, 2.5 * np.pi, 3.5 * np.pi])
     for time in np.sort(np.append(turns, instants + 2.0 * np.pi)):

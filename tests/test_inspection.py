@@ -38,9 +38,9 @@ def test_the_stress_cycle_makes_s(parameters):
 @pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
 def test_springs_are_those_of_the_clip_rule(parameters):
     scene = read_scene(parameters)
-    protocol = scene.cycle.protocol
+    load = scene.cycle.load
     instant = np.linspace(0.0, 2.0 * np.pi, 20001)
-    depth, u = (f(instant[None])[0] for f in (protocol.depth, protocol.displacement))
+    depth, u = (f(instant[None])[0] for f in (load.normal, load.tangential))
     radius = np.linspace(0.0, float(scene.profile.radius(np.array([[depth.max()]]))[0, 0]), 40)
     w, tau = march_springs(scene.profile.depth(radius[None])[0], depth, u)
     some = slice(None, None, 400)

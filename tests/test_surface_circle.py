@@ -7,10 +7,11 @@ import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.line import circle_gain
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.line import SurfaceLine
@@ -18,7 +19,7 @@ from swtstudy.mechanics.stress.line import SurfaceLine
 
 def contact():
     one = (np.array([v]) for v in (0.5, 0.1, 0.6))
-    return solve_cycle(Protocol(*one, 1, 1)), make_profile("paraboloid", {}, np.array([1.5]))
+    return solve_cycle(BimodalLoad(*one, 1, 1)), make_profile("paraboloid", {}, np.array([1.5]))
 
 
 @pytest.mark.parametrize("r", [0.4, 0.9, 1.2, 1.5])
@@ -28,10 +29,10 @@ def test_stress_is_that_of_the_field(r):
     share = np.tile([0.1, 0.5, 0.9], cycle.begin.shape[1])
     instant = cycle.begin[0, interval] + share * (cycle.end - cycle.begin)[0, interval]
     angle = np.linspace(0.0, np.pi, 7)
-    line = SurfaceLine(cycle, profile, np.array([[r]]), 8.0)
+    line = SurfaceLine(cycle, DepthCoordinate(profile), np.array([[r]]), 8.0)
     history = line.history(Nodes(interval[None], instant[None], np.arange(instant.size)[None, None]))
     blocks = history.take(0)
-    states = contact_states(cycle, profile, interval, instant, cells=200)
+    states = contact_states(cycle, DepthCoordinate(profile), interval, instant, cells=200)
     expected = states.stress(r * np.cos(angle), r * np.sin(angle), 0.0, 0.4, 0.3)
     found = circle_stress(blocks, np.array([0.3]), np.array([0.4]), angle[None])[0]
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)

@@ -13,6 +13,7 @@ from oracles.hamilton import hamilton
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
@@ -31,15 +32,17 @@ def history_at(cycle: Cycle, profile: Profile, position: Array, instants: Array)
     """Building blocks of the stress of the first cycle at all positions and instants, each (1, X, T)."""
     interval = np.searchsorted(cycle.end[0], instants)[None]
     index = np.broadcast_to(np.arange(instants.size), (1, position.size, instants.size))
-    return SurfaceLine(cycle, profile, position[None], DIGITS).history(Nodes(interval, instants[None], index))
+    return SurfaceLine(cycle, DepthCoordinate(profile), position[None], DIGITS).history(
+        Nodes(interval, instants[None], index)
+    )
 
 
 def stress_at(
     load: dict[str, Any], x: Array, instants: Array, nu: float, mu: float
 ) -> tuple[Array, Array, Array, Array]:
     """σ_xx, σ_yy, σ_zz, σ_xz of a paraboloid, each (X, T)."""
-    cycle = solve_cycle(memory.protocol(**load))
-    paraboloid = make_profile("paraboloid", {}, 1.0 + cycle.protocol.normal_amplitude)
+    cycle = solve_cycle(memory.harmonic(**load))
+    paraboloid = make_profile("paraboloid", {}, cycle.load.largest_normal)
     history = history_at(cycle, paraboloid, np.abs(x), instants)
     side = np.sign(x)[None, :, None]
     xx, yy, zz, xz = stresses(history, np.array([nu]), np.array([mu]), side)
@@ -51,7 +54,7 @@ X = np.array([-1.4, -1.05, -0.97, -0.6, -0.2, 0.15, 0.5, 0.9, 1.02, 1.3])
 
 def test_hertz_pressure_and_load() -> None:
     instants = np.linspace(0.0, 2.0 * np.pi, 13)
-    cycle = solve_cycle(memory.protocol(0.5, 0.3, 0.4))
+    cycle = solve_cycle(memory.harmonic(0.5, 0.3, 0.4))
     position = np.array([0.05, 0.4, 0.8, 1.1, 1.5])
     history = history_at(cycle, make_profile("paraboloid", {}, np.array([1.5])), position, instants)
     depth = 1.0 + 0.5 * np.sin(instants + 0.4)
@@ -117,12 +120,12 @@ def test_half_a_tangential_cycle_later_the_other_side_has_the_same_stress() -> N
 def random_cycle(seed: int, p: int, q: int) -> Cycle:
     rng = np.random.default_rng([seed, p, q])
     amplitudes = rng.uniform(0.05, 0.95), rng.uniform(0.05, 1.2)
-    return solve_cycle(memory.protocol(*amplitudes, rng.uniform(0.0, 2.0 * np.pi), p, q))
+    return solve_cycle(memory.harmonic(*amplitudes, rng.uniform(0.0, 2.0 * np.pi), p, q))
 
 
 def profile_of(indenter: oracle.Indenter, cycle: Cycle) -> Profile:
     shape = {name: np.array([value]) for name, value in indenter.shape.items()}
-    return make_profile(indenter.profile, shape, 1.0 + cycle.protocol.normal_amplitude)
+    return make_profile(indenter.profile, shape, cycle.load.largest_normal)
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -130,7 +133,7 @@ def profile_of(indenter: oracle.Indenter, cycle: Cycle) -> Profile:
 def test_traction_obeys_coulombs_law(name: str, p: int, q: int) -> None:
     cycle = random_cycle(0, p, q)
     profile = profile_of(SHAPES[name], cycle)
-    largest = profile.radius(1.0 + cycle.protocol.normal_amplitude[:, None])[0, 0]
+    largest = profile.radius(cycle.load.largest_normal[:, None])[0, 0]
     position = largest * np.linspace(0.013, 1.01, 60)
     history = history_at(cycle, profile, position, np.linspace(0.0, 2.0 * np.pi, 97)[:-1])
     # The tables of the profiles are exact to 1e-9 of the largest stress.
@@ -143,7 +146,7 @@ def test_traction_obeys_coulombs_law(name: str, p: int, q: int) -> None:
 @pytest.mark.parametrize(("p", "q"), [(1, 1), (1, 2), (5, 2)])
 def test_stress_by_growth_in_stick_against_quadrature(name: str, p: int, q: int) -> None:
     # A cycle whose normal motion is faster than the tangential one: ground grows in stick.
-    cycle = solve_cycle(memory.protocol(0.7, 0.4 * q / p, 0.5, p, q))
+    cycle = solve_cycle(memory.harmonic(0.7, 0.4 * q / p, 0.5, p, q))
     indenter, profile = SHAPES[name], profile_of(SHAPES[name], cycle)
     position = profile.radius(np.array([[0.2, 0.9, 1.45]]))[0]
     instants = np.linspace(0.03, 2.0 * np.pi, 4, endpoint=False)

@@ -8,7 +8,7 @@ import numpy as np
 from histories import INSTANTS, history_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.body.body import scene_of
+from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.reference.textbook import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.

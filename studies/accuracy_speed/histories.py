@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.body.body import nodes_at, scene_of
+from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.stress.line import History, SurfaceLine
+from swtstudy.mechanics.stress.scene import scene_of
 
 INSTANTS, DIGITS = 64, 6.0
 
@@ -17,5 +18,5 @@ def history_at(point: Points, radius: np.ndarray) -> History:
     scene = scene_of(point)
     nodes = nodes_at(scene, 2.0 * np.pi * (np.arange(INSTANTS) + 0.5) / INSTANTS)
     index = np.broadcast_to(np.arange(INSTANTS), (1, len(radius), INSTANTS))
-    line = SurfaceLine(scene.cycle, scene.profile, radius[None], DIGITS)
+    line = SurfaceLine(scene.cycle, scene.coordinate, radius[None], DIGITS)
     return line.history(Nodes(nodes.interval[None], nodes.instant[None], index))

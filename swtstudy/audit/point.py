@@ -9,9 +9,9 @@ import numpy as np
 
 from swtstudy.grid.canonical import points_from
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body.body import scene_of
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.mechanics.stress.scene import scene_of
 
 #: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
 #: the last one for points without a finite s, or whose maximum is where the pressure has no bound.

@@ -12,7 +12,7 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
-from swtstudy.mechanics.contact.stick_depth import stick_depth
+from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution
@@ -75,7 +75,6 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     """
     scene = read_scene(parameters)
     solved = solve(**parameters)  # type: ignore[arg-type]
-    protocol = scene.cycle.protocol
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
     line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
@@ -85,11 +84,12 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
         double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
-    oscillations = max(protocol.p, protocol.q)
+    load = scene.cycle.load
+    oscillations = max(load.oscillations)
     count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
     uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
     nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
-    time = protocol.q * nodes.instant
+    time = load.oscillations[0] * nodes.instant
     cycle = _load(scene, nodes) | _stress_cycle(scene, nodes, x, double_angle)
     told, reasons = _telling_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
     some = TimeNodes(nodes.interval[told], nodes.instant[told])
@@ -123,20 +123,26 @@ def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
 
 def _extent(scene: Scene) -> Variables:
     """How far the contact reaches at least and at most, and what of it never slips."""
-    d = scene.cycle.protocol.normal_amplitude
-    least, largest = scene.profile.radius(np.stack([1.0 - d, 1.0 + d], axis=1))[0]
-    stick = stick_depth(scene.cycle.protocol)
-    permanent = scene.profile.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
+    load, coordinate = scene.cycle.load, scene.coordinate
+    least, largest = coordinate.radius(np.stack([load.least_normal, load.largest_normal], axis=1))[0]
+    stick = stick_coordinate(load)
+    if load.least_normal[0] <= 0.0:
+        least = 0.0
+    permanent = coordinate.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
     return {
         "permanent_stick_radius": ((), permanent, _words("radius that always sticks", "c/a_H")),
-        "least_radius": ((), least if d[0] < 1.0 else 0.0, _words("least contact radius", "a/a_H")),
+        "least_radius": (
+            (),
+            least,
+            _words("least contact radius", "a/a_H"),
+        ),
         "largest_radius": ((), largest, _words("largest contact radius", "a/a_H")),
     }
 
 
 def _radii(scene: Scene, special: list[float]) -> FloatArray:
     """Distances from the axis: evenly spread, at special places, and not where the pressure is infinite."""
-    largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
+    largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
     b = float(scene.profile.flat_radius[0])
     places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
     radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), places)
@@ -144,8 +150,8 @@ def _radii(scene: Scene, special: list[float]) -> FloatArray:
 
 
 def _load(scene: Scene, nodes: TimeNodes) -> Variables:
-    protocol = scene.cycle.protocol
-    depth, u = (f(nodes.instant[None])[0] for f in (protocol.depth, protocol.displacement))
+    load = scene.cycle.load
+    depth, u = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
     return {
         "depth": ("time", depth, _words("indentation depth", r"\delta/\delta_0")),
         "displacement": ("time", u, _words("tangential displacement", r"G^* u/(\mu E^* \delta_0)")),
@@ -154,7 +160,7 @@ def _load(scene: Scene, nodes: TimeNodes) -> Variables:
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
     index = np.broadcast_to(np.arange(nodes.instant.size), (1, radius.size, nodes.instant.size))
-    surface = SurfaceLine(scene.cycle, scene.profile, radius[None], _RESOLUTION.digits)
+    surface = SurfaceLine(scene.cycle, scene.coordinate, radius[None], _RESOLUTION.digits)
     return surface.history(Nodes(nodes.interval[None], nodes.instant[None], index))
 
 

@@ -8,9 +8,8 @@ from fractions import Fraction
 import numpy as np
 
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.body.body import scene_of
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PROFILE_SHAPES
 

@@ -84,7 +84,7 @@ def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNode
     time, nodes
         ω1 t, and the same instants of the cycle in the order of time.
     """
-    q = scene.cycle.protocol.q
+    q = scene.cycle.load.oscillations[0]
     if time is None:
         time = 2.0 * np.pi * q * np.arange(DEFAULT_INSTANTS) / DEFAULT_INSTANTS
     array = numbers(time)

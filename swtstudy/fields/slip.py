@@ -38,18 +38,17 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         If a distance, an instant or a parameter is not allowed.
     """
     scene = read_scene(parameters)
-    cycle, profile = scene.cycle, scene.profile
     instants, nodes = read_time(scene, time)
     distances = np.atleast_1d(numbers(r))
     if distances.ndim > 1 or distances.size == 0 or not (np.isfinite(distances) & (distances >= 0.0)).all():
         raise ValueError("r: allowed: a finite distance r ≥ 0 in a_H or a sequence of them")
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = cycle.states(nodes.interval[None], nodes.instant[None])
-    depth, front, sign = states.depth, states.front, states.sign
-    at = profile.depth(radius.values[None])[0]
+    states = scene.cycle.states(nodes.interval[None], nodes.instant[None])
+    edge, front, sign = states.edge, states.front, states.sign
+    at = scene.coordinate.of(radius.values[None])[0]
     slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
-    state = np.where(at < front[0][:, None], 1, np.where(at < depth[0][:, None], slips, 0)).astype(np.int8)
+    state = np.where(at < front[0][:, None], 1, np.where(at < edge[0][:, None], slips, 0)).astype(np.int8)
     flags = {
         "long_name": "state of the contact",
         "flag_values": np.arange(len(STATES), dtype=np.int8),
@@ -58,8 +57,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
     }
-    for name, values in (("slip_radius", front), ("contact_radius", depth)):
-        there = np.where(depth > 0.0, profile.radius(values), 0.0).reshape(instants.shape)
+    for name, values in (("slip_radius", front), ("contact_radius", edge)):
+        there = np.where(edge > 0.0, scene.coordinate.radius(values), 0.0).reshape(instants.shape)
         meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
         variables[name] = (instants.dims, there, meaning)
     return xr.Dataset(variables, {"time": instants, "r": radius})

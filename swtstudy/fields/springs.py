@@ -29,13 +29,13 @@ def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[F
     """
     cycle = scene.cycle
     states = cycle.states(nodes.interval[None], nodes.instant[None])
-    depth, u, front, sign = (
-        values[0][:, None] for values in (states.depth, states.displacement, states.front, states.sign)
+    edge, tangential, front, sign = (
+        values[0][:, None] for values in (states.edge, states.tangential, states.front, states.sign)
     )
-    at = scene.profile.depth(radius[None])[0]
+    at = scene.coordinate.of(radius[None])[0]
     piece = np.maximum((cycle.memory.start[0, nodes.interval, None] <= at[:, None]).sum(axis=-1) - 1, 0)
     pieces = cycle.memory.take((np.zeros_like(piece)[None], nodes.interval[:, None], piece))
-    stuck = u - held_offset(cycle.protocol, pieces, np.broadcast_to(at, (1, *piece.shape)))[0]
-    compression = np.maximum(depth - at, 0.0)
+    stuck = tangential - held_offset(cycle.load, pieces, np.broadcast_to(at, (1, *piece.shape)))[0]
+    compression = np.maximum(edge - at, 0.0)
     force = np.where(at < front, stuck, sign * compression)
     return compression, np.where(compression > 0.0, force, 0.0)

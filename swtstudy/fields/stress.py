@@ -52,8 +52,8 @@ def stress_field(
     variables = {
         f"sigma_{name}": (dims, stress[..., i], _attributes(name)) for i, name in enumerate(COMPONENTS)
     }
-    depth = np.maximum(scene.cycle.protocol.depth(nodes.instant[None]), 0.0)
-    radius = np.where(depth > 0.0, scene.profile.radius(depth), 0.0).reshape(instants.shape)
+    depth = np.maximum(scene.cycle.load.normal(nodes.instant[None]), 0.0)
+    radius = np.where(depth > 0.0, scene.coordinate.radius(depth), 0.0).reshape(instants.shape)
     meaning = {
         "long_name": "contact radius, in units of a_H = sqrt(R delta0)",
         "units": "1",

@@ -43,6 +43,13 @@ class Points:
     def __len__(self) -> int:
         return len(self.phase)
 
+    def take(self, index: NDArray[np.intp]) -> Points:
+        """The points at ``index``, repetitions allowed."""
+        columns = dict(vars(self))
+        profile, shape = columns.pop("profile"), columns.pop("shape")
+        taken = {name: values[index] for name, values in columns.items()}
+        return Points(profile, **taken, shape={name: values[index] for name, values in shape.items()})
+
 
 @dataclass(frozen=True)
 class Solution:

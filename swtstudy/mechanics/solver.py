@@ -1,4 +1,4 @@
-"""From parameter points to s: batches that share protocols, bounded in memory."""
+"""From parameter points to s: batches that share loads, bounded in memory."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
 from swtstudy.mechanics.line.circle_gain import circle_gain
 from swtstudy.mechanics.line.climb import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.load.bimodal import Protocol
-from swtstudy.mechanics.points import REGIMES, Points, Solution
+from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
+from swtstudy.mechanics.points import REGIMES, FloatArray, Points, Solution
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter.
@@ -44,47 +45,44 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         Arrays of shape (n,). The value of a point does not depend on the others.
     """
     n = len(points)
-    _, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    _, left_out = resolved_shape(points.profile, points.shape, _largest_depth(points))
     s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
-    for index, cycle in _batches(points):
-        shape = {name: values[index] for name, values in points.shape.items()}
-        profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
-        scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
-        lost = not_finite(profile, cycle, scene.friction)
+    for index, scene in _scenes(points):
+        lost = not_finite(scene)
         found = _maximum(scene, np.flatnonzero(~lost), accuracy)
         s[index] = found.swt
         error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
         surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
         position[index] = found.position
         angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
-        state = np.where(cycle.slips(), "partial_slip", "stick")
-        state = np.where(cycle.gross_slip, "gross_slip", state)
-        state = np.where(cycle.lift_off, "lift_off", state)
-        state = np.where(lost, "not_finite", state)
-        regime[index] = [REGIMES.index(name) for name in state]
+        regime[index] = _regime(scene.cycle, lost)
     return Solution(s, error, position, angle, regime, surface)
 
 
-def _batches(points: Points) -> Iterator[tuple[NDArray[np.intp], Cycle]]:
-    """Indices of points with the same frequency ratio and roughness, and their contact cycles."""
-    if not len(points):
-        return
-    level = roughness(points.profile, points.shape, 1.0 + points.normal_amplitude)
-    loads = points.phase, points.tangential_amplitude, points.normal_amplitude
-    order = np.lexsort((*loads, points.p, points.q))
-    ratio = np.stack([points.p, points.q])[:, order]
-    for group in np.split(order, np.flatnonzero((np.diff(ratio, axis=1) != 0).any(axis=0)) + 1):
-        turns = 6 * int(max(points.p[group[0]], points.q[group[0]]))
+def _largest_depth(points: Points) -> FloatArray:
+    return 1.0 + points.normal_amplitude
+
+
+def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
+    """Indices of points that are solved together, and their scenes: of one kind of load and one roughness."""
+    largest = _largest_depth(points)
+    level = roughness(points.profile, points.shape, largest)
+    for group in alike(points):
+        turns = largest_turn_count(points.take(group))
         size = max(min(BATCH_SIZE // turns, BATCH_SQUARES // turns**2), 1)
         for sharing in _split(group, SHARING * size):
             # One contact solution for all profiles.
-            protocol, load = _shared_protocols(points, sharing)
-            cycle = solve_cycle(protocol)
-            for alike in np.unique(level[sharing]):
-                for rows in _split(np.flatnonzero(level[sharing] == alike), size):
-                    yield sharing[rows], cycle.take(load[rows])
+            load, number = shared_load(points.take(sharing))
+            cycle = solve_cycle(load)
+            for same in np.unique(level[sharing]):
+                for rows in _split(np.flatnonzero(level[sharing] == same), size):
+                    some = points.take(sharing[rows])
+                    profile = make_profile(some.profile, some.shape, largest[sharing[rows]])
+                    coordinate = DepthCoordinate(profile)
+                    scene = Scene(cycle.take(number[rows]), coordinate, some.poisson_ratio, some.friction)
+                    yield sharing[rows], scene
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
@@ -92,15 +90,12 @@ def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
     return np.array_split(index, -(-len(index) // size))
 
 
-def _shared_protocols(points: Points, index: NDArray[np.intp]) -> tuple[Protocol, NDArray[np.intp]]:
-    """The distinct load protocols of a batch, and which of them each point has."""
-    loads = np.stack(
-        [points.normal_amplitude[index], points.tangential_amplitude[index], points.phase[index]], axis=1
-    )
-    distinct, load = np.unique(loads, axis=0, return_inverse=True)
-    normal, tangential, phase = distinct.T
-    p, q = int(points.p[index[0]]), int(points.q[index[0]])
-    return Protocol(normal, tangential, phase, p, q), load.reshape(-1)
+def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:
+    """Index into `REGIMES` of each point; those ``lost`` have no finite s."""
+    state = np.where(cycle.slips(), "partial_slip", "stick")
+    for name, where in (("gross_slip", cycle.gross_slip), ("lift_off", cycle.lift_off), ("not_finite", lost)):
+        state = np.where(where, name, state)
+    return np.array([REGIMES.index(name) for name in state], dtype=np.int8)
 
 
 def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maximum:
@@ -108,7 +103,7 @@ def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maxi
     found = Maximum.unknown(len(scene), np.nan)
     if finite.size:
         found = found.put(finite, maximum(scene.take(finite), accuracy))
-    near = finite[may_be_largest(scene.profile, scene.cycle, scene.friction)[finite]]
+    near = finite[may_be_largest(scene)[finite]]
     if near.size:
         found = found.put(near, at_edge(scene.take(near), found.take(near), accuracy))
     return found

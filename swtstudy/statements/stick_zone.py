@@ -9,9 +9,10 @@ import numpy as np
 from swtstudy.grid.canonical import COLUMNS, points_from
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.contact.stick_depth import stick_depth
+from swtstudy.mechanics.contact.stick_zone import stick_coordinate
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PARAMETERS
@@ -42,12 +43,10 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
 
 def _radius(points: Points) -> FloatArray:
     """Radii of points of one profile family and frequency ratio, shape (n,)."""
-    protocol = Protocol(
-        points.normal_amplitude, points.tangential_amplitude, points.phase, int(points.p[0]), int(points.q[0])
-    )
-    depth = stick_depth(protocol)
-    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
-    return np.where(depth >= 0, profile.radius(np.maximum(depth, 0.0)[:, None])[:, 0], 0.0)
+    load = load_of(points)
+    at = stick_coordinate(load)
+    coordinate = DepthCoordinate(make_profile(points.profile, points.shape, load.largest_normal))
+    return np.where(at >= 0, coordinate.radius(np.maximum(at, 0.0)[:, None])[:, 0], 0.0)
 
 
 def _grid(dataset: xr.Dataset) -> Grid:

@@ -7,14 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.events.instants import cosine_nodes, stretches
-from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import Protocol
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
 from swtstudy.mechanics.planes.hooke import strain_history
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import ContactStates, contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -22,14 +19,6 @@ from swtstudy.mechanics.stress.scene import Scene
 _SUBDIVISIONS = 6
 #: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
 _HOT = 0.15
-
-
-def scene_of(points: Points) -> Scene:
-    """The contact cycle, profile and material of a batch of one parameter point."""
-    load = points.normal_amplitude, points.tangential_amplitude, points.phase
-    cycle = solve_cycle(Protocol(*load, int(points.p[0]), int(points.q[0])))
-    profile = make_profile(points.profile, points.shape, 1.0 + points.normal_amplitude)
-    return Scene(cycle, profile, points.poisson_ratio, points.friction)
 
 
 @dataclass(frozen=True)
@@ -58,7 +47,7 @@ class Body:
     @classmethod
     def of(cls, scene: Scene, nodes: TimeNodes, cells: int) -> Body:
         """The body at the given instants; ``cells`` as for `contact_states`."""
-        return cls(scene, contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, cells))
+        return cls(scene, contact_states(scene.cycle, scene.coordinate, nodes.interval, nodes.instant, cells))
 
     def stress(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """Stress history at points of shape S in a_H, shape S + (T, 6), in E* √(δ0/R)."""
@@ -90,8 +79,8 @@ def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
     """
     r = np.asarray(radius, dtype=float).reshape(1, -1)
     # A spring that never touches sees neither edge nor front.
-    depth = scene.profile.depth(r) if r.size else 2.0 + scene.cycle.protocol.normal_amplitude[:, None]
-    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, depth), count)
+    coordinate = scene.coordinate.of(r) if r.size else 1.0 + scene.cycle.load.largest_normal[:, None]
+    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, coordinate), count)
     return _sorted_nodes(scene, nodes.instant[0])
 
 

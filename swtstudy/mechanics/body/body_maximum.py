@@ -95,7 +95,7 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     maximum, at_line
         The search starts from the highest places of a first look and from the line's own maximum.
     """
-    largest = float(scene.profile.radius(1.0 + scene.cycle.protocol.normal_amplitude[:, None])[0, 0])
+    largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
     flat = float(scene.profile.flat_radius[0])
     search = _Search(scene, largest, min(_RING * largest, 0.9 * abs(own[0] - flat)))
@@ -139,8 +139,8 @@ def _radii(scene: Scene, largest: float) -> FloatArray:
     """Distances from the axis of the first look: ends of the memory's pieces and edges, and in between."""
     cycle, profile = scene.cycle, scene.profile
     start = cycle.memory.start[np.isfinite(cycle.memory.start)]
-    turns = np.maximum(1.0 + cycle.protocol.normal_amplitude[0] * np.array([-1.0, 1.0]), 0.0)
-    cusps = profile.radius(np.unique(np.concatenate([start, turns]))[None])[0]
+    turns = np.maximum(np.concatenate([cycle.load.least_normal, cycle.load.largest_normal]), 0.0)
+    cusps = scene.coordinate.radius(np.unique(np.concatenate([start, turns]))[None])[0]
     b = float(profile.flat_radius[0])
     between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])

@@ -1,12 +1,4 @@
-"""The contact solution: the memory diagram of the MDR springs in the depth coordinate G = g(ξ)/δ0.
-
-A spring at G carries the normal compression w = δ − G and the tangential force τ = u − o, |τ| ≤ w. Its
-offset o(G, t) is the only memory: while in contact it is clipped to [ℓ + G, r − G] with ℓ = u − δ and
-r = u + δ, and it starts with o = u at touch-down. Hence o(G) is made of few pieces: lines of slope ±1 left
-by slip (o = ℓ + G, o = r − G), the curve o = u(touch-down of G) left by growth in stick, and o = 0 where
-nothing ever slipped. They form a stack: slip pops pieces from the edge and pushes one, the loss of contact
-pops. The solution does not depend on the profile.
-"""
+"""The stationary cycle of the contact: its intervals, and the state of the springs at any instant."""
 
 from __future__ import annotations
 
@@ -16,59 +8,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.memory import Memory
-from swtstudy.mechanics.contact.slip_front import slip_front
-from swtstudy.mechanics.load.bimodal import Protocol
+from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states
+from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.points import FloatArray
 
-#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, as a share of the depth.
+#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative.
 NO_SLIP = 1e-13
 
 
 @dataclass(frozen=True)
-class SlipStates:
-    """Contact states at instants, arrays of shape (n, …).
-
-    Attributes
-    ----------
-    depth, displacement
-        δ ≥ 0 and u.
-    front, sign, piece
-        See `slip_front`.
-    """
-
-    depth: FloatArray
-    displacement: FloatArray
-    front: FloatArray
-    sign: FloatArray
-    piece: NDArray[np.intp]
-
-
-@dataclass(frozen=True)
 class Cycle:
-    """The stationary cycle of n protocols, cut into i intervals between turning instants.
+    """The stationary cycle of n loads, cut into i intervals between turning instants.
 
-    Within an interval δ, u − δ and u + δ are monotone, the slip front only moves inwards, and the memory
-    inside of the front does not change.
+    Within an interval the normal load and both slip lines are monotone, the front moves inwards only, and the
+    memory inside of the front does not change.
 
     Attributes
     ----------
-    protocol
-        The n protocols.
+    load
+        The n loads.
     begin, end
-        Shape (n, i): first and last instants of the intervals, φ in [0, 2π], ascending.
+        Shape (n, i): first and last instants φ of the intervals, ascending from 0 to `PERIOD`.
     number
         Shape (n, i): number of the interval in the division from which it was selected.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
     forward, backward
-        Shape (n, i): whether u − δ rises, so that springs slip at τ = +w, and whether u + δ falls, so
+        Shape (n, i): whether T − N rises, so that springs slip at τ = +w, and whether T + N falls, so
         that they slip at τ = −w. With neither of them the contact sticks.
     gross_slip, lift_off
         Shape (n,): whether the whole contact slides, or is lost, somewhere in the cycle.
     """
 
-    protocol: Protocol
+    load: Load
     begin: FloatArray
     end: FloatArray
     number: NDArray[np.intp]
@@ -99,28 +72,29 @@ class Cycle:
 
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
-        depth = np.maximum(self.protocol.depth(instant), 0.0)
-        u = self.protocol.displacement(instant)
-        senses = self.forward, self.backward
-        front, sign, piece = slip_front(self.protocol, self.memory, *senses, interval, depth, u)
-        return SlipStates(depth, u, front, sign, piece)
+        return slip_states(self.load, self.memory, self.senses, interval, instant)
+
+    @property
+    def senses(self) -> Senses:
+        """In which intervals springs may slip forward and backward."""
+        return self.forward, self.backward
 
     def slips(self) -> NDArray[np.bool_]:
         """Whether any spring slips somewhere in the cycle, shape (n,)."""
         interval = np.arange(self.begin.shape[1])
         middle = self.states(interval, 0.5 * (self.begin + self.end))
-        slips = middle.front < (1.0 - NO_SLIP) * middle.depth
+        slips = middle.front < (1.0 - NO_SLIP) * middle.edge
         return np.asarray((slips & (self.end - self.begin > NO_SLIP)).any(axis=1))
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""
-        return self.select(np.arange(len(self.begin)), self.begin < np.pi)
+        return self.select(np.arange(len(self.begin)), self.begin < 0.5 * PERIOD)
 
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
         """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""
         at = index[:, None], interval
         return Cycle(
-            self.protocol.take(index),
+            self.load.take(index),
             self.begin[at],
             self.end[at],
             self.number[at],

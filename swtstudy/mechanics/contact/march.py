@@ -2,69 +2,115 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
-from swtstudy.mechanics.contact.slip_front import slip_front
-from swtstudy.mechanics.contact.stick_depth import stick_depth
-from swtstudy.mechanics.load.bimodal import Protocol, turning_instants
+from swtstudy.mechanics.contact.slip_front import slip_states
+from swtstudy.mechanics.contact.stick_zone import stick_coordinate
+from swtstudy.mechanics.load.load import PERIOD, Load
+from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Growth of the depth below which there is none, in δ0.
+#: Growth of the contact's coordinate below which there is none: turning instants come in pairs that differ
+#: by rounding.
 NO_GROWTH = 1e-12
 
 
-def solve_cycle(protocol: Protocol) -> Cycle:
-    """March the memory diagram through the first period and record the second one, which is stationary.
+@dataclass(frozen=True)
+class _Course:
+    """The load between its turning instants.
+
+    Attributes
+    ----------
+    instant, edge, tangential
+        Shape (n, i + 1): the ends of the intervals, and there the edge's coordinate and the tangential load.
+    forward, backward, grows
+        Shape (n, i): whether springs may slip forward or backward, and whether ground is gained in stick.
+    branch
+        Shape (n, i): the load's branch in which the interval lies.
+    """
+
+    instant: FloatArray
+    edge: FloatArray
+    tangential: FloatArray
+    forward: NDArray[np.bool_]
+    backward: NDArray[np.bool_]
+    grows: NDArray[np.bool_]
+    branch: IntArray
+
+
+def solve_cycle(load: Load) -> Cycle:
+    """March the memory diagram through the first period and record the second one.
 
     Parameters
     ----------
-    protocol
-        The n load protocols (eqs. 7, 8), started at t = 0 from δ(0) and u = 0.
+    load
+        n loads, each started at φ = 0 from its normal load there and no tangential load.
     """
-    n = len(protocol)
-    first, last = np.zeros((n, 1)), np.full((n, 1), 2.0 * np.pi)
-    edges = np.concatenate([first, turning_instants(protocol), last], axis=1)
-    middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
-    displacement_rate, depth_rate = protocol.displacement_rate(middle), protocol.depth_rate(middle)
-    forward = displacement_rate > depth_rate
-    backward = displacement_rate < -depth_rate
-    growth = ~forward & ~backward & (depth_rate > 0.0)
-    branch = 2.0 * np.pi * np.round((protocol.q * middle + protocol.phase[:, None]) / (2.0 * np.pi))
-    depth, displacement = np.maximum(protocol.depth(edges), 0.0), protocol.displacement(edges)
-
-    intervals = middle.shape[1]
-    shape = (n, 1, 2 * intervals + 3)
-    stack = Memory(np.full(shape, np.inf), *(np.zeros(shape) for _ in range(4)))
-    stack.start[depth[:, 0] > 0.0, 0, 0] = 0.0
-    record = Memory(*(np.empty((n, intervals, shape[2])) for _ in range(5)))
-    only = np.zeros((n, 1), dtype=np.intp)
-    flat = np.zeros(n)
+    course = _course(load)
+    n, intervals = course.grows.shape
+    depth = 2 * intervals + 3
+    stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
+    stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
     for period in range(2):
         for i in range(intervals):
-            before, now, u = depth[:, i], depth[:, i + 1], displacement[:, i + 1]
-            # Turning instants may come in pairs that differ by rounding: nothing grows in between.
-            sticks = growth[:, i] & (now - before > NO_GROWTH)
-            grown = np.full(n, GROWTH)
-            _push(stack, sticks, Memory(before, displacement[:, i], grown, branch[:, i], now))
+            _grow(stack, course, i)
             if period == 1:
-                for name in record.__dataclass_fields__:
-                    getattr(record, name)[:, i] = getattr(stack, name)[:, 0]
-            stack.start[stack.start >= now[:, None, None]] = np.inf
-            senses = forward[:, i : i + 1], backward[:, i : i + 1]
-            fronts, signs, _ = slip_front(protocol, stack, *senses, only, now[:, None], u[:, None])
-            front, sign = fronts[:, 0], signs[:, 0]
-            slips = front < now
-            _push(stack, slips, Memory(front, u + sign * (front - now), sign, flat, flat))
+                record.write((slice(None), i), stack.take((slice(None), 0)))
+            _lose_contact(stack, course, i)
+            _slip(load, stack, course, i)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
-    gross_slip = stick_depth(protocol) < 0.0
-    lift_off = protocol.normal_amplitude > 1.0
     number = np.broadcast_to(np.arange(intervals), (n, intervals))
     return Cycle(
-        protocol, edges[:, :-1], edges[:, 1:], number, memory, forward, backward, gross_slip, lift_off
+        load,
+        course.instant[:, :-1],
+        course.instant[:, 1:],
+        number,
+        memory,
+        course.forward,
+        course.backward,
+        gross_slip=stick_coordinate(load) < 0.0,
+        lift_off=load.least_normal < 0.0,
     )
+
+
+def _course(load: Load) -> _Course:
+    first, last = np.zeros((len(load), 1)), np.full((len(load), 1), PERIOD)
+    instant = np.concatenate([first, load.turning_instants(), last], axis=1)
+    middle = 0.5 * (instant[:, 1:] + instant[:, :-1])
+    tangential_rate, normal_rate = load.tangential_rate(middle), load.normal_rate(middle)
+    forward, backward = tangential_rate > normal_rate, tangential_rate < -normal_rate
+    edge = np.maximum(load.normal(instant), 0.0)
+    grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > NO_GROWTH)
+    return _Course(instant, edge, load.tangential(instant), forward, backward, grows, load.branch(middle))
+
+
+def _grow(stack: Memory, course: _Course, i: int) -> None:
+    """What is gained in stick remembers the tangential load at touch-down."""
+    before, now, flat = course.edge[:, i], course.edge[:, i + 1], np.full(len(course.grows), GROWTH)
+    number = np.full(len(flat), i)
+    piece = Memory(before, course.tangential[:, i], flat, now, course.branch[:, i], number)
+    _push(stack, course.grows[:, i], piece)
+
+
+def _lose_contact(stack: Memory, course: _Course, i: int) -> None:
+    stack.start[stack.start >= course.edge[:, i + 1, None, None]] = np.inf
+
+
+def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
+    """What has slipped lies on a slip line."""
+    row = np.zeros((len(load), 1), dtype=np.intp)
+    senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
+    states = slip_states(load, stack, senses, row, course.instant[:, i + 1 : i + 2])
+    edge, tangential, front, sign = (
+        values[:, 0] for values in (states.edge, states.tangential, states.front, states.sign)
+    )
+    none = np.zeros(len(load)), row[:, 0], row[:, 0]
+    _push(stack, front < edge, Memory(front, tangential + sign * (front - edge), sign, *none))
 
 
 def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
@@ -72,6 +118,4 @@ def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
     row = np.flatnonzero(where)
     keep = stack.start[row, 0] < piece.start[row, None]
     stack.start[row, 0] = np.where(keep, stack.start[row, 0], np.inf)
-    place = keep.sum(axis=1)
-    for name in stack.__dataclass_fields__:
-        getattr(stack, name)[row, 0, place] = getattr(piece, name)[row]
+    stack.write((row, 0, keep.sum(axis=1)), piece.take((row,)))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.load.bimodal import Protocol
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick.
 GROWTH = 2.0
@@ -21,41 +21,93 @@ class Memory:
     Attributes
     ----------
     start
-        Depth G at which the piece begins; +inf behind the last piece.
+        Coordinate G at which the piece begins; +inf behind the last piece.
     offset
         o at the start.
     slope
         do/dG of the piece: −1, 0, +1 or `GROWTH`.
-    branch, stop
-        Of a growth: 2πk of its branch of δ (`Protocol.touch_down`) and the depth at which it ended.
+    stop
+        Of a growth: the coordinate at which it ended.
+    branch
+        Of a growth: number of the load's branch on which the ground was gained.
+    growth
+        Of a growth: number of the interval of the period in which it was gained. No two have the same.
     """
 
     start: FloatArray
     offset: FloatArray
     slope: FloatArray
-    branch: FloatArray
     stop: FloatArray
+    branch: IntArray
+    growth: IntArray
 
-    def take(self, index: tuple[NDArray[np.intp] | slice, ...]) -> Memory:
+    @classmethod
+    def empty(cls, *shape: int) -> Memory:
+        """Stacks without a piece."""
+        zero, number = np.zeros(shape), np.zeros(shape, dtype=np.int64)
+        return cls(np.full(shape, np.inf), zero, zero.copy(), zero.copy(), number, number.copy())
+
+    def take(self, index: tuple[NDArray[np.intp] | slice | int, ...]) -> Memory:
         """The stacks at ``index`` of the leading axes."""
-        return Memory(*(getattr(self, field.name)[index] for field in fields(self)))
+        return Memory(*(values[index] for values in vars(self).values()))
+
+    def write(self, index: tuple[NDArray[np.intp] | slice | int, ...], pieces: Memory) -> None:
+        """Write pieces at ``index``, in place."""
+        for values, new in zip(vars(self).values(), vars(pieces).values(), strict=True):
+            values[index] = new
 
 
-def held_offset(protocol: Protocol, pieces: Memory, depth: FloatArray) -> FloatArray:
-    """o(G) of the springs at ``depth`` where they stick, each in its own piece.
+def held_offset(load: Load, pieces: Memory, coordinate: FloatArray) -> FloatArray:
+    """o(G) of springs that stick, each in its own piece.
 
     Parameters
     ----------
-    protocol
-        n protocols.
+    load
+        n loads.
     pieces
         One piece for each spring, shape (n, …).
-    depth
-        Shape (n, …).
+    coordinate
+        Shape (n, …): G of the springs.
     """
     grown = pieces.slope == GROWTH
-    distance = np.where(np.isfinite(pieces.start), depth - pieces.start, 0.0)
+    distance = np.where(np.isfinite(pieces.start), coordinate - pieces.start, 0.0)
     held = pieces.offset + np.where(grown, 0.0, pieces.slope) * distance
     if np.any(grown):
-        held = np.where(grown, protocol.displacement(protocol.touch_down(depth, pieces.branch)), held)
+        held = np.where(grown, load.tangential(load.touch_down(coordinate, pieces.branch)), held)
     return held
+
+
+@dataclass(frozen=True)
+class Growths:
+    """The distinct growths of n cycles, k at most in a row; shorter rows end with empty ones.
+
+    Attributes
+    ----------
+    begin, end
+        Shape (n, k): the coordinates between which ground was gained.
+    branch
+        Shape (n, k): the load's branch on which it was.
+    index
+        Shape (n, i, d): which of them left each piece of the memory; 0 for lines.
+    """
+
+    begin: FloatArray
+    end: FloatArray
+    branch: IntArray
+    index: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, memory: Memory) -> Growths:
+        """The growths of a memory of shape (n, i, d)."""
+        grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
+        row, number = np.nonzero(grown)[0], memory.growth[grown]
+        seen = np.zeros((len(memory.start), int(number.max(initial=-1)) + 1), dtype=bool)
+        seen[row, number] = True
+        place = (np.cumsum(seen, axis=1) - 1)[row, number]
+        shape = len(seen), int(seen.sum(axis=1).max(initial=0))
+        begin, end, branch = np.zeros(shape), np.zeros(shape), np.zeros(shape, dtype=np.int64)
+        begin[row, place], end[row, place] = memory.start[grown], memory.stop[grown]
+        branch[row, place] = memory.branch[grown]
+        index = np.zeros(grown.shape, dtype=np.intp)
+        index[grown] = place
+        return cls(begin, end, branch, index)

@@ -1,7 +1,7 @@
 """Event-aligned instants: where the stress at x has a kink or a square-root cusp in time.
 
 At a fixed x that happens when the contact edge passes (δ = g(x)) and when the slip front does (the spring at
-x goes from stick to slip). Together with the turning instants of the protocol they cut the cycle into
+x goes from stick to slip). Together with the turning instants of the load they cut the cycle into
 stretches in which the stress is smooth but for square roots at the ends; cosine-spaced nodes resolve those.
 """
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import held_offset
+from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import filled_rows, gather, packed
 from swtstudy.mechanics.points import FloatArray
 
@@ -21,15 +22,15 @@ from swtstudy.mechanics.points import FloatArray
 NO_STRETCH, GAP = 1e-12, 1e-10
 
 
-def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
-    """Ends of the smooth stretches of every interval, for the springs at ``depth``.
+def stretches(cycle: Cycle, coordinate: FloatArray) -> FloatArray:
+    """Ends of the smooth stretches of every interval, for some springs.
 
     Parameters
     ----------
     cycle
         n cycles of i intervals.
-    depth
-        Shape (n, X): G = g(|x|)/δ0.
+    coordinate
+        Shape (n, X): G of the springs, those at r = |x|.
 
     Returns
     -------
@@ -37,8 +38,8 @@ def stretches(cycle: Cycle, depth: FloatArray) -> FloatArray:
     end. What does not happen in an interval coincides with its begin or end.
     """
     begin, end = cycle.begin[:, None], cycle.end[:, None]
-    edge = _edge_passes(cycle, depth)
-    front = _front_passes(cycle, depth)
+    edge = cycle.load.passage(coordinate, cycle.begin, cycle.end)
+    front = _front_passes(cycle, coordinate)
     first, second = np.minimum(front, edge), np.maximum(front, edge)
     shape = edge.shape
     return np.stack([np.broadcast_to(begin, shape), first, second, np.broadcast_to(end, shape)], axis=-1)
@@ -122,32 +123,15 @@ def _meets_next(low: FloatArray, high: FloatArray, real: NDArray[np.bool_]) -> N
     return (after < total) & (gather(low, np.minimum(after, total - 1)) - high <= GAP)
 
 
-def _edge_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
-    """Instant with δ = G in each interval, or its nearer end, shape (n, X, i)."""
-    protocol = cycle.protocol
-    low, high = cycle.begin[:, None], cycle.end[:, None]
-    middle = 0.5 * (low + high)
-    rising = protocol.depth_rate(middle) > 0.0
-    instant = protocol.touch_down(np.broadcast_to(depth[:, :, None], (*depth.shape, 1)), np.zeros(1))
-    angle = protocol.q * instant + protocol.phase[:, None, None]
-    angle = np.where(rising, angle, np.pi - angle)
-    centre = protocol.q * middle + protocol.phase[:, None, None]
-    angle = angle + 2.0 * np.pi * np.round((centre - angle) / (2.0 * np.pi))
-    found = np.clip((angle - protocol.phase[:, None, None]) / protocol.q, low, high)
-    # A spring that never touches or never lifts off has no such instant.
-    beyond = np.abs(depth - 1.0) > protocol.normal_amplitude[:, None]
-    return np.where(beyond[:, :, None], high, found)
-
-
-def _front_passes(cycle: Cycle, depth: FloatArray) -> FloatArray:
+def _front_passes(cycle: Cycle, coordinate: FloatArray) -> FloatArray:
     """Instant at which the spring at G starts to slip in each interval, else the end, shape (n, X, i)."""
-    protocol, memory = cycle.protocol, cycle.memory
-    high, at = cycle.end[:, None], depth[:, :, None]
+    load, memory = cycle.load, cycle.memory
+    high, at = cycle.end[:, None], coordinate[:, :, None]
     piece = np.maximum((memory.start[:, None] < at[..., None]).sum(axis=-1) - 1, 0)
-    row = np.arange(len(depth))[:, None, None]
+    row = np.arange(len(coordinate))[:, None, None]
     pieces = memory.take((row, np.arange(piece.shape[2]), piece))
-    held = held_offset(protocol, pieces, np.broadcast_to(at, piece.shape))
-    in_contact = at < np.maximum(protocol.depth(cycle.begin), 0.0)[:, None]
+    held = held_offset(load, pieces, np.broadcast_to(at, piece.shape))
+    in_contact = at < np.maximum(load.normal(cycle.begin), 0.0)[:, None]
 
     first = np.broadcast_to(high, held.shape).copy()
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
@@ -176,7 +160,7 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
         rows.append(hit[0])
         instants.append(instant)
     row, instant = np.concatenate(rows), np.concatenate(instants)
-    cuts = filled_rows(row, instant, n, 2.0 * np.pi)
+    cuts = filled_rows(row, instant, n, PERIOD)
     edges = np.sort(np.concatenate([np.zeros((n, 1)), cycle.end, cuts], axis=1), axis=1)
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
     parent = (middle[:, :, None] >= cycle.end[:, None]).sum(axis=-1)
@@ -189,15 +173,14 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
 def _slip_line_passes(
     cycle: Cycle, sense: float, goal: FloatArray, allowed: NDArray[np.bool_]
 ) -> tuple[tuple[NDArray[np.intp], ...], FloatArray]:
-    """Where in (n, X, i), and when, the slip line sense·u − δ rises through ``goal``."""
-    protocol = cycle.protocol
+    """Where in (n, X, i), and when, the slip line sense·T − N rises through ``goal``."""
+    load = cycle.load
     first, last = (
-        sense * protocol.displacement(instant) - protocol.depth(instant)
-        for instant in (cycle.begin, cycle.end)
+        sense * load.tangential(instant) - load.normal(instant) for instant in (cycle.begin, cycle.end)
     )
     hit = np.nonzero(allowed & (first[:, None] < goal) & (goal < last[:, None]))
     row, _, interval = hit
     low, high = cycle.begin[row, interval], cycle.end[row, interval]
-    slipping = protocol.take(row)
+    slipping = load.take(row)
     brackets = slipping.slip_line_brackets(sense, low, high)
     return hit, slipping.slip_line_instant(sense, goal[hit], brackets)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.instants import GAP, NO_STRETCH, Nodes
+from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values
 from swtstudy.mechanics.points import FloatArray
@@ -172,4 +173,4 @@ _POWERS = _interpolation()
 def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
     """Whether one stretch ends where the other begins, in the periodic cycle."""
     gap = np.abs(begin - end)
-    return np.asarray((gap <= GAP) | (2.0 * np.pi - gap <= GAP))
+    return np.asarray((gap <= GAP) | (PERIOD - gap <= GAP))

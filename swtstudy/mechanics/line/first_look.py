@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.instants import NO_STRETCH
 from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
+from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.planes.through_y import coarse_swt
 from swtstudy.mechanics.points import FloatArray
@@ -104,14 +105,14 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     planes
         Number of planes that are tried.
     """
-    # For even q, half a common period later δ is the same and u has changed sign: half of it is enough.
-    mirrored = scene.cycle.protocol.q % 2 == 0
+    # Half of the period is enough where the other half is its mirror image.
+    mirrored = scene.cycle.load.mirrored_half
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
     look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
     nodes, history = look.nodes, look.history
     interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(nodes.index.shape)
     # An interval of the first half may reach beyond it, and its mirror image into several.
-    begin, end = (np.stack([v, v + np.pi], axis=1)[..., None] for v in (cycle.begin, cycle.end))
+    begin, end = (np.stack([v, v + 0.5 * PERIOD], axis=1)[..., None] for v in (cycle.begin, cycle.end))
     first = (scene.cycle.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
     last = np.maximum((scene.cycle.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
     first, last = (np.minimum(v, scene.cycle.begin.shape[1] - 1) for v in (first, last))

@@ -65,8 +65,8 @@ class Look:
     @classmethod
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
         """Look at r = ``position``, shape (n, X)."""
-        line = SurfaceLine(scene.cycle, scene.profile, position, digits)
-        ends = stretches(scene.cycle, scene.profile.depth(position))
+        line = SurfaceLine(scene.cycle, scene.coordinate, position, digits)
+        ends = stretches(scene.cycle, scene.coordinate.of(position))
         nodes, number = cosine_nodes(scene.cycle, ends, count)
         return cls(line, ends, count, nodes, number, line.history(nodes))
 

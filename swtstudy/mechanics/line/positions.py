@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.points import FloatArray
 
@@ -24,7 +24,7 @@ SPREAD = 24
 SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and never largest.
 INNERMOST = 0.02
-#: Depths of cusps nearer than this, in the amplitudes of the motion, are one.
+#: Coordinates of cusps nearer than this, in the amplitudes of the motion, are one.
 SAME_DEPTH = 1e-9
 #: Share of the range below which a stretch between cusps is none.
 NO_STRETCH = 1e-12
@@ -55,21 +55,22 @@ class Positions:
     step: FloatArray
 
 
-def cusps(cycle: Cycle, profile: Profile) -> FloatArray:
+def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
     """Radii at which swt(r) may have a cusp, and the ends of the range, ascending, shape (n, k)."""
     n = len(cycle.begin)
     # Empty intervals, which fill up the rows of a batch, have nothing to say.
     lasts = cycle.end > cycle.begin
     starts = np.where(lasts[..., None], cycle.memory.start, np.inf).reshape(n, -1)
-    edges = np.where(lasts, np.maximum(cycle.protocol.depth(cycle.begin), 0.0), 0.0)
-    largest_depth = 1.0 + cycle.protocol.normal_amplitude[:, None]
-    depth = np.concatenate([largest_depth, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
-    depth = np.sort(depth, axis=1)
-    motion = np.minimum(cycle.protocol.normal_amplitude + cycle.protocol.tangential_amplitude, 1.0)
-    new = np.diff(depth, axis=1, prepend=0.0) > SAME_DEPTH * motion[:, None]
+    edges = np.where(lasts, np.maximum(cycle.load.normal(cycle.begin), 0.0), 0.0)
+    deepest = cycle.load.largest_normal[:, None]
+    places = np.concatenate([deepest, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
+    places = np.sort(places, axis=1)
+    motion = np.minimum(cycle.load.motion, 1.0)
+    new = np.diff(places, axis=1, prepend=0.0) > SAME_DEPTH * motion[:, None]
     new[:, -1] = True
-    radius = profile.radius(packed(new, depth)[0])
+    radius = coordinate.radius(packed(new, places)[0])
     largest = radius.max(axis=1, keepdims=True)
+    profile = coordinate.profile
     approach = profile.singular_approach
     innermost = profile.flat_radius[:, None] + INNERMOST * (largest - profile.flat_radius[:, None])
     if approach.shape[1]:
@@ -131,11 +132,12 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     )
 
 
-def positions_of_first_look(cycle: Cycle, profile: Profile) -> Positions:
+def positions_of_first_look(cycle: Cycle, coordinate: Coordinate) -> Positions:
     """Positions of the first look at each of the n points."""
-    ends = cusps(cycle, profile)
-    waves = (ends[:, -1] - ends[:, 0]) / profile.feature_length
-    oscillations = max(cycle.protocol.p / cycle.protocol.q - 1.0, 0.0)
+    ends = cusps(cycle, coordinate)
+    waves = (ends[:, -1] - ends[:, 0]) / coordinate.profile.feature_length
+    normal, tangential = cycle.load.oscillations
+    oscillations = max(tangential / normal - 1.0, 0.0)
     return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
 
 

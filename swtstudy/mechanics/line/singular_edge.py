@@ -23,14 +23,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.climb import SETTLED, Accuracy
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
-from swtstudy.mechanics.load.bimodal import Protocol, turning_instants
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.through_y import climb_over_planes, product
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -53,37 +54,39 @@ SLIDES = 1e-9
 LEFT_OUT = 2e-7
 
 
-def not_finite(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+def not_finite(scene: Scene) -> NDArray[np.bool_]:
     """Whether swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
+    profile, cycle, friction = scene.profile, scene.cycle, scene.friction
     if not isinstance(profile, TruncatedParaboloid):
-        return np.zeros(len(friction), dtype=bool)
+        return np.zeros(len(scene), dtype=bool)
     nearest = profile.singular_approach.min(axis=1, keepdims=True)
-    tears = _innermost_spring_slips(cycle.protocol, profile.depth(nearest)) & (friction > 1.0)
+    tears = _innermost_spring_slips(cycle.load, scene.coordinate.of(nearest)) & (friction > 1.0)
     tears |= cycle.gross_slip & (friction >= 1.0)
     # Once contact is lost, or nearly, the maximum is where its edge turns.
-    turn = profile.radius(1.0 - cycle.protocol.normal_amplitude[:, None])
+    turn = scene.coordinate.radius(cycle.load.least_normal[:, None])
     tears |= (turn <= nearest)[:, 0]
-    moves = (friction > 0.0) & (cycle.protocol.tangential_amplitude > 0.0)
+    moves = (friction > 0.0) & cycle.load.moves_tangentially
     return np.asarray(tears & moves & (profile.flat_radius > 0.0))
 
 
-def _innermost_spring_slips(protocol: Protocol, margin: FloatArray) -> NDArray[np.bool_]:
-    """Whether the spring at G → 0 ends on a slip line: |u| ≥ δ at some instant, but for a margin (n, 1)."""
-    instants = turning_instants(protocol)
-    depth, displacement = protocol.depth(instants), protocol.displacement(instants)
+def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]:
+    """Whether the spring at G → 0 ends on a slip line: |T| ≥ N at some instant, but for a margin (n, 1)."""
+    instants = load.turning_instants()
+    normal, tangential = load.normal(instants), load.tangential(instants)
     return np.asarray(
-        ((displacement - depth + margin).max(axis=1) >= 0.0)
-        | ((displacement + depth - margin).min(axis=1) <= 0.0)
+        ((tangential - normal + margin).max(axis=1) >= 0.0)
+        | ((tangential + normal - margin).min(axis=1) <= 0.0)
     )
 
 
-def may_be_largest(profile: Profile, cycle: Cycle, friction: FloatArray) -> NDArray[np.bool_]:
+def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
     """Whether the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
+    profile, cycle = scene.profile, scene.cycle
     if not isinstance(profile, TruncatedParaboloid):
-        return np.zeros(len(friction), dtype=bool)
+        return np.zeros(len(scene), dtype=bool)
     face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
-    slides = cycle.gross_slip & (cycle.protocol.normal_amplitude < 1.0)
-    return np.asarray(face & slides & (friction >= LEAST_FRICTION))
+    slides = cycle.gross_slip & (cycle.load.least_normal > 0.0)
+    return np.asarray(face & slides & (scene.friction >= LEAST_FRICTION))
 
 
 def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
@@ -164,9 +167,9 @@ def _swt(
     is interpolated only where its neighbours belong to the same smooth stretch.
     """
     profile = scene.profile
-    edge = _Edge(profile.largest_depth, profile.flat_radius, distance)
+    edge = _EdgeCoordinate(_SeenFromEdge(profile.largest_depth, profile.flat_radius, distance))
     position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
-    look = Look.at(replace(scene, profile=edge), position, steps, digits)
+    look = Look.at(replace(scene, coordinate=edge), position, steps, digits)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
     # Shortly before, the front passes r itself, where the pressure's logarithm ends at once: a kink, too.
     sticks = np.abs(look.history.traction) < (1.0 - SLIDES) * look.history.pressure
@@ -179,21 +182,25 @@ def _swt(
     return product(peak, high, -low), angle
 
 
-class _Edge(TruncatedParaboloid):
-    """n truncated paraboloids seen from r = b⁺ at L of shape (n, X)."""
+class _SeenFromEdge(TruncatedParaboloid):
+    """n truncated paraboloids whose stress is wanted at r = b⁺, at L of shape (n, X)."""
 
     def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray, distance: FloatArray) -> None:
         super().__init__(largest_depth, flat_radius)
         self.distance = distance
 
-    def take(self, index: NDArray[np.intp]) -> _Edge:
-        return _Edge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
-
-    def depth(self, radius: FloatArray) -> FloatArray:
-        return np.maximum(super().depth(radius), ONSET * self._face(radius) ** 2)
+    def take(self, index: NDArray[np.intp]) -> _SeenFromEdge:
+        return _SeenFromEdge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return _EdgePrimitives(self)
+
+
+class _EdgeCoordinate(DepthCoordinate):
+    """The spring at r = b⁺ starts to slip when the one at w/b = `ONSET` does, the last that is a number."""
+
+    def of(self, radius: FloatArray) -> FloatArray:
+        return np.maximum(super().of(radius), ONSET * align(self.profile.flat_radius, radius) ** 2)
 
 
 @dataclass(frozen=True)
@@ -204,7 +211,7 @@ class _EdgePrimitives(Primitives):
     the instant at which the spring at r starts to slip.
     """
 
-    edge: _Edge
+    edge: _SeenFromEdge
 
     def inner(self, radius: FloatArray) -> FloatArray:
         b, w = self.edge._face(radius), self.edge._rise(radius)

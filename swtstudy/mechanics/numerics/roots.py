@@ -113,3 +113,38 @@ def _first_guess(goal: FloatArray, brackets: Brackets) -> FloatArray:
     return np.clip(
         2.0 * level / np.maximum(b + np.sqrt(np.maximum(b * b + 4.0 * a * level, 0.0)), 1e-300), 0.0, 1.0
     )
+
+
+def sign_changes(grid: FloatArray, values: FloatArray) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """Ranges in which smooth functions change their sign, from samples on an even grid.
+
+    Parameters
+    ----------
+    grid
+        Shape (k,).
+    values
+        Shape (n, k).
+
+    Returns
+    -------
+    row, low, high
+        Shape (m,): the function and the ends of each range. Two zeros within two neighbouring cells show as a
+        parabola whose vertex crosses zero.
+    """
+    row, cell = np.nonzero((values[:, :-1] < 0.0) != (values[:, 1:] < 0.0))
+    low, high = grid[cell], grid[cell + 1]
+    left, middle, right = values[:, :-2], values[:, 1:-1], values[:, 2:]
+    curvature = left - 2.0 * middle + right
+    with np.errstate(divide="ignore", invalid="ignore"):
+        offset = 0.5 * (left - right) / curvature
+        vertex = middle - 0.25 * (left - right) * offset
+        pair = (left * middle > 0.0) & (middle * right > 0.0) & (vertex * middle < 0.0) & (abs(offset) <= 1.0)
+    pair_row, pair_cell = np.nonzero(pair)
+    if not pair_row.size:
+        return row, low, high
+    split = grid[pair_cell + 1] + (grid[1] - grid[0]) * offset[pair_row, pair_cell]
+    return (
+        np.concatenate([row, pair_row, pair_row]),
+        np.concatenate([low, grid[pair_cell], split]),
+        np.concatenate([high, split, grid[pair_cell + 2]]),
+    )

@@ -1,4 +1,4 @@
-"""Stress integrals over the springs that touched down and stuck: their slope do/dG = u̇/δ̇ is not constant.
+"""Stress integrals over the springs that touched down and stuck: their slope do/dG = Ṫ/Ṅ is not constant.
 
 Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
 for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.memory import GROWTH, Memory
-from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.contact.memory import Growths
+from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics import chebyshev
-from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.points import FloatArray
 
-#: Chebyshev nodes for each oscillation of u while the ground grows.
+#: Chebyshev nodes for each oscillation of the tangential load while the ground grows.
 NODES_PER_OSCILLATION = 1.6
 
 #: Densities at abscissae of some ranges, see `_RunningIntegrals`.
@@ -28,47 +27,34 @@ Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
 
 
 class GrowthIntegrals:
-    """Running integrals of the primitives' kernels times −u̇/δ̇ over each growth of each cycle.
+    """Running integrals of the primitives' kernels times −Ṫ/Ṅ over each growth of each cycle.
 
     Parameters
     ----------
-    cycle, profile
-        n cycles and n profiles.
+    cycle, coordinate
+        n cycles and the coordinate of their memory diagrams.
     position
         Shape (n, X), r = |x|.
     digits
         Digits that the stress is to have.
     """
 
-    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
-        # u may oscillate several times while δ rises once.
-        oscillations = cycle.protocol.p / cycle.protocol.q
-        smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * oscillations
-        count = math.ceil(smooth) + profile.extra_nodes(digits)
-        memory = cycle.memory
-        n = len(memory.start)
-        grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
-        key = np.where(grown, _identity(memory), np.inf).reshape(n, -1)
-        order = np.argsort(key, axis=1, kind="stable")
-        key, start, stop, branch = (
-            gather(v.reshape(n, -1), order) for v in (key, memory.start, memory.stop, memory.branch)
-        )
-        first = np.isfinite(key)
-        first[:, 1:] &= key[:, 1:] != key[:, :-1]
-        self.count = int(first.sum(axis=1).max(initial=0))
+    def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
+        # The tangential load may oscillate several times while the normal one rises once.
+        normal, tangential = cycle.load.oscillations
+        smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * (tangential / normal)
+        count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
+        growths = Growths.of(cycle.memory)
+        self.count = growths.begin.shape[1]
         if not self.count:
             return
-        # Rows with fewer growths repeat one; nothing refers to it.
-        first[:, 0] = True
-        begin = np.where(np.isfinite(key), start, 0.0)
-        begin, end, branch, key = packed(first, begin, stop, branch, key)
-        #: Shape (n, k): tells the growths apart.
-        self.key = key
+        #: Shape (n, i, d): number of the growth that left each piece of the memory; 0 for lines.
+        self.index = growths.index
         # Axes from here on: profile n, position X, growth k, node.
         self.position = position[:, :, None]
-        self.flat = profile.flat_radius[:, None, None]
-        low, high = (profile.radius(g)[:, None, :] for g in (begin, end))
-        self.cycle, self.profile, self.branch = cycle, profile, branch
+        self.flat = coordinate.profile.flat_radius[:, None, None]
+        low, high = (coordinate.radius(g)[:, None, :] for g in (growths.begin, growths.end))
+        self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
         r, b = self.position, self.flat
         self.inner = _RunningIntegrals(
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, count
@@ -93,13 +79,8 @@ class GrowthIntegrals:
     def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
         """m dτ/dG at the radii of the springs, shape (m, nodes)."""
         row, _, growth = at
-        depth, slope = self.profile.take(row).depth_and_weighted_slope(radius)
-        return slope * self.cycle.protocol.take(row).growth_slope(depth, self.branch[row, growth, None])
-
-    def index(self, cycle: Cycle) -> NDArray[np.intp]:
-        """Number of the growth that left each piece of the memory, shape (n, i, d); 0 for lines."""
-        same = _identity(cycle.memory)[..., None] == self.key[:, None, None, :]
-        return np.asarray(same.argmax(axis=-1))
+        coordinate, slope = self.coordinate.take(row).with_weighted_slope(radius)
+        return slope * self.cycle.load.take(row).growth_slope(coordinate, self.branch[row, growth, None])
 
     def up_to(
         self,
@@ -113,7 +94,7 @@ class GrowthIntegrals:
         Parameters
         ----------
         row, column, index, radius
-            Shape (m,): point, position, number of the growth (see `index`), upper limit ξ.
+            Shape (m,): point, position, number of the growth, upper limit ξ.
         """
         columns, count = self.position.shape[1], self.count
         at = (row * columns + column) * count + index
@@ -168,8 +149,3 @@ def _inner_angle(radius: FloatArray, r: FloatArray, b: FloatArray) -> FloatArray
 def _outer_root(radius: FloatArray, r: FloatArray) -> FloatArray:
     """v = √(ξ² − r²) of a spring outside r; 0 of one inside."""
     return np.sqrt(np.maximum(radius**2 - r**2, 0.0))
-
-
-def _identity(memory: Memory) -> FloatArray:
-    """A number of its own for every growth: depths are below 4π."""
-    return memory.start + 2.0 * memory.branch

@@ -2,7 +2,7 @@
 
 The stress at x is a short sum over the memory diagram: with the full-slip primitives A(r; ξ) of the profile
 (`swtstudy.mechanics.indenter.base.Primitives`) a piece of slope do/dG = s from ξ1 to ξ2 contributes
-−s [A(ξ2) − A(ξ1)], since τ′ = −o′. Nothing here depends on ν or μ; `combine` brings them in.
+−s [A(ξ2) − A(ξ1)], since τ′ = −o′. Nothing here depends on ν or μ; `stresses` brings them in.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.instants import Nodes
-from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
@@ -66,22 +66,22 @@ class SurfaceLine:
 
     Parameters
     ----------
-    cycle, profile
-        n cycles and n profiles, one pair a point.
+    cycle, coordinate
+        n cycles and the coordinate of their memory diagrams, which knows the n profiles.
     position
         Shape (n, X): r = |x| > 0 in a_H.
     digits
         Digits of the largest stress to which tables and series are made.
     """
 
-    def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
-        self.cycle, self.profile, self.position = cycle, profile, position
-        self.primitives = profile.primitives(position, digits)
+    def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
+        self.cycle, self.coordinate, self.position = cycle, coordinate, position
+        self.primitives = coordinate.profile.primitives(position, digits)
         memory = cycle.memory
         n, intervals, pieces = memory.start.shape
         finite = np.isfinite(memory.start)
         breakpoints, number = _distinct(np.where(finite, memory.start, 0.0).reshape(n, -1))
-        radius = profile.radius(breakpoints)[:, None, :]
+        radius = coordinate.radius(breakpoints)[:, None, :]
         columns = position.shape[1]
         at_start = np.empty((3, n, columns, intervals, pieces))
         number = number[:, None]
@@ -91,13 +91,12 @@ class SurfaceLine:
         slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
         # Integral over each complete piece, up to the start of the next one.
         piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
-        self.growth = GrowthIntegrals(cycle, profile, position, digits)
+        self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         if self.growth.count:
-            self.growth_index = self.growth.index(cycle)
             grown = finite & (memory.slope == GROWTH)
             row, i, d = np.nonzero(grown[..., :-1] & finite[..., 1:])
             up_to = gather(radius[:, 0], number[:, 0]).reshape(finite.shape)[row, i, d + 1]
-            index = self.growth_index[row, i, d]
+            index = self.growth.index[row, i, d]
             many = np.broadcast_arrays(row[:, None], np.arange(columns), index[:, None], up_to[:, None])
             part = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
             piece[:, row, :, i, d] = np.moveaxis(part, 0, 1)
@@ -113,15 +112,15 @@ class SurfaceLine:
 
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
-        cycle, profile = self.cycle, self.profile
+        cycle, coordinate = self.cycle, self.coordinate
         n, _, pieces = cycle.memory.start.shape
         states = cycle.states(nodes.interval, nodes.instant)
         place = nodes.interval * pieces + states.piece
         slope = gather(cycle.memory.slope.reshape(n, -1), place)
         grown = slope == GROWTH
         slope = np.where(grown, 0.0, slope)
-        front_radius, edge_radius = profile.radius(states.front), profile.radius(states.depth)
-        half_load = profile.half_load(edge_radius)
+        front_radius, edge_radius = coordinate.radius(states.front), coordinate.radius(states.edge)
+        half_load = coordinate.profile.half_load(edge_radius)
 
         rows = np.arange(n)[:, None, None]
         at = rows * nodes.instant.shape[1] + nodes.index
@@ -146,7 +145,7 @@ class SurfaceLine:
         total /= np.pi
         r = self.position[:, :, None]
         # What the springs inside r carry, and what those outside press on the inside.
-        inside = np.minimum(at_positions(half_load), profile.half_load(self.position)[:, :, None])
+        inside = np.minimum(at_positions(half_load), coordinate.profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *total)
 
     def _add_growth(
@@ -158,7 +157,7 @@ class SurfaceLine:
     ) -> None:
         """Add the part of a growth inside of the front, where the front cuts it."""
         row, column, _ = where = np.nonzero(grown)
-        index = self.growth_index.reshape(len(total[0]), -1)[row, place[where]]
+        index = self.growth.index.reshape(len(total[0]), -1)[row, place[where]]
         parts = self.growth.up_to(row, column, index, front_radius[where])
         for component, part in zip(total, parts, strict=True):
             component[where] += part

@@ -8,9 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
+from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.line import History, stresses
 
 
@@ -20,24 +24,34 @@ class Scene:
 
     Attributes
     ----------
-    cycle, profile
-        n contact cycles and n profiles.
+    cycle
+        n contact cycles.
+    coordinate
+        The coordinate of their memory diagrams, which knows the n profiles.
     poisson_ratio, friction
         Shape (n,).
     """
 
     cycle: Cycle
-    profile: Profile
+    coordinate: Coordinate
     poisson_ratio: FloatArray
     friction: FloatArray
 
     def __len__(self) -> int:
         return len(self.friction)
 
+    @property
+    def profile(self) -> Profile:
+        """The n profiles."""
+        return self.coordinate.profile
+
     def take(self, index: NDArray[np.intp]) -> Scene:
         """The points at ``index``, repetitions allowed."""
         return Scene(
-            self.cycle.take(index), self.profile.take(index), self.poisson_ratio[index], self.friction[index]
+            self.cycle.take(index),
+            self.coordinate.take(index),
+            self.poisson_ratio[index],
+            self.friction[index],
         )
 
     def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
@@ -48,3 +62,10 @@ class Scene:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
         return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
+
+
+def scene_of(points: Points) -> Scene:
+    """The scenes of points whose loads are alike, each with a contact solution of its own."""
+    load = load_of(points)
+    profile = make_profile(points.profile, points.shape, load.largest_normal)
+    return Scene(solve_cycle(load), DepthCoordinate(profile), points.poisson_ratio, points.friction)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
@@ -46,37 +47,35 @@ class ContactStates:
 
 
 def contact_states(
-    cycle: Cycle, profile: Profile, interval: NDArray[np.intp], instant: FloatArray, cells: int
+    cycle: Cycle, coordinate: Coordinate, interval: NDArray[np.intp], instant: FloatArray, cells: int
 ) -> ContactStates:
     """Contact states of one point at instants of its stationary cycle.
 
     Parameters
     ----------
-    cycle, profile
-        A batch of one cycle and one profile.
+    cycle, coordinate
+        A batch of one cycle and the coordinate of its memory diagram.
     interval, instant
         Shape (T,): numbers of intervals of the cycle and instants φ within them.
     cells
         Number of cells for a profile that is not a paraboloid, and for each growth, besides those that
         the breakpoints make. With 200 the stress in the interior is accurate to 1e-8 p0.
     """
-    protocol = cycle.protocol
     memory = cycle.memory.take((np.zeros_like(interval), interval))
     states = cycle.states(interval[None], instant[None])
-    depth, front, sign = states.depth, states.front, states.sign
+    edge, front, sign = states.edge, states.front, states.sign
     grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
     branches = np.unique(memory.branch[grown])
     starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
     # The deepest contact of the cycle is there for instants without any contact.
-    deepest = 1.0 + protocol.normal_amplitude
-    breaks = np.concatenate([depth.ravel(), front.ravel(), np.unique(starts), deepest])
+    breaks = np.concatenate([edge.ravel(), front.ravel(), np.unique(starts), cycle.load.largest_normal])
     if len(branches):
         between = _between(np.stack([memory.start[grown], memory.stop[grown]]), cells)
         breaks = np.concatenate([breaks, between[between < breaks.max()]])
-    radius = _cell_ends(profile, breaks, cells)
+    radius = _cell_ends(coordinate, breaks, cells)
 
-    at = profile.depth(0.5 * (radius[1:] + radius[:-1])[None])[0]
-    touching = at < depth[0, :, None]
+    at = coordinate.of(0.5 * (radius[1:] + radius[:-1])[None])[0]
+    touching = at < edge[0, :, None]
     slips = touching & (at > front[0, :, None])
     piece = np.maximum((memory.start[:, None, :] <= at[:, None]).sum(axis=-1) - 1, 0)
     slope, branch = (np.take_along_axis(values, piece, axis=1) for values in (memory.slope, memory.branch))
@@ -86,11 +85,11 @@ def contact_states(
     shares = [np.where(touching, line, 0.0), *(stuck_growth & (branch == b) for b in branches)]
 
     def weighted_slopes(ξ: FloatArray) -> FloatArray:
-        depth, m = profile.depth_and_weighted_slope(ξ[None])
-        slopes = [cycle.protocol.growth_slope(depth, np.asarray(b)) for b in branches]
+        at, m = coordinate.with_weighted_slope(ξ[None])
+        slopes = [cycle.load.growth_slope(at, np.asarray(b)) for b in branches]
         return np.stack([m[0], *(m[0] * slope[0] for slope in slopes)])
 
-    b = float(profile.flat_radius[0])
+    b = float(coordinate.profile.flat_radius[0])
     tangential_slope = np.stack(shares, axis=1).astype(float)
     return ContactStates(
         slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope
@@ -98,15 +97,16 @@ def contact_states(
 
 
 def _between(ranges: FloatArray, cells: int) -> FloatArray:
-    """Depths that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
+    """Coordinates that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
     begin, end = np.unique(ranges, axis=1)
     share = 0.5 - 0.5 * np.cos(np.pi * np.arange(cells + 1) / cells)
     return (begin[:, None] + (end - begin)[:, None] * share).ravel()
 
 
-def _cell_ends(profile: Profile, depth: FloatArray, cells: int) -> FloatArray:
-    """Radii of the depths, and those that resolve the profile's slope."""
-    radius = np.maximum(profile.radius(depth[None])[0], profile.flat_radius[0])
+def _cell_ends(coordinate: Coordinate, breaks: FloatArray, cells: int) -> FloatArray:
+    """Radii of the breakpoints, and those that resolve the profile's slope."""
+    profile = coordinate.profile
+    radius = np.maximum(coordinate.radius(breaks[None])[0], profile.flat_radius[0])
     ends = np.sort(np.concatenate([radius, _resolving_radii(profile, float(radius.max()), cells)]))
     return ends[np.diff(ends, prepend=-1.0) > _SAME_RADIUS * ends[-1]]
 

@@ -1,4 +1,4 @@
-"""The load protocol: common period, turning instants, symmetry in the phase."""
+"""The harmonic load: common period, turning instants, symmetry in the phase."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ import pytest
 from scenes import points
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.load.bimodal import Protocol, turning_instants
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.symmetry import fold_phase
 
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (4, 5)]
 every_frequency = pytest.mark.parametrize(("p", "q"), FREQUENCIES)
 
 
-def random_loads(count: int, p: int, q: int) -> Protocol:
+def random_loads(count: int, p: int, q: int) -> BimodalLoad:
     rng = np.random.default_rng([p, q])
-    return Protocol(
+    return BimodalLoad(
         rng.uniform(0.0, 1.3, count), rng.uniform(0.0, 2.0, count), rng.uniform(-10.0, 10.0, count), p, q
     )
 
 
 @every_frequency
-def test_protocol_is_equations_7_and_8_over_the_common_period(p: int, q: int) -> None:
+def test_the_load_is_equations_7_and_8_over_the_common_period(p: int, q: int) -> None:
     load = random_loads(4, p, q)
     omega_1, omega_2 = 3.0, 3.0 * p / q
     period = 2.0 * np.pi * q / omega_1
@@ -30,17 +30,17 @@ def test_protocol_is_equations_7_and_8_over_the_common_period(p: int, q: int) ->
     instants = np.broadcast_to(omega_1 * time / q, (4, 50))
     d, u, psi = (v[:, None] for v in (load.normal_amplitude, load.tangential_amplitude, load.phase))
     depth, displacement = 1.0 + d * np.sin(omega_1 * time + psi), u * np.sin(omega_2 * time)
-    np.testing.assert_allclose(load.depth(instants), depth, rtol=0.0, atol=1e-13)
-    np.testing.assert_allclose(load.displacement(instants), displacement, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(load.normal(instants), depth, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(load.tangential(instants), displacement, rtol=0.0, atol=1e-13)
     # It ends where it began, and not earlier.
-    for motion in (load.depth, load.displacement):
+    for motion in (load.normal, load.tangential):
         np.testing.assert_allclose(motion(instants)[:, 0], motion(instants)[:, -1], rtol=0.0, atol=1e-13)
     fraction = np.linspace(0.0, 2.0 * np.pi, 721)[None]
     for divisor in range(2, max(p, q) + 1):
         shift = 2.0 * np.pi / divisor
         same = [
             np.allclose(motion(fraction + shift), motion(fraction), atol=1e-6)
-            for motion in (load.take(np.array([0])).depth, load.take(np.array([0])).displacement)
+            for motion in (load.take(np.array([0])).normal, load.take(np.array([0])).tangential)
         ]
         assert not all(same)
 
@@ -49,7 +49,7 @@ def test_protocol_is_equations_7_and_8_over_the_common_period(p: int, q: int) ->
 def test_rates_are_the_derivatives(p: int, q: int) -> None:
     load, step = random_loads(4, p, q), 1e-6
     instants = np.broadcast_to(np.linspace(0.0, 2.0 * np.pi, 40), (4, 40))
-    pairs = ((load.depth, load.depth_rate), (load.displacement, load.displacement_rate))
+    pairs = ((load.normal, load.normal_rate), (load.tangential, load.tangential_rate))
     for motion, rate in pairs:
         difference = (motion(instants + step) - motion(instants - step)) / (2.0 * step)
         # Rounding of the quotient: 1e-16 · 3/1e-6.
@@ -60,13 +60,13 @@ def test_rates_are_the_derivatives(p: int, q: int) -> None:
 def test_every_turn_of_the_depth_and_of_the_slip_lines_is_found(p: int, q: int) -> None:
     count = 30
     load = random_loads(count, p, q)
-    found = turning_instants(load)
+    found = load.turning_instants()
     assert np.all(np.diff(found, axis=1) >= 0.0)
     assert np.all((found >= 0.0) & (found <= 2.0 * np.pi))
     samples = np.linspace(0.0, 2.0 * np.pi, 20001)
     grid = np.broadcast_to(samples, (count, samples.size))
-    depth_rate, displacement_rate = load.depth_rate(grid), load.displacement_rate(grid)
-    contact = load.depth(grid)
+    depth_rate, displacement_rate = load.normal_rate(grid), load.tangential_rate(grid)
+    contact = load.normal(grid)
     for values in (depth_rate, displacement_rate - depth_rate, displacement_rate + depth_rate, contact):
         row, cell = np.nonzero(values[:, 1:] * values[:, :-1] < 0.0)
         inside = (found[row] >= samples[cell, None] - 1e-9) & (found[row] <= samples[cell + 1, None] + 1e-9)
@@ -79,9 +79,9 @@ def test_touch_down_is_the_rising_passage_of_a_depth(p: int, q: int) -> None:
     share = np.linspace(-0.99, 0.99, 9)
     depth = 1.0 + load.normal_amplitude[:, None] * share
     for turn in range(q):
-        instant = load.touch_down(depth, np.full(1, 2.0 * np.pi * turn))
-        np.testing.assert_allclose(load.depth(instant), depth, rtol=0.0, atol=1e-13)
-        assert np.all(load.depth_rate(instant) >= 0.0)
+        instant = load.touch_down(depth, np.full(1, turn))
+        np.testing.assert_allclose(load.normal(instant), depth, rtol=0.0, atol=1e-13)
+        assert np.all(load.normal_rate(instant) >= 0.0)
         angle = q * instant + load.phase[:, None] - 2.0 * np.pi * turn
         assert np.all(np.abs(angle) <= 0.5 * np.pi + 1e-12)
 

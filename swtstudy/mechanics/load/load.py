@@ -1,0 +1,131 @@
+"""What a load must know: a closed loop in the plane of the normal and the tangential load.
+
+Both components are measured in the coordinate of the memory diagram: the normal one is 1 at the reference
+depth δ0, the tangential one is scaled so that friction reads |tangential| ≤ normal for each spring. Time is
+an angle φ that runs over one common period; nothing depends on its speed.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.numerics.roots import Brackets
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+#: Length of the common period in φ, rad.
+PERIOD = 2.0 * np.pi
+
+
+class Load(ABC):
+    """n loads of one kind.
+
+    Notes
+    -----
+    The methods take instants φ or values of the normal load of shape (n, …) and return arrays of the same
+    shape. A *branch* is a stretch of time in which the normal load rises; branches are numbered.
+    """
+
+    @abstractmethod
+    def __len__(self) -> int:
+        """Number n of loads."""
+
+    @abstractmethod
+    def take(self, index: NDArray[np.intp]) -> Load:
+        """The loads at ``index``, repetitions allowed."""
+
+    @abstractmethod
+    def normal(self, instant: FloatArray) -> FloatArray:
+        """Normal load; the bodies are apart where it is negative."""
+
+    @abstractmethod
+    def tangential(self, instant: FloatArray) -> FloatArray:
+        """Tangential load."""
+
+    @abstractmethod
+    def normal_rate(self, instant: FloatArray) -> FloatArray:
+        """Derivative of `normal` with respect to φ."""
+
+    @abstractmethod
+    def tangential_rate(self, instant: FloatArray) -> FloatArray:
+        """Derivative of `tangential` with respect to φ."""
+
+    @property
+    @abstractmethod
+    def least_normal(self) -> FloatArray:
+        """Shape (n,): least normal load of the cycle."""
+
+    @property
+    @abstractmethod
+    def largest_normal(self) -> FloatArray:
+        """Shape (n,): largest normal load of the cycle."""
+
+    @property
+    @abstractmethod
+    def motion(self) -> FloatArray:
+        """Shape (n,): amplitude of normal and tangential load together, 0 for a load at rest."""
+
+    @property
+    @abstractmethod
+    def moves_tangentially(self) -> NDArray[np.bool_]:
+        """Shape (n,): whether the tangential load changes at all."""
+
+    @property
+    @abstractmethod
+    def oscillations(self) -> tuple[int, int]:
+        """How often the normal and the tangential load oscillate in a period."""
+
+    @property
+    @abstractmethod
+    def mirrored_half(self) -> bool:
+        """Whether half a period later the normal load is the same and the tangential one has changed sign."""
+
+    @abstractmethod
+    def turning_instants(self) -> FloatArray:
+        """All instants at which a component or a slip line turns, or contact is made or lost.
+
+        Returns
+        -------
+        Shape (n, k), within [0, `PERIOD`], ascending; rows with fewer instants are filled up with `PERIOD`.
+        """
+
+    @abstractmethod
+    def branch(self, instant: FloatArray) -> IntArray:
+        """Number of the branch of each instant at which the normal load rises."""
+
+    @abstractmethod
+    def touch_down(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        """Instant at which the normal load reaches a value on a branch; its nearer end where it does not."""
+
+    @abstractmethod
+    def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        """dτ/dG = −du/dδ that growth in stick leaves where the normal load reaches a value on a branch."""
+
+    @abstractmethod
+    def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
+        """Instant at which the normal load has a value, in stretches of time in which it is monotone.
+
+        Parameters
+        ----------
+        normal
+            Shape (n, X).
+        begin, end
+            Shape (n, i): ends of the stretches.
+
+        Returns
+        -------
+        Shape (n, X, i): within the stretch; its nearer end, or the end where the load never has the value.
+        """
+
+    @abstractmethod
+    def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
+        """Stretches of time, ends of shape (n,), in which the slip line sense·T − N is monotone."""
+
+    @abstractmethod
+    def slip_line_instant(self, sense: float, goal: FloatArray, brackets: Brackets) -> FloatArray:
+        """Instant at which the slip line has the value ``goal``, shape (n,), in each of n brackets.
+
+        Where the goal is not reached, the nearer end.
+        """
