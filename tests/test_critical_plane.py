@@ -13,7 +13,8 @@ from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt, product
+from swtstudy.mechanics.planes.criterion import of_maxima
+from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt
 from swtstudy.mechanics.stress.line import SurfaceLine, stresses
 
 Array = NDArray[np.float64]
@@ -95,7 +96,7 @@ def test_swt_is_zero_where_no_plane_sees_tension() -> None:
     (xx, yy, zz, xz), nu = random_history(3)
     pressed = xx - 100.0, yy - 100.0, zz - 100.0, xz
     assert np.all(coarse_swt(PlaneHistory.from_stresses(pressed, nu), 36)[0] == 0.0)
-    assert product(np.array([-1.0]), np.array([2.0]), np.array([-2.0])) == 0.0
+    assert of_maxima(np.array([-1.0]), np.array([2.0]), np.array([2.0])) == 0.0
 
 
 def rotated(sigma: Stress, angle: float) -> Stress:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.points import FloatArray, Points
 
 
@@ -156,7 +157,7 @@ def brute_force(sigma: tuple[FloatArray, ...], nu: float, planes: int) -> tuple[
             n_x, n_z = np.cos(angle), np.sin(angle)
             stress = xx * n_x**2 + zz * n_z**2 + 2.0 * t_xz * n_x * n_z
             strain = ((1.0 + nu) * stress - nu * (xx + yy + zz)) / (1.0 - nu**2)
-            swt = np.maximum(stress.max(axis=1), 0.0) * 0.5 * np.ptp(strain, axis=1)
+            swt = of_maxima(*(curve.max(axis=1) for curve in curves(stress, strain)))
             if swt.max() > best[0]:
                 best = float(swt.max()), side, int(swt.argmax()), float(np.degrees(angle))
     return best

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.events.instants import cosine_nodes, stretches
+from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
+from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import ContactStates, contact_states
@@ -144,8 +146,8 @@ def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> S
     """
     stress, strain = _on_critical_plane(body, point)
     hot = np.zeros(len(nodes.instant), dtype=bool)
-    for curve in (stress, strain, -strain):
-        hot |= curve >= curve.max() - _HOT * np.ptp(curve)
+    for curve in curves(stress, strain):
+        hot |= near_maximum(curve, _HOT)
     return Spells(nodes.instant, hot[1:] | hot[:-1])
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.events.instants import Nodes, cosine_nodes, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import gather
-from swtstudy.mechanics.numerics.peaks import parabola
+from swtstudy.mechanics.numerics.peaks import near_maximum, parabola
+from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.line import History, SurfaceLine
@@ -87,8 +88,8 @@ class Look:
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
-    stress, strain = planes.on_plane(angle)
-    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in (stress, strain, -strain)], axis=-1)
+    of_swt = curves(*planes.on_plane(angle))
+    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in of_swt], axis=-1)
 
 
 def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
@@ -116,8 +117,6 @@ def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray], share: flo
     """Instants at which σ_n or ε_n come near to an extreme, within a share of their range, on any plane."""
     near = np.zeros(planes.stress.shape[1:], dtype=bool)
     for angle in angles:
-        stress, strain = planes.on_plane(angle)
-        for curve in (stress, strain, -strain):
-            high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
-            near |= curve >= high - share * (high - low)
+        for curve in curves(*planes.on_plane(angle)):
+            near |= near_maximum(curve, share)
     return near

@@ -32,7 +32,8 @@ from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.planes.through_y import climb_over_planes, product
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.through_y import climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -177,9 +178,8 @@ def _swt(
     inside = look.inside & (look.stretch % 3 == 0) & sticks
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
-    stress, strain = planes.on_plane(angle)
-    peak, high, low = (lifted(curve, inside).max(axis=-1) for curve in (stress, strain, -strain))
-    return product(peak, high, -low), angle
+    of_swt = curves(*planes.on_plane(angle))
+    return of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt)), angle
 
 
 class _SeenFromEdge(TruncatedParaboloid):

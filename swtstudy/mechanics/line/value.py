@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.look import Look, Resolution, extreme_instants, lifted, near_extremes
 from swtstudy.mechanics.numerics.arrays import pick
-from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_over_planes, product
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -101,7 +102,7 @@ def _zoomed(
         if turn < zooms - 1:
             brackets = brackets.narrowed(on_plane(near, angle).argmax(axis=-1))
     tops = on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
-    return product(tops[..., 0], tops[..., 1], -tops[..., 2]), angle
+    return of_maxima(*np.moveaxis(tops, -1, 0)), angle
 
 
 def _best_planes(
@@ -119,10 +120,10 @@ def _best_planes(
         Shape (s, …): starts, rad.
     """
     angle = climb_over_planes(planes, angle, ANGLE_ROUNDS)
-    stress, strain = planes.on_plane(angle)
+    of_swt = curves(*planes.on_plane(angle))
     found = []
     for top in (lambda curve: curve.max(axis=-1), lambda curve: lifted(curve, inside).max(axis=-1)):
-        swt = product(top(stress), top(strain), -top(-strain))
+        swt = of_maxima(*(top(curve) for curve in of_swt))
         best = np.moveaxis(swt, 0, -1).argmax(axis=-1)
         found.append(pick(np.moveaxis(angle, 0, -1), best))
     return found[0], found[1]

@@ -28,6 +28,12 @@ def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[F
     return np.where(inside, shift, 0.0), np.where(inside, -0.25 * (left - right) * shift, 0.0)
 
 
+def near_maximum(curve: FloatArray, share: float) -> NDArray[np.bool_]:
+    """Where curves along the last axis come near to their maximum, within a share of their range."""
+    high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
+    return np.asarray(curve >= high - share * (high - low))
+
+
 def powers_from_values(abscissae: FloatArray) -> FloatArray:
     """Matrix from values at k abscissae to the coefficients of 1, x, …, x^(k − 1), shape (k, k)."""
     return np.asarray(np.linalg.inv(np.vander(abscissae, increasing=True)), dtype=np.float64)

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.ascent import climb, normal_weights, swap_instants, symmetric_tensor
+from swtstudy.mechanics.planes.criterion import of_maxima
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
@@ -96,11 +97,11 @@ def swt_on_planes(
     """
     stress, normals = np.asarray(stress), np.asarray(normals)
     on_planes = stress @ normal_weights(normals).T
-    tension = np.maximum(on_planes.max(axis=-2), 0.0)
+    tension = on_planes.max(axis=-2)
     # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
     on_planes -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
-    range_ = on_planes.max(axis=-2) - on_planes.min(axis=-2)
-    return tension * range_ * (0.5 * (1.0 + poisson_ratio) / youngs_modulus)
+    modulus = youngs_modulus / (1.0 + poisson_ratio)
+    return of_maxima(tension, on_planes.max(axis=-2) / modulus, -on_planes.min(axis=-2) / modulus)
 
 
 def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> FloatArray:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from swtstudy.mechanics.planes.criterion import combined, log_derivatives, of_maxima
 from swtstudy.mechanics.points import FloatArray
 
 _LARGEST_STEP = 0.2  # rad
@@ -112,7 +113,7 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     steps, gain = _newton_step(
         forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, _LARGEST_STEP)
     )
-    height = np.log(forms[..., 0] * changes[..., 0]) + gain.reshape(possible.shape)
+    height = np.log(combined(forms[..., 0], changes[..., 0])) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
     return _move(normal, tangent, steps.reshape(*possible.shape, 2)[np.arange(len(normal)), best])
 
@@ -144,17 +145,17 @@ def _active_forms(
     elongation = (strain @ weights)[..., 0]
     row = np.arange(len(stress))
     top, high, low = tension.argmax(axis=1), elongation.argmax(axis=1), elongation.argmin(axis=1)
-    swt = np.maximum(tension[row, top], 0.0) * 0.5 * (elongation[row, high] - elongation[row, low])
+    swt = of_maxima(tension[row, top], elongation[row, high], -elongation[row, low])
     return swt, stress[row, top], 0.5 * (strain[row, high] - strain[row, low])
 
 
 def _newton_step(first: FloatArray, second: FloatArray, trust: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Step to the summit of ln f + ln g within the trust region, and the gain that the model promises.
+    """Step to the summit of ln swt within the trust region, and the gain that the model promises.
 
     Parameters
     ----------
     first, second
-        Shape (n, 6): jets of f and g, both positive.
+        Shape (n, 6): jets of the tension and of the amplitude, both positive.
     trust
         Shape (n,): largest length of the step, rad.
 
@@ -163,12 +164,10 @@ def _newton_step(first: FloatArray, second: FloatArray, trust: FloatArray) -> tu
     step, gain
         Shapes (n, 2) and (n,).
     """
-    f, g = first[:, 1:] / first[:, :1], second[:, 1:] / second[:, :1]
-    slope_1, slope_2 = f[:, 0] + g[:, 0], f[:, 1] + g[:, 1]
-    # Second derivatives of the logarithms with the sign changed: positive definite on a summit.
-    stiff_11 = f[:, 0] ** 2 + g[:, 0] ** 2 - f[:, 2] - g[:, 2]
-    stiff_22 = f[:, 1] ** 2 + g[:, 1] ** 2 - f[:, 3] - g[:, 3]
-    stiff_12 = f[:, 0] * f[:, 1] + g[:, 0] * g[:, 1] - f[:, 4] - g[:, 4]
+    slope, stiffness = log_derivatives(first, second)
+    slope_1, slope_2 = slope.T
+    # Positive definite on a summit.
+    stiff_11, stiff_22, stiff_12 = stiffness.T
     # Where the function is not concave, raise the stiffness until it is, and the step no longer than allowed.
     mean, difference = 0.5 * (stiff_11 + stiff_22), 0.5 * (stiff_11 - stiff_22)
     softest = mean - np.hypot(difference, stiff_12)
