@@ -10,7 +10,8 @@ from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.field import contact_states
-from swtstudy.mechanics.stress.line import SurfaceLine, stresses
+from swtstudy.mechanics.stress.history import stresses
+from swtstudy.mechanics.stress.line import SurfaceLine
 
 PROFILES = {
     "paraboloid": {},

@@ -15,7 +15,8 @@ from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.planes.criterion import of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt
-from swtstudy.mechanics.stress.line import SurfaceLine, stresses
+from swtstudy.mechanics.stress.history import stresses
+from swtstudy.mechanics.stress.line import SurfaceLine
 
 Array = NDArray[np.float64]
 Stress = tuple[Array, Array, Array, Array]

@@ -11,7 +11,8 @@ from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.stress.line import SurfaceLine, stresses
+from swtstudy.mechanics.stress.history import stresses
+from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
 
 

@@ -16,7 +16,8 @@ from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.indenter import Profile, make_profile
-from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
+from swtstudy.mechanics.stress.history import History, stresses
+from swtstudy.mechanics.stress.line import SurfaceLine
 
 Array = NDArray[np.float64]
 DIGITS = 12.0

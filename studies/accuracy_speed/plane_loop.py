@@ -6,7 +6,7 @@ import numpy as np
 from histories import history_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.stress.line import stresses
+from swtstudy.mechanics.stress.history import stresses
 
 
 def plane_loop_s(point: Points, x: float, step: float) -> float:

@@ -17,7 +17,8 @@ from swtstudy.mechanics.events.instants import Nodes
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import History, SurfaceLine, stresses
+from swtstudy.mechanics.stress.history import History, stresses
+from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.solving import solve
 

@@ -8,6 +8,7 @@ stretches in which the stress is smooth but for square roots at the ends; cosine
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import filled_rows, gather, packed
 from swtstudy.mechanics.points import FloatArray
+
+T = TypeVar("T", bound=np.generic)
 
 #: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet.
 NO_STRETCH, GAP = 1e-12, 1e-10
@@ -62,6 +65,10 @@ class Nodes:
     interval: NDArray[np.intp]
     instant: FloatArray
     index: NDArray[np.intp]
+
+    def spread(self, values: NDArray[T]) -> NDArray[T]:
+        """Values at the distinct instants, shape (n, k), at the instants of each position, (n, X, T)."""
+        return values.ravel().take(np.arange(len(values))[:, None, None] * values.shape[1] + self.index)
 
 
 def cosine_nodes(cycle: Cycle, ends: FloatArray, count: int) -> tuple[Nodes, NDArray[np.intp]]:

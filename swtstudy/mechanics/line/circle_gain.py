@@ -21,7 +21,7 @@ from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.circle import circle_stress
-from swtstudy.mechanics.stress.line import History
+from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.events.instants import NO_STRETCH
 from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.planes.through_y import coarse_swt
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import History
+from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Local maxima below this share of the largest are not followed.
@@ -110,7 +109,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
     look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
     nodes, history = look.nodes, look.history
-    interval = gather(nodes.interval, nodes.index.reshape(len(scene), -1)).reshape(nodes.index.shape)
+    interval = nodes.spread(nodes.interval)
     # An interval of the first half may reach beyond it, and its mirror image into several.
     begin, end = (np.stack([v, v + 0.5 * PERIOD], axis=1)[..., None] for v in (cycle.begin, cycle.end))
     first = (scene.cycle.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)

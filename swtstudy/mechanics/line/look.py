@@ -15,7 +15,8 @@ from swtstudy.mechanics.numerics.peaks import near_maximum, parabola
 from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import History, SurfaceLine
+from swtstudy.mechanics.stress.history import History
+from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
 
 

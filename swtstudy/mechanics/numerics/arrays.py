@@ -73,3 +73,25 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
 def align(values: FloatArray, like: FloatArray) -> FloatArray:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
+
+
+def distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """The distinct values of each row, ascending.
+
+    Parameters
+    ----------
+    values
+        Shape (n, k).
+
+    Returns
+    -------
+    distinct, number
+        Shape (n, m), shorter rows repeat their first, and (n, k): the number of each value among them.
+    """
+    order = np.argsort(values, axis=1, kind="stable")
+    ascending = gather(values, order)
+    new = np.ones(values.shape, dtype=bool)
+    new[:, 1:] = ascending[:, 1:] != ascending[:, :-1]
+    number = np.empty(values.shape, dtype=np.intp)
+    np.put_along_axis(number, order, np.cumsum(new, axis=1) - 1, axis=1)
+    return packed(new, ascending)[0], number

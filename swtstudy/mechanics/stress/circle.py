@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import History
+from swtstudy.mechanics.stress.history import History
 
 
 def circle_stress(

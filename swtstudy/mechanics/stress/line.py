@@ -7,58 +7,17 @@ The stress at x is a short sum over the memory diagram: with the full-slip primi
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TypeVar
-
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.instants import Nodes
-from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
-
-T = TypeVar("T", bound=np.generic)
-
-
-@dataclass(frozen=True)
-class History:
-    """The building blocks of the stress at n × X positions and T instants, each (n, X, T).
-
-    Attributes
-    ----------
-    pressure
-        p in E* √(δ0/R).
-    mean_pressure
-        Load inside r over π r², same unit.
-    tangential_1, tangential_3
-        T1 and T3 with the springs' τ′: (1/π) ∫ 2 sin φ τ′ dφ and (1/π) ∫ 2 sin³φ τ′ dφ.
-    traction
-        (1/π) ∫ τ′ dξ/√(ξ²−r²) over the springs outside r: −q/μ.
-    """
-
-    pressure: FloatArray
-    mean_pressure: FloatArray
-    tangential_1: FloatArray
-    tangential_3: FloatArray
-    traction: FloatArray
-
-    def take(self, *index: NDArray[np.intp] | int) -> History:
-        """The blocks at ``index`` of the leading axes."""
-        return History(*(values[index] for values in vars(self).values()))
-
-    def with_tangential_sign(self, sign: float | FloatArray) -> History:
-        """The same with the tangential load times ±1."""
-        tangential = (sign * v for v in (self.tangential_1, self.tangential_3, self.traction))
-        return History(self.pressure, self.mean_pressure, *tangential)
-
-    def joined(self, other: History) -> History:
-        """These instants, then the other ones."""
-        both = zip(vars(self).values(), vars(other).values(), strict=True)
-        return History(*(np.concatenate(pair, axis=-1) for pair in both))
+from swtstudy.mechanics.stress.history import History
 
 
 class SurfaceLine:
@@ -77,33 +36,44 @@ class SurfaceLine:
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
         self.cycle, self.coordinate, self.position = cycle, coordinate, position
         self.primitives = coordinate.profile.primitives(position, digits)
-        memory = cycle.memory
-        n, intervals, pieces = memory.start.shape
-        finite = np.isfinite(memory.start)
-        breakpoints, number = _distinct(np.where(finite, memory.start, 0.0).reshape(n, -1))
-        radius = coordinate.radius(breakpoints)[:, None, :]
-        columns = position.shape[1]
-        at_start = np.empty((3, n, columns, intervals, pieces))
-        number = number[:, None]
-        for component, values in zip(at_start, self._full_slip(radius), strict=True):
-            component[...] = gather(values, number).reshape(component.shape)
-
-        slope = np.where(memory.slope == GROWTH, 0.0, memory.slope)[:, None]
-        # Integral over each complete piece, up to the start of the next one.
-        piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
+        #: Shape (3, n, X, i·d): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
+        self.base = self._base()
+
+    def _base(self) -> FloatArray:
+        """Integrals over all pieces inside of each piece, and slope · A at its start."""
+        memory, (n, columns) = self.cycle.memory, self.position.shape
+        starts = np.where(np.isfinite(memory.start), memory.start, 0.0)
+        breakpoints, number = distinct(starts.reshape(n, -1))
+        radius = self.coordinate.radius(breakpoints)
+        at_start = np.empty((3, n, columns, *starts.shape[1:]))
+        for component, values in zip(at_start, self._full_slip(radius[:, None]), strict=True):
+            component[...] = gather(values, number[:, None]).reshape(component.shape)
+        slope = _line_slope(memory.slope)[:, None]
+        piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
         if self.growth.count:
-            grown = finite & (memory.slope == GROWTH)
-            row, i, d = np.nonzero(grown[..., :-1] & finite[..., 1:])
-            up_to = gather(radius[:, 0], number[:, 0]).reshape(finite.shape)[row, i, d + 1]
-            index = self.growth.index[row, i, d]
-            many = np.broadcast_arrays(row[:, None], np.arange(columns), index[:, None], up_to[:, None])
-            part = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
-            piece[:, row, :, i, d] = np.moveaxis(part, 0, 1)
+            self._put_growths(piece, gather(radius, number).reshape(starts.shape))
         inside = np.zeros_like(at_start)
         np.cumsum(piece, axis=-1, out=inside[..., 1:])
-        #: Shape (3, n, X, i·d): integral up to the front = base − slope · A(front), for lines.
-        self.base = (inside + slope * at_start).reshape(3, n, columns, -1)
+        return (inside + slope * at_start).reshape(3, n, columns, -1)
+
+    def _put_growths(self, piece: FloatArray, start: FloatArray) -> None:
+        """Put the integrals over growths that end at the start of the next piece among those of the lines.
+
+        Parameters
+        ----------
+        piece
+            Shape (3, n, X, i, d − 1).
+        start
+            Shape (n, i, d): radius at which each piece begins.
+        """
+        memory, columns = self.cycle.memory, self.position.shape[1]
+        finite = np.isfinite(memory.start)
+        row, i, d = np.nonzero((finite & (memory.slope == GROWTH))[..., :-1] & finite[..., 1:])
+        up_to, index = start[row, i, d + 1], self.growth.index[row, i, d]
+        many = np.broadcast_arrays(row[:, None], np.arange(columns), index[:, None], up_to[:, None])
+        part = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
+        piece[:, row, :, i, d] = np.moveaxis(part, 0, 1)
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
@@ -112,87 +82,43 @@ class SurfaceLine:
 
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
-        cycle, coordinate = self.cycle, self.coordinate
-        n, _, pieces = cycle.memory.start.shape
-        states = cycle.states(nodes.interval, nodes.instant)
-        place = nodes.interval * pieces + states.piece
-        slope = gather(cycle.memory.slope.reshape(n, -1), place)
-        grown = slope == GROWTH
-        slope = np.where(grown, 0.0, slope)
-        front_radius, edge_radius = coordinate.radius(states.front), coordinate.radius(states.edge)
-        half_load = coordinate.profile.half_load(edge_radius)
-
-        rows = np.arange(n)[:, None, None]
-        at = rows * nodes.instant.shape[1] + nodes.index
-
-        def at_positions(values: NDArray[T]) -> NDArray[T]:
-            return values.ravel().take(at)
-
-        place, sign, slope = at_positions(place), at_positions(states.sign), at_positions(slope)
-        edge = at_positions(edge_radius)
-        at_front = self._full_slip(at_positions(front_radius))
+        states = self.cycle.states(nodes.interval, nodes.instant)
+        profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
+        edge, r = nodes.spread(edge_radius), self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
-        columns, places = self.base.shape[2:]
-        of_base = (rows * columns + np.arange(columns)[:, None]) * places + place
-        bend = sign - slope
-        total = at_front
-        for result, base, edge_part in zip(total, self.base, (*inner, outer[0]), strict=True):
+        tangential = self._tangential(nodes, states, (*inner, outer[0]))
+        # What the springs inside r carry, and what those outside press on the inside.
+        load = nodes.spread(profile.half_load(edge_radius))
+        inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
+        return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
+
+    def _tangential(self, nodes: Nodes, states: SlipStates, at_edge: tuple[FloatArray, ...]) -> FloatArray:
+        """T1, T3 and the traction, each over π, from the full-slip integrals up to the edge, (3, n, X, T)."""
+        memory, (n, columns) = self.cycle.memory, self.position.shape
+        place = nodes.interval * memory.start.shape[-1] + states.piece
+        slope = gather(memory.slope.reshape(n, -1), place)
+        front = nodes.spread(self.coordinate.radius(states.front))
+        at_place, sign = nodes.spread(place), nodes.spread(states.sign)
+        bend = sign - nodes.spread(_line_slope(slope))
+        rows, places = np.arange(n)[:, None, None], self.base.shape[-1]
+        of_base = (rows * columns + np.arange(columns)[:, None]) * places + at_place
+        total = self._full_slip(front)
+        for result, base, edge_part in zip(total, self.base, at_edge, strict=True):
             result *= bend
             result += base.ravel().take(of_base)
             result -= sign * edge_part
+        grown = slope == GROWTH
         if np.any(grown):
-            self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
+            # The part of a growth inside of the front, where the front cuts it.
+            row, column, _ = where = np.nonzero(nodes.spread(grown))
+            index = self.growth.index.reshape(n, -1)[row, at_place[where]]
+            parts = self.growth.up_to(row, column, index, front[where])
+            for component, part in zip(total, parts, strict=True):
+                component[where] += part
         total /= np.pi
-        r = self.position[:, :, None]
-        # What the springs inside r carry, and what those outside press on the inside.
-        inside = np.minimum(at_positions(half_load), coordinate.profile.half_load(self.position)[:, :, None])
-        return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *total)
-
-    def _add_growth(
-        self,
-        total: FloatArray,
-        grown: NDArray[np.bool_],
-        place: NDArray[np.intp],
-        front_radius: FloatArray,
-    ) -> None:
-        """Add the part of a growth inside of the front, where the front cuts it."""
-        row, column, _ = where = np.nonzero(grown)
-        index = self.growth.index.reshape(len(total[0]), -1)[row, place[where]]
-        parts = self.growth.up_to(row, column, index, front_radius[where])
-        for component, part in zip(total, parts, strict=True):
-            component[where] += part
+        return total
 
 
-def _distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
-    """The distinct values of each row, shape (n, k), and the number of each value, shape of ``values``."""
-    order = np.argsort(values, axis=1, kind="stable")
-    ascending = gather(values, order)
-    new = np.ones(values.shape, dtype=bool)
-    new[:, 1:] = ascending[:, 1:] != ascending[:, :-1]
-    number = np.empty(values.shape, dtype=np.intp)
-    np.put_along_axis(number, order, np.cumsum(new, axis=1) - 1, axis=1)
-    return packed(new, ascending)[0], number
-
-
-def stresses(
-    history: History, poisson_ratio: FloatArray, friction: FloatArray, side: float | FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """σ_xx, σ_yy, σ_zz, σ_xz in E* √(δ0/R), tension positive.
-
-    Parameters
-    ----------
-    history
-        Building blocks at r = |x|.
-    poisson_ratio, friction
-        Shape (n,).
-    side
-        Sign of x.
-    """
-    nu, mu = (v.reshape(v.shape + (1,) * (history.pressure.ndim - 1)) for v in (poisson_ratio, friction))
-    spread = 0.5 * (1.0 - 2.0 * nu) * history.mean_pressure
-    pull = side * mu
-    sigma_xx = (
-        spread - history.pressure + pull * ((1.0 + nu) * history.tangential_1 - nu * history.tangential_3)
-    )
-    sigma_yy = -spread - 2.0 * nu * history.pressure + pull * nu * history.tangential_3
-    return sigma_xx, sigma_yy, -history.pressure, mu * history.traction
+def _line_slope(slope: FloatArray) -> FloatArray:
+    """do/dG of lines, 0 for growths."""
+    return np.where(slope == GROWTH, 0.0, slope)

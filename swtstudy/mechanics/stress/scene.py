@@ -15,7 +15,7 @@ from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.stress.line import History, stresses
+from swtstudy.mechanics.stress.history import History, stresses
 
 
 @dataclass(frozen=True)
