@@ -6,7 +6,7 @@ import pytest
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.field import contact_states

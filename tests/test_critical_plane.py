@@ -10,7 +10,7 @@ from scenes import PROFILE_NAMES, random_points, take
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.planes.criterion import of_maxima

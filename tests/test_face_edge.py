@@ -11,7 +11,7 @@ from scenes import points
 from soundness import regime_names, sound
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.singular_edge import _swt
 from swtstudy.mechanics.line.value import refine

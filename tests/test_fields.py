@@ -9,7 +9,7 @@ import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine

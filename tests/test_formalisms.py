@@ -17,7 +17,7 @@ from scipy.integrate import trapezoid
 
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress.line import SurfaceLine
 

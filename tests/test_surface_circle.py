@@ -8,7 +8,7 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.line import circle_gain
 from swtstudy.mechanics.load.bimodal import BimodalLoad

@@ -13,7 +13,7 @@ from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.points import FloatArray

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.events.instants import cosine_nodes, stretches
+from swtstudy.mechanics.events.nodes import cosine_nodes
+from swtstudy.mechanics.events.stretches import stretches
 from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights

@@ -13,9 +13,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.instants import GAP, NO_STRETCH, Nodes
-from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import PER_INTERVAL, Stretches, meet
 from swtstudy.mechanics.numerics.arrays import gather, pick
+from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values
 from swtstudy.mechanics.points import FloatArray
 
@@ -57,45 +58,31 @@ class TimeBrackets:
     width: float
 
     @classmethod
-    def around(cls, ends: FloatArray, count: int, node: NDArray[np.intp]) -> TimeBrackets:
-        """Brackets around nodes of `swtstudy.mechanics.events.instants.cosine_nodes`.
+    def around(
+        cls, parts: Stretches, count: int, stretch: NDArray[np.intp], place: NDArray[np.intp]
+    ) -> TimeBrackets:
+        """Brackets around nodes of `swtstudy.mechanics.events.nodes.cosine_nodes`.
 
         Parameters
         ----------
-        ends
-            Shape (n, X, i, 4), see `swtstudy.mechanics.events.instants.stretches`.
+        parts
+            The stretches.
         count
             Number of steps of each stretch.
-        node
-            Shape (n, X, e).
+        stretch, place
+            Shape (n, X, e): see `swtstudy.mechanics.events.nodes.Placed`.
         """
-        shape = ends.shape[:2]
-        low, high = ends[..., :-1].reshape(*shape, -1), ends[..., 1:].reshape(*shape, -1)
-        total = low.shape[-1]
-        real = high - low > NO_STRETCH
-        number = np.arange(total)
-        # The cycle is periodic: before its first stretch comes its last one.
-        last = np.maximum.accumulate(np.where(real, number, -1), axis=-1)
-        last = np.where(last < 0, last[..., -1:], last)
-        following = np.minimum.accumulate(np.where(real, number, total)[..., ::-1], axis=-1)[..., ::-1]
-        following = np.where(following == total, following[..., :1], following)
-
-        stretch, place = node // (count + 1), node % (count + 1)
         at_begin, at_end = place == 0, place == count
-        before = gather(last, np.where(at_begin, (stretch - 1) % total, stretch))
-        after = gather(following, np.where(at_end, (stretch + 1) % total, stretch))
-        # A side that does not border on the node stays at the node.
-        before = np.where(at_begin & ~_meet(gather(high, before), gather(low, stretch)), stretch, before)
-        after = np.where(at_end & ~_meet(gather(high, stretch), gather(low, after)), stretch, after)
+        before, after = _neighbours(parts, stretch, at_begin, at_end)
         alpha = place * (np.pi / count)
         left = np.where(at_begin & (before != stretch), np.pi, alpha)
         right = np.where(at_end & (after != stretch), 0.0, alpha)
         sides = np.stack([before, after], axis=-1)
-        flat = sides.reshape(*shape, -1)
-        low, high = (gather(v, flat).reshape(sides.shape) for v in (low, high))
-        start = np.stack([left, right], axis=-1)
-        corner = at_begin | at_end
-        return cls(low, high, sides // 3, start, np.pi / count, corner, np.zeros(node.shape), 1.0)
+        flat = sides.reshape(*sides.shape[:2], -1)
+        low, high = (gather(ends, flat).reshape(sides.shape) for ends in (parts.low, parts.high))
+        start, corner = np.stack([left, right], axis=-1), at_begin | at_end
+        interval = sides // PER_INTERVAL
+        return cls(low, high, interval, start, np.pi / count, corner, np.zeros(place.shape), 1.0)
 
     def samples(self) -> Nodes:
         """The samples of the extremes, index of shape (n, X, e · k)."""
@@ -106,10 +93,8 @@ class TimeBrackets:
             return np.where(right, values[..., 1:], values[..., :1])
 
         alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
-        low = side(self.low)
-        instant = low + (side(self.high) - low) * (0.5 - 0.5 * np.cos(alpha))
         n, columns = c.shape[:2]
-        instant = instant.reshape(n, -1)
+        instant = between(side(self.low), side(self.high), alpha).reshape(n, -1)
         index = np.broadcast_to(np.arange(instant.shape[1]), instant.shape).reshape(n, columns, -1)
         return Nodes(side(self.interval).reshape(n, -1), instant, index)
 
@@ -170,7 +155,17 @@ def _interpolation() -> FloatArray:
 _POWERS = _interpolation()
 
 
-def _meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
-    """Whether one stretch ends where the other begins, in the periodic cycle."""
-    gap = np.abs(begin - end)
-    return np.asarray((gap <= GAP) | (PERIOD - gap <= GAP))
+def _neighbours(
+    parts: Stretches, stretch: NDArray[np.intp], at_begin: NDArray[np.bool_], at_end: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The stretches before and after each node: its own inside of one, and where none meets it."""
+    total = parts.low.shape[-1]
+    # The cycle is periodic: before its first stretch comes its last one.
+    last, following = parts.last_real, parts.next_real
+    last = np.where(last < 0, last[..., -1:], last)
+    following = np.where(following == total, following[..., :1], following)
+    before = gather(last, np.where(at_begin, (stretch - 1) % total, stretch))
+    after = gather(following, np.where(at_end, (stretch + 1) % total, stretch))
+    alone = at_begin & ~meet(gather(parts.high, before), gather(parts.low, stretch))
+    open_ = at_end & ~meet(gather(parts.high, stretch), gather(parts.low, after))
+    return np.where(alone, stretch, before), np.where(open_, stretch, after)

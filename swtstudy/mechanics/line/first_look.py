@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.instants import NO_STRETCH
+from swtstudy.mechanics.events.stretches import NO_STRETCH
 from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.planes.through_y import coarse_swt

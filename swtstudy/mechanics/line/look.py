@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.instants import Nodes, cosine_nodes, stretches
+from swtstudy.mechanics.events.nodes import Nodes, Placed, cosine_nodes
+from swtstudy.mechanics.events.stretches import Stretches, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.numerics.peaks import near_maximum, parabola
@@ -47,44 +48,40 @@ class Look:
     ----------
     line
         The positions.
-    ends
-        Shape (n, X, i, 4): the stretches, see `swtstudy.mechanics.events.instants.stretches`.
+    parts
+        The stretches of the cycle at each.
     count
         Steps of each stretch.
-    nodes, number
-        The T instants, see `swtstudy.mechanics.events.instants.cosine_nodes`.
+    nodes, placed
+        The T instants, and where they lie in the stretches.
     history
         Building blocks of the stress at them.
     """
 
     line: SurfaceLine
-    ends: FloatArray
+    parts: Stretches
     count: int
     nodes: Nodes
-    number: NDArray[np.intp]
+    placed: Placed
     history: History
 
     @classmethod
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
         """Look at r = ``position``, shape (n, X)."""
         line = SurfaceLine(scene.cycle, scene.coordinate, position, digits)
-        ends = stretches(scene.cycle, scene.coordinate.of(position))
-        nodes, number = cosine_nodes(scene.cycle, ends, count)
-        return cls(line, ends, count, nodes, number, line.history(nodes))
+        parts = stretches(scene.cycle, scene.coordinate.of(position))
+        nodes, placed = cosine_nodes(scene.cycle, parts, count)
+        return cls(line, parts, count, nodes, placed, line.history(nodes))
 
     @property
     def inside(self) -> NDArray[np.bool_]:
         """Shape (n, X, T): which instants are not at the end of their stretch."""
-        return (self.number % (self.count + 1) % self.count) > 0
-
-    @property
-    def stretch(self) -> NDArray[np.intp]:
-        """Shape (n, X, T): number of the stretch of each instant; three make an interval."""
-        return self.number // (self.count + 1)
+        return (self.placed.place % self.count) > 0
 
     def brackets(self, instants: NDArray[np.intp]) -> TimeBrackets:
         """Brackets around instants, shape (n, X, e)."""
-        return TimeBrackets.around(self.ends, self.count, gather(self.number, instants))
+        at = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
+        return TimeBrackets.around(self.parts, self.count, *at)
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:

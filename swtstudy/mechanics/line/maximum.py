@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.line.climb import Accuracy, Climb, step
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution

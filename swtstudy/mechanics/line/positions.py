@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
 
 #: Positions that the first look spreads over the contact besides the cusps.
@@ -123,7 +124,7 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
         return gather(values, sides.reshape(n, -1)).reshape(sides.shape)
 
     return Positions(
-        _cosine(gather(low, stretch), gather(high, stretch), alpha),
+        between(gather(low, stretch), gather(high, stretch), alpha),
         keep.sum(axis=1),
         of_sides(low),
         of_sides(high),
@@ -139,10 +140,6 @@ def positions_of_first_look(cycle: Cycle, coordinate: Coordinate) -> Positions:
     normal, tangential = cycle.load.oscillations
     oscillations = max(tangential / normal - 1.0, 0.0)
     return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
-
-
-def _cosine(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
-    return low + (high - low) * (0.5 - 0.5 * np.cos(alpha))
 
 
 @dataclass(frozen=True)
@@ -184,4 +181,4 @@ class PositionBrackets:
             return np.where(right, values[:, 1:], values[:, :1])
 
         alpha = np.clip(of_side(self.alpha) + c * of_side(self.step), 0.0, np.pi)
-        return _cosine(of_side(self.low), of_side(self.high), alpha)
+        return between(of_side(self.low), of_side(self.high), alpha)

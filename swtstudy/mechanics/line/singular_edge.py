@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.instants import split_at_breakpoints
+from swtstudy.mechanics.events.passages import split_at_breakpoints
+from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.climb import SETTLED, Accuracy
@@ -175,7 +176,7 @@ def _swt(
     # Shortly before, the front passes r itself, where the pressure's logarithm ends at once: a kink, too.
     sticks = np.abs(look.history.traction) < (1.0 - SLIDES) * look.history.pressure
     sticks &= np.roll(sticks, 1, axis=-1) & np.roll(sticks, -1, axis=-1)
-    inside = look.inside & (look.stretch % 3 == 0) & sticks
+    inside = look.inside & (look.placed.stretch % PER_INTERVAL == 0) & sticks
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     of_swt = curves(*planes.on_plane(angle))

@@ -45,7 +45,7 @@ def hot_intervals(
     near = near_extremes(planes, STARTS + double_angle[:, None], HOT)
     row, column, place = np.nonzero(near)
     hot = np.zeros(scene.cycle.begin.shape, dtype=bool)
-    hot[row, look.stretch[row, column, place] // 3] = True
+    hot[row, look.placed.interval[row, column, place]] = True
     return hot
 
 

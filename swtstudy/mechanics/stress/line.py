@@ -13,7 +13,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.events.instants import Nodes
+from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.growth import GrowthIntegrals

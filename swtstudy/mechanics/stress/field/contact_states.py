@@ -11,6 +11,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
 from swtstudy.mechanics.stress.field.superposition import stress_history
@@ -99,8 +100,7 @@ def contact_states(
 def _between(ranges: FloatArray, cells: int) -> FloatArray:
     """Coordinates that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
     begin, end = np.unique(ranges, axis=1)
-    share = 0.5 - 0.5 * np.cos(np.pi * np.arange(cells + 1) / cells)
-    return (begin[:, None] + (end - begin)[:, None] * share).ravel()
+    return between(begin[:, None], end[:, None], np.pi * np.arange(cells + 1) / cells).ravel()
 
 
 def _cell_ends(coordinate: Coordinate, breaks: FloatArray, cells: int) -> FloatArray:
