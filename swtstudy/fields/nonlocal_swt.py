@@ -10,7 +10,7 @@ import xarray as xr
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import numbers
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
-from swtstudy.mechanics.body.nonlocal_mean import at_distance, critical_direction, line_mean, volume_mean
+from swtstudy.mechanics.body.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.solving import solve

@@ -7,6 +7,7 @@ take arrays of shape (n, …).
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,9 @@ class Profile(ABC):
     largest_depth
         Shape (n,): largest indentation depth in δ0, up to which tables are made.
     """
+
+    #: Whether the stress has no bound at the edge r = b⁺ of a flat face.
+    has_singular_edge: ClassVar[bool] = False
 
     def __init__(self, largest_depth: FloatArray) -> None:
         self.largest_depth = largest_depth

@@ -136,6 +136,8 @@ def _rise_table() -> tuple[FloatArray, FloatArray]:
 class TruncatedParaboloid(FlatFaced):
     """g = ξ w; the pressure is logarithmically infinite at r = b."""
 
+    has_singular_edge = True
+
     def depth(self, radius: FloatArray) -> FloatArray:
         return radius * self._rise(radius)
 

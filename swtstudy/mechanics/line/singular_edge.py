@@ -59,7 +59,7 @@ LEFT_OUT = 2e-7
 def not_finite(scene: Scene) -> NDArray[np.bool_]:
     """Whether swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
     profile, cycle, friction = scene.profile, scene.cycle, scene.friction
-    if not isinstance(profile, TruncatedParaboloid):
+    if not profile.has_singular_edge:
         return np.zeros(len(scene), dtype=bool)
     nearest = profile.singular_approach.min(axis=1, keepdims=True)
     tears = _innermost_spring_slips(cycle.load, scene.coordinate.of(nearest)) & (friction > 1.0)
@@ -84,7 +84,7 @@ def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]
 def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
     """Whether the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
     profile, cycle = scene.profile, scene.cycle
-    if not isinstance(profile, TruncatedParaboloid):
+    if not profile.has_singular_edge:
         return np.zeros(len(scene), dtype=bool)
     face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
     slides = cycle.gross_slip & (cycle.load.least_normal > 0.0)
