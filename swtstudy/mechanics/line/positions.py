@@ -91,46 +91,81 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
     spread
         Shape (n,): number of positions over the whole range, were there no cusps.
     """
-    n, count = ends.shape
-    low, high = ends[:, :-1], ends[:, 1:]
-    length = high - low
-    total = ends[:, -1:] - ends[:, :1]
-    steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
-    most = int(steps.max())
-    number = np.arange(most + 1)
-    real = length > NO_STRETCH * total
-    keep = real[:, :, None] & (number < steps[:, :, None])
-    stretch = np.broadcast_to(np.arange(count - 1)[:, None], keep.shape)
-    place = np.broadcast_to(number, keep.shape)
-    # The last real stretch keeps its end.
-    last = count - 2 - real[:, ::-1].argmax(axis=1)
-    keep[np.arange(n), last, steps[np.arange(n), last]] = True
-    # … which is the end of the range, however short a stretch is left out: a thin slip zone has its s there.
-    high = high.copy()
-    high[np.arange(n), last] = ends[:, -1]
-    keep = keep.reshape(n, -1)
-    stretch, place = packed(keep, stretch.reshape(n, -1), place.reshape(n, -1))
+    parts = _StretchesOfRange.of(ends, spread)
+    stretch, place, count = parts.places()
+    step = gather(np.pi / parts.steps, stretch)
+    alpha = place * step
+    before = parts.before(stretch, place)
+    left = np.where(before == stretch, alpha, np.pi)
 
-    previous = np.maximum.accumulate(np.where(real, np.arange(count - 1), -1), axis=1)
-    before = np.where(place > 0, stretch, gather(previous, np.maximum(stretch - 1, 0)))
-    before = np.where((place == 0) & (stretch == 0) | (before < 0), stretch, before)
-    step = np.pi / steps
-    alpha = place * gather(step, stretch)
-    inside = before == stretch
-    left = np.where(inside, alpha, np.pi)
-    sides = np.stack([before, stretch], axis=-1)
-
-    def of_sides(values: FloatArray) -> FloatArray:
-        return gather(values, sides.reshape(n, -1)).reshape(sides.shape)
+    def both_sides(values: FloatArray) -> FloatArray:
+        return np.stack([gather(values, before), gather(values, stretch)], axis=-1)
 
     return Positions(
-        between(gather(low, stretch), gather(high, stretch), alpha),
-        keep.sum(axis=1),
-        of_sides(low),
-        of_sides(high),
+        between(gather(parts.low, stretch), gather(parts.high, stretch), alpha),
+        count,
+        both_sides(parts.low),
+        both_sides(parts.high),
         np.stack([left, alpha], axis=-1),
-        of_sides(step),
+        both_sides(np.pi / parts.steps),
     )
+
+
+@dataclass(frozen=True)
+class _StretchesOfRange:
+    """The m stretches between the cusps, arrays of shape (n, m).
+
+    Attributes
+    ----------
+    low, high
+        Their ends.
+    steps
+        Numbers of steps between the positions of each.
+    real
+        Which have a length.
+    last
+        Shape (n,): the last of these.
+    """
+
+    low: FloatArray
+    high: FloatArray
+    steps: NDArray[np.intp]
+    real: NDArray[np.bool_]
+    last: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, ends: FloatArray, spread: FloatArray) -> _StretchesOfRange:
+        """See `spread_positions`."""
+        low, high = ends[:, :-1], ends[:, 1:].copy()
+        length, total = high - low, ends[:, -1:] - ends[:, :1]
+        steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
+        real = length > NO_STRETCH * total
+        last = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
+        # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
+        high[np.arange(len(ends)), last] = ends[:, -1]
+        return cls(low, high, steps, real, last)
+
+    def places(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """Stretch of each position and its place in it, shape (n, X), and the number of positions, (n,).
+
+        Each stretch with a length has the positions at its steps; only the last one has its end, too.
+        """
+        n, m = self.low.shape
+        number = np.arange(int(self.steps.max()) + 1)
+        keep = self.real[:, :, None] & (number < self.steps[:, :, None])
+        keep[np.arange(n), self.last, self.steps[np.arange(n), self.last]] = True
+        kept = keep.reshape(n, -1)
+        stretch, place = (
+            np.broadcast_to(values, keep.shape).reshape(n, -1) for values in (np.arange(m)[:, None], number)
+        )
+        return *packed(kept, stretch, place), kept.sum(axis=1)
+
+    def before(self, stretch: NDArray[np.intp], place: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The stretch to the left of each position: its own but at its begin."""
+        number = np.arange(self.low.shape[1])
+        previous = np.maximum.accumulate(np.where(self.real, number, -1), axis=1)
+        left = np.where(place > 0, stretch, gather(previous, np.maximum(stretch - 1, 0)))
+        return np.where((place == 0) & (stretch == 0) | (left < 0), stretch, left)
 
 
 def positions_of_first_look(cycle: Cycle, coordinate: Coordinate) -> Positions:
