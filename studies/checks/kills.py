@@ -227,7 +227,7 @@ def main() -> None:
     dice, limit = random.Random(1), 2 if quick else 25
     with tempfile.TemporaryDirectory() as folder:
         kills_of_runs(Path(folder), study_text(quick), limit, dice)
-        kills_of_writes(Path(folder), 30 if quick else 300, limit, dice)
+        kills_of_writes(Path(folder), 30 if quick else 300, 1 if quick else limit, dice)
 
 
 if __name__ == "__main__":
