@@ -21,7 +21,7 @@ _CODE = re.compile(r"`([^`\n]+(?:\n[^`\n]+)?)`")
 #: Programs that prepare a place for the package or read it: continuous integration runs them, as they stand.
 _INSTALLERS = ("python3 -m venv", "pip install", "python -m pytest", "sphinx-build")
 #: Commands in prose that are run; a placeholder in capitals stands for something that is not there.
-_RUN = ("swtstudy ", "python studies/")
+_RUN = ("swtstudy ", "python studies/", "pip install", "sphinx-build")
 _PLACEHOLDER = re.compile(r"\b[A-Z]{2,}\b|host:")
 
 
@@ -51,11 +51,21 @@ def _lead(text: str) -> str:
     return text.rstrip().rpartition("\n\n")[2]
 
 
-def commands_in_prose(page: Path) -> list[str]:
-    """Whole commands between the lines of a page, such as `swtstudy run --all`."""
+def code_in_prose(page: Path) -> list[str]:
+    """The code between the words of a page."""
     prose = _FENCE.sub("", page.read_text(encoding="utf-8"))
-    codes = [" ".join(found[1].split()) for found in _CODE.finditer(prose)]
+    return [" ".join(found[1].split()) for found in _CODE.finditer(prose)]
+
+
+def commands_in_prose(page: Path) -> list[str]:
+    """Whole commands between the words of a page, such as `swtstudy run --all`."""
+    codes = code_in_prose(page)
     return [code for code in codes if code.startswith(_RUN) and not _PLACEHOLDER.search(code)]
+
+
+def calls_in_prose(page: Path) -> list[str]:
+    """Names of the package between the words of a page, or calls."""
+    return [code for code in code_in_prose(page) if code.startswith("swtstudy.")]
 
 
 def commands_in_help() -> list[str]:

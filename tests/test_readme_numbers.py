@@ -12,8 +12,13 @@ import shown
 import xarray as xr
 
 from swtstudy import open_results
+from swtstudy.audit.point import TOLERANCE
+from swtstudy.cli.run import POINTS_FAILED
+from swtstudy.mechanics.face_edge import LEFT_OUT
 from swtstudy.mechanics.points import REGIMES
+from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.surface_circle import SAFE_POISSON_RATIO
+from swtstudy.units.physical import SIMILAR
 
 RESULTS = shown.ROOT / "results"
 README = " ".join((shown.ROOT / "README.md").read_text(encoding="utf-8").split())
@@ -192,6 +197,9 @@ def stability() -> None:
     worst = relative.where(relative == relative.max(), drop=True)
     said = "but where rounding shows: {} at a tangential amplitude of {}."
     says(said, float(relative.max()), float(worst.tangential_amplitude[0]))
+    others = [walks[name].s_error / walks[name].s for name in names if name != "stability_small_motion"]
+    assert max(float(each.max()) for each in others) < 1e-4
+    assert (small.tangential_amplitude.where((relative > 1e-4).any("normal_amplitude")).max() < 1e-8).all()
 
 
 def lives() -> None:
@@ -219,6 +227,15 @@ def statements() -> None:
     assert numbers("statements.md", "gross slip {}%")[0] > 50
 
 
+def limits() -> None:
+    says("Dundurs' |β| above {}) are refused", SIMILAR)
+    says("(exit code {}, `--retry-failed`)", POINTS_FAILED)
+    says("never on an oblique plane ({} % of s left aside)", 100 * TOLERANCE)
+    says("at r = b, where it is never below {} s", LEFT_OUT)
+    says("is nearer to b than {} of the face or of the ring beside it", NEAREST)
+    says("but for faces below {} of the contact", SMALLEST_FACE)
+
+
 def versions() -> None:
     with (shown.ROOT / "pyproject.toml").open("rb") as file:
         lowest = dict(each.split(">=") for each in tomllib.load(file)["project"]["dependencies"])
@@ -240,6 +257,7 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     lives,
     checks,
     statements,
+    limits,
     versions,
 )
 

@@ -1,5 +1,6 @@
 """What the README, the pages and the help show is run as it stands, and does what they say."""
 
+import operator
 import re
 import shutil
 import sys
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 import shown
 
+import swtstudy
 from swtstudy import Study
 from swtstudy.runner.work import assess
 
@@ -18,6 +20,14 @@ IN_PROSE = [command for page in shown.PAGES for command in shown.commands_in_pro
 IN_HELP = [part for line in shown.commands_in_help() for part in shown.commands_of(line)]
 #: Each once. What makes a file comes before what needs it, and what is short before what is longer.
 COMMANDS = sorted({*IN_PROSE, *IN_HELP}, key=lambda command: (" new " not in command, len(command), command))
+#: Names of the package, such as swtstudy.solve, as far as the dots go.
+NAMES = sorted(
+    {
+        re.match(r"swtstudy\.([\w.]*\w)", call)[1]
+        for page in shown.PAGES
+        for call in shown.calls_in_prose(page)
+    }
+)
 #: Blocks that the build of the pages makes of files; CI builds them, and their files are tested elsewhere.
 BUILT = {"{include}", "{literalinclude}", "{toctree}", "{eval-rst}"}
 #: A hundred points of an audit are some ten seconds.
@@ -97,6 +107,14 @@ def test_shell_blocks(block, fresh, tmp_path, monkeypatch):
         shown.run_command(command)
     for file in re.findall(r"\w+/\w+\.(?:nc|png)", block.lead + block.text):
         assert (tmp_path / file).is_file(), file
+    for call in shown.calls_in_prose(block.page):
+        if call.endswith(")") and "..." not in call:
+            assert eval(call, {"swtstudy": swtstudy}) is not None
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_in_prose(name):
+    assert operator.attrgetter(name)(swtstudy)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
