@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import NamedTuple
@@ -21,7 +24,7 @@ _CODE = re.compile(r"`([^`\n]+(?:\n[^`\n]+)?)`")
 #: Programs that prepare a place for the package or read it: continuous integration runs them, as they stand.
 _INSTALLERS = ("python3 -m venv", "pip install", "python -m pytest", "sphinx-build")
 #: Commands in prose that are run; a placeholder in capitals stands for something that is not there.
-_RUN = ("swtstudy ", "python studies/", "pip install", "sphinx-build")
+_RUN = ("swtstudy ", "python studies/", "pip install", "sphinx-build", "eval ")
 _PLACEHOLDER = re.compile(r"\b[A-Z]{2,}\b|host:")
 
 
@@ -87,6 +90,16 @@ def run_command(command: str) -> str:
     if command.startswith(_INSTALLERS):
         _check_installer(command)
         return ""
+    if command.startswith("eval "):
+        there = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+        done = subprocess.run(
+            ["bash", "-c", f"set -e; {command}; complete -p swtstudy"],
+            env=there,
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        return done.stdout
     words = shlex.split(command)
     if words[0] == "swtstudy":
         result = CliRunner().invoke(main, words[1:])

@@ -41,11 +41,12 @@ def run(name, results):
 
 
 @pytest.fixture(scope="module")
-def runs(tmp_path_factory):
-    """The runs, two at a time: most of them wait more than they compute."""
+def runs(request, tmp_path_factory):
+    """The runs of the scripts whose tests are chosen, two at a time."""
+    chosen = [item.callspec.params["name"] for item in request.session.items if "runs" in item.fixturenames]
     with ThreadPoolExecutor(2) as pool:
         started = {}
-        for name in SCRIPTS:
+        for name in chosen:
             folder = tmp_path_factory.mktemp("results")
             started[name] = folder, pool.submit(run, name, folder)
         yield started

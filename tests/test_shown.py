@@ -128,6 +128,13 @@ def test_every_kind_of_block_has_a_rule():
     assert kinds <= {"python", "sh", *BUILT}
 
 
+def test_links_of_the_readme_lead_somewhere():
+    for link in re.findall(
+        r"\]\((?!https?://)([^)#]+)", (shown.ROOT / "README.md").read_text(encoding="utf-8")
+    ):
+        assert (shown.ROOT / link).is_file(), link
+
+
 def test_blocks_that_show_files_show_files_that_are_there():
     for page in shown.PAGES:
         text = page.read_text(encoding="utf-8")
