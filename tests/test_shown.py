@@ -1,5 +1,6 @@
 """What the README, the pages and the help show is run as it stands, and does what they say."""
 
+import ast
 import operator
 import re
 import shutil
@@ -93,6 +94,8 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
             if "dask_jobqueue" in block.text:
                 (tmp_path / "results" / "figure4.nc").unlink()  # or there is nothing to do for it
             exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+            for dims in re.findall(r"# dims: (\(.*\))", block.text):
+                assert names["ds"].s.dims == ast.literal_eval(dims)
     if page.name == "README.md":
         assert slurm
         assert names["ds"].sizes == {"normal_amplitude": 2, "frequency_ratio": 5, "phase": 145}
@@ -121,11 +124,13 @@ def test_names_in_prose(name):
 def test_commands_in_prose_and_help(command, clone, monkeypatch):
     monkeypatch.chdir(clone)
     shown.run_command(f"{command} {FEWER.get(command, '')}")
+    for kept in (shown.ROOT / "results").glob("*.md"):  # swtstudy check and audit write two of them anew
+        assert (clone / "results" / kept.name).read_text("utf-8") == kept.read_text("utf-8"), kept
 
 
 def test_every_kind_of_block_has_a_rule():
     kinds = {block.language for page in shown.PAGES for block in shown.blocks_of(page)}
-    assert kinds <= {"python", "sh", *BUILT}
+    assert kinds <= {"python", "sh", *BUILT}, "say here how this kind is run"
 
 
 def test_links_of_the_readme_lead_somewhere():
