@@ -68,7 +68,7 @@ def slurm(monkeypatch):
             assert re.fullmatch(r"\d+GB", memory)
             assert re.fullmatch(r"\d\d:\d\d:\d\d", walltime)
             made.append(self)
-            super().__init__(n_workers=0, processes=False, dashboard_address=None)
+            super().__init__(n_workers=0, processes=False, dashboard_address=":0")
 
         def scale(self, n: int = 0, *, jobs: int = 0):
             super().scale(n or min(jobs, 2))
