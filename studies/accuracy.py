@@ -1,11 +1,11 @@
 """How accurate s is, and whether s_error says so: random points against the tightest tolerance.
 
-Run as ``python studies/accuracy.py [points per profile]``; writes results/accuracy.md.
+Run as ``python studies/accuracy.py [points a profile]``; writes results/accuracy.md.
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 from fractions import Fraction
 from math import gcd
 from pathlib import Path
@@ -66,12 +66,17 @@ def rows(profile: str, count: int) -> list[str]:
 
 
 def main() -> None:
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("points", nargs="?", type=int, default=100, help="points a profile")
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
+    arguments.add_argument("--quick", action="store_true", help="one point a profile, to see that it runs")
+    given = arguments.parse_args()
+    count = 1 if given.quick else given.points
     table = [line for profile in SHAPES for line in rows(profile, count)]
     title = f"Relative errors at {count} random points a profile, against rtol = {REFERENCE_RTOL:.0e}.\n\n"
     text = title + HEADER + "\n".join(table) + "\n"
-    Path("results").mkdir(exist_ok=True)
-    Path("results/accuracy.md").write_text(text, encoding="utf-8")
+    given.results.mkdir(exist_ok=True)
+    (given.results / "accuracy.md").write_text(text, encoding="utf-8")
     print(text)
 
 

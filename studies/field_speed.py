@@ -7,9 +7,11 @@ tamaas (extra ``bench``), which solves a whole grid for each instant. The points
 Run from the project's folder: OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python studies/field_speed.py
 """
 
+import argparse
 import time
 import warnings
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,7 +30,20 @@ with warnings.catch_warnings():
 FRICTION, POISSON = 0.3, 0.3
 P0 = 2 / np.pi
 PLAIN_PLANES = 281
-INSTANTS, GRID, LAYERS, WIDTH, DEPTH = 64, 128, 32, 6.0, 1.5
+WIDTH, DEPTH = 6.0, 1.5
+
+
+class Size(NamedTuple):
+    """Instants of the cycle, grid of the half-space, points of the search, phases at the circle."""
+
+    instants: int
+    grid: int
+    layers: int
+    points: int
+    phases: int
+
+
+FULL, QUICK = Size(64, 128, 32, 2000, 200), Size(8, 16, 12, 20, 4)
 
 
 def timed(call, repeats=3):
@@ -41,12 +56,12 @@ def timed(call, repeats=3):
     return result, best
 
 
-def table_1(instant):
-    """Table 1 at the given instants; at ψ = 0 all slopes of the memory diagram are −1, 0 or 1."""
+def table_1(instants):
+    """Table 1 at uniform instants; at ψ = 0 all slopes of the memory diagram are −1, 0 or 1."""
     values = (np.array([v]) for v in (POISSON, FRICTION, 0.75))
     ratio = np.array([1]), np.array([1])
     scene = scene_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
-    return Body.of(scene, nodes_at(scene, instant), cells=200)
+    return Body.of(scene, nodes_at(scene, 2.0 * np.pi * np.arange(instants) / instants), cells=200)
 
 
 def jumps(states, instant):
@@ -73,17 +88,16 @@ def by_hamilton(states, x, y, z):
 class Tamaas:
     """A periodic half-space that is solved for one instant at a time."""
 
-    def __init__(self):
+    def __init__(self, grid, layers):
         import tamaas
 
         tamaas.set_log_level(tamaas.LogLevel.error)
-        size, shape = [DEPTH, WIDTH, WIDTH], [LAYERS, GRID, GRID]
+        size, shape = [DEPTH, WIDTH, WIDTH], [layers, grid, grid]
         self.model = tamaas.Model(tamaas.model_type.volume_2d, size, shape)
         self.model.E, self.model.nu = 1.0 - POISSON**2, POISSON
         tamaas.ModelFactory.registerVolumeOperators(self.model)
         self.strain, self.stress = np.zeros([*shape, 6]), np.zeros([*shape, 6])
-        self.axis = (np.arange(GRID) - GRID // 2) * WIDTH / GRID
-        self.depth = np.linspace(0.0, DEPTH, LAYERS)
+        self.axis = (np.arange(grid) - grid // 2) * WIDTH / grid
 
     def solve(self, states, instant):
         """Stress on the whole grid (z, x, y, 6), components as in this package."""
@@ -98,13 +112,15 @@ class Tamaas:
         return self.stress[..., [0, 1, 2, 5, 4, 3]] / np.array([1, 1, 1, 2**0.5, 2**0.5, 2**0.5])
 
 
-def report():
+def report(size):
     """The table, as lines of Markdown."""
-    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
-    axis = (np.arange(GRID) - GRID // 2) * WIDTH / GRID
+    body = table_1(size.instants)
+    axis = (np.arange(size.grid) - size.grid // 2) * WIDTH / size.grid
     inside = np.flatnonzero(np.abs(axis) < 1.5)
-    layers = np.arange(1, LAYERS - 8, 3)
-    grid = np.meshgrid(np.linspace(0.0, DEPTH, LAYERS)[layers], axis[inside], axis[inside], indexing="ij")
+    layers = np.arange(1, size.layers - 8, 3)
+    grid = np.meshgrid(
+        np.linspace(0.0, DEPTH, size.layers)[layers], axis[inside], axis[inside], indexing="ij"
+    )
     z, x, y = (v.ravel() for v in grid)
     ours, our_time = timed(lambda: body.stress(x, y, z))
     hamilton, hamilton_time = timed(lambda: by_hamilton(body.states, x, y, z), repeats=1)
@@ -112,8 +128,8 @@ def report():
     # Hamilton's formulas cancel next to the axis.
     off_axis = np.hypot(x, y) > 0.1
     lines = [
-        f"{len(x)} points × {INSTANTS} instants of one cycle, one thread; largest difference from the field "
-        "of this package in p0.",
+        f"{len(x)} points × {size.instants} instants of one cycle, one thread; largest difference from the "
+        "field of this package in p0.",
         "",
         "| field | µs per point and instant | largest difference |",
         "|---|---|---|",
@@ -122,15 +138,15 @@ def report():
         f"{np.abs(hamilton - ours)[off_axis].max() / P0:.1e} |",
     ]
     try:
-        half_space = Tamaas()
+        half_space = Tamaas(size.grid, size.layers)
     except ImportError:
         return [*lines, "", "tamaas is not installed (extra `bench`)."]
-    instant = INSTANTS // 4
+    instant = size.instants // 4
     stress, tamaas_time = timed(lambda: half_space.solve(body.states, instant))
     away = np.abs(stress[np.ix_(layers, inside, inside)].reshape(-1, 6) - ours[:, instant]).max()
     return [
         *lines,
-        f"| tamaas, periodic, {GRID}² × {LAYERS}, {1e3 * tamaas_time:.0f} ms a grid | "
+        f"| tamaas, periodic, {size.grid}² × {size.layers}, {1e3 * tamaas_time:.0f} ms a grid | "
         f"{1e6 * tamaas_time / stress[..., 0].size:.2f} | {away / P0:.1e} |",
     ]
 
@@ -145,11 +161,11 @@ def plain_search(stress, normals):
     return (tension * 0.5 * (strain.max(axis=1) - strain.min(axis=1))).max(axis=1)
 
 
-def planes():
+def planes(size):
     """Time of the search over all planes on the histories of the body, as lines of Markdown."""
     rng = np.random.default_rng(0)
-    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
-    x, y, z = *rng.uniform(-1.5, 1.5, (2, 2000)), rng.uniform(0.0, 0.3, 2000)
+    body = table_1(size.instants)
+    x, y, z = *rng.uniform(-1.5, 1.5, (2, size.points)), rng.uniform(0.0, 0.3, size.points)
     stress = body.stress(x, y, z)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))
     coarse, first = timed(lambda: highest_coarse_swt(stress, POISSON, 1.0 - POISSON**2))
@@ -160,16 +176,16 @@ def planes():
     low, simply_low = (100 * (1.0 - swt[high] / found.swt[high]).max() for swt in (coarse, simple))
     return [
         "",
-        f"swt over all plane orientations, {INSTANTS} instants: 256 planes take "
+        f"swt over all plane orientations, {size.instants} instants: 256 planes take "
         f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of "
         f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point. A plain vectorised search "
         f"of {PLAIN_PLANES} planes takes {1e6 * plain / len(x):.0f} µs (up to {simply_low:.1f} % low).",
     ]
 
 
-def circle():
+def circle(size):
     """What the solver's look along the circle through the critical point costs, as lines of Markdown."""
-    phase = np.linspace(0.0, np.pi, 200)
+    phase = np.linspace(0.0, np.pi, size.phases)
     one = np.ones(len(phase))
     ratio = one.astype(int)
     amplitudes = 0.75 * one, ratio, ratio, 5 / 6 * one
@@ -185,7 +201,17 @@ def circle():
     ]
 
 
-if __name__ == "__main__":
-    text = "\n".join([*report(), *planes(), *circle()]) + "\n"
-    Path("results/field_speed.md").write_text(f"# The field beneath the contact\n\n{text}", encoding="utf-8")
+def main():
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
+    arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
+    given = arguments.parse_args()
+    size = QUICK if given.quick else FULL
+    text = "\n".join([*report(size), *planes(size), *circle(size)]) + "\n"
+    table = given.results / "field_speed.md"
+    table.write_text(f"# The field beneath the contact\n\n{text}", encoding="utf-8")
     print(text, end="")
+
+
+if __name__ == "__main__":
+    main()

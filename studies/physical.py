@@ -1,6 +1,6 @@
 """A sphere of aluminium 2024-T351 on a flat of the same, in N, mm and MPa: the worst and the best phase.
 
-Run from the project's folder: python studies/physical.py
+Run from the project's folder: python studies/physical.py > results/physical.txt
 
 Elastic and strain–life constants: N. E. Dowling, Mechanical Behavior of Materials, 4th ed., Pearson 2013,
 Table 14.1 (2024-T351: E = 73.1 GPa, σf′ = 927 MPa, b = −0.113, εf′ = 0.409, c = −0.713); ν = 0.33.

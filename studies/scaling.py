@@ -7,6 +7,7 @@ p in ω2/ω1 = p; the memory of a call; start-up in processes of their own. Run 
 
 from __future__ import annotations
 
+import argparse
 import subprocess
 import sys
 import time
@@ -19,11 +20,12 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from swtstudy.mechanics import Points, solve_points
 
-RESULTS = Path("results")
 COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TERMS = (1, 2, 4, 8, 16, 32, 64)
-REPEATS, SOME = 3, 64
+REPEATS = 3
+#: Samples of each sweep that are left in a quick run.
+FEW = 3
 #: Points in a call, p and q, whose memory is measured.
 BATCHES = ((1, 1, 1), (64, 1, 1), (4096, 1, 1), (64, 1, 4), (2, 1, 64), (2, 32, 1))
 START_UP = {
@@ -64,10 +66,10 @@ def growth(x: Sequence[float], y: Sequence[float]) -> float:
     return float(np.polyfit(np.log(x[half:]), np.log(y[half:]), 1)[0])
 
 
-def start_up(arguments: list[str]) -> float:
+def start_up(arguments: list[str], repeats: int) -> float:
     """Median wall time of a new process, in seconds."""
     times = []
-    for _ in range(5):
+    for _ in range(repeats):
         begin = time.perf_counter()
         subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
         times.append(time.perf_counter() - begin)
@@ -77,25 +79,35 @@ def start_up(arguments: list[str]) -> float:
 def peak_memory(*arguments: int) -> float:
     """Largest memory of a process that solves a `batch` in one call, MB."""
     command = [sys.executable, "-c", PEAK, *map(str, arguments)]
-    run = subprocess.run(command, check=True, capture_output=True, text=True, cwd="studies")
+    run = subprocess.run(command, check=True, capture_output=True, text=True, cwd=Path(__file__).parent)
     return float(run.stdout) / 1024
 
 
 def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the files")
+    arguments.add_argument("--quick", action="store_true", help="short and cheap lists, to see that it runs")
+    given = arguments.parse_args()
+    report(given.results, *((FEW, 1, 4, 1) if given.quick else (None, None, 64, 5)))
+
+
+def report(results: Path, few: int | None, batches: int | None, some: int, repeats: int) -> None:
+    """Measure, and leave chart and tables: ``few`` samples, ``some`` points in a call."""
     sweeps: dict[str, tuple[str, Sequence[float], Callable[[float], float]]] = {
         "points": ("points in a call", COUNTS, lambda n: milliseconds(batch(int(n)), 1e-4)),
-        "rtol": ("1/rtol", [1 / r for r in RTOLS], lambda r: milliseconds(batch(SOME), 1 / r)),
+        "rtol": ("1/rtol", [1 / r for r in RTOLS], lambda r: milliseconds(batch(some), 1 / r)),
         "q": (
             "q, ω2/ω1 = 1/q",
             TERMS,
-            lambda q: milliseconds(batch(max(SOME // int(q), 2), 1, int(q)), 1e-4),
+            lambda q: milliseconds(batch(max(some // int(q), 2), 1, int(q)), 1e-4),
         ),
-        "p": ("p, ω2/ω1 = p", TERMS, lambda p: milliseconds(batch(max(SOME // int(p), 2), int(p), 1), 1e-4)),
+        "p": ("p, ω2/ω1 = p", TERMS, lambda p: milliseconds(batch(max(some // int(p), 2), int(p), 1), 1e-4)),
     }
     figure = Figure((10.0, 3.2), layout=ConstrainedLayoutEngine())
     panels = figure.subplots(1, len(sweeps), sharey=True)
     lines = ["Processor time a value (paraboloid, Table 1), one thread.", ""]
-    for axes, (words, x, cost) in zip(panels, sweeps.values(), strict=True):
+    for axes, (words, all_x, cost) in zip(panels, sweeps.values(), strict=True):
+        x = all_x[:few]
         y = [cost(value) for value in x]
         exponent = growth(x, y)
         axes.loglog(x, y, "o-", color="#0072B2", markersize=4)
@@ -108,12 +120,12 @@ def main() -> None:
         lines += [f"Over the second half of the samples the cost grows like the power {exponent:.2f}.", ""]
     panels[0].set_ylabel("ms a value")
     lines += ["| points in a call, p, q | peak memory of the process, MB |", "|---|---|"]
-    lines += [f"| {n}, {p}, {q} | {peak_memory(n, p, q):.0f} |" for n, p, q in BATCHES]
-    lines += ["", "| start-up (median of 5 processes) | s |", "|---|---|"]
-    lines += [f"| {words} | {start_up(arguments):.2f} |" for words, arguments in START_UP.items()]
-    RESULTS.mkdir(exist_ok=True)
-    figure.savefig(RESULTS / "scaling.png", dpi=150)
-    (RESULTS / "scaling.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    lines += [f"| {n}, {p}, {q} | {peak_memory(n, p, q):.0f} |" for n, p, q in BATCHES[:batches]]
+    lines += ["", f"| start-up (median of {repeats} processes) | s |", "|---|---|"]
+    lines += [f"| {words} | {start_up(arguments, repeats):.2f} |" for words, arguments in START_UP.items()]
+    results.mkdir(exist_ok=True)
+    figure.savefig(results / "scaling.png", dpi=150)
+    (results / "scaling.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 
 

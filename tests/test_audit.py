@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from made_up import made_up_audit, made_up_finding
 
 from swtstudy.archive.files import save
 from swtstudy.audit.audit import audit_study, sample_rows
@@ -14,7 +15,6 @@ from swtstudy.audit.table import canonical_rows, findings_dataset, open_audit, r
 from swtstudy.cli import main
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.study.definition import Study
-from tests.made_up import made_up_audit, made_up_finding
 
 PARAMETER_BOX = Path(__file__).parent.parent / "studies" / "audit" / "parameter_box.toml"
 STUDY = """

@@ -3,15 +3,15 @@
 from functools import partial
 from pathlib import Path
 
+import stand_in
 from click.testing import CliRunner
+from made_up import made_up_audit
 
 from swtstudy import Study, run
 from swtstudy.archive.files import save
 from swtstudy.cli import main
 from swtstudy.statements.check import STATEMENTS, STUDIES, check
 from swtstudy.statements.report import markdown, summary, terminal_table
-from tests import stand_in
-from tests.made_up import made_up_audit
 
 AUDIT = "audit_parameter_box"
 FOLDER = Path(__file__).parent.parent / "studies"

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from made_up import made_up, made_up_audit
 
 from swtstudy.labelled import ATTRIBUTES
 from swtstudy.statements import critical_point
 from swtstudy.statements.stick_zone import stick_radius
-from tests.made_up import made_up, made_up_audit
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:

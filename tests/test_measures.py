@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from made_up import PHASES, made_up
 
 from swtstudy.statements.measures import coupling, largest_fall, largest_rise, period, turning_points
-from tests.made_up import PHASES, made_up
 
 
 def test_measures():

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
+from made_up import PHASES, made_up
 
 from swtstudy.statements import figure3, figure4, figure5, figure6, figure7, figure8, parameters
 from swtstudy.statements.select import NotInArchiveError, at
-from tests.made_up import PHASES, made_up
 
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
 H = np.geomspace(0.002, 0.05, 201)

@@ -5,6 +5,7 @@ python studies/checks/cluster.py > results/cluster.txt
 
 from __future__ import annotations
 
+import argparse
 import os
 import signal
 import socket
@@ -16,12 +17,12 @@ import time
 from pathlib import Path
 
 import xarray as xr
-from two_thousand import STUDY, same_values
+from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 
 
-def killed_worker(folder: Path, expected: xr.Dataset, seconds: float) -> None:
+def killed_worker(folder: Path, text: str, expected: xr.Dataset, seconds: float) -> None:
     """A LocalCluster of two workers, one of which is killed half way."""
     from distributed import Client, LocalCluster
 
@@ -33,27 +34,26 @@ def killed_worker(folder: Path, expected: xr.Dataset, seconds: float) -> None:
         timer = threading.Timer(seconds / 2, os.kill, (victim, signal.SIGKILL))
         timer.start()
         begin = time.perf_counter()
-        found = run(Study.from_text(STUDY), folder / "local-cluster.nc", client=client)
+        found = run(Study.from_text(text), folder / "local-cluster.nc", client=client)
         print(f"LocalCluster, worker {victim} killed half way: {time.perf_counter() - begin:.1f} s")
         assert timer.finished.is_set()
     same_values(found, expected)
     print("  the very values of the undisturbed run")
 
 
-def separate_processes(folder: Path, expected: xr.Dataset) -> None:
+def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
     """`dask scheduler`, two `dask worker`, and `swtstudy run --scheduler`, each its own process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     address = f"tcp://127.0.0.1:{port}"
-    (folder / "study.toml").write_text(STUDY)
+    (folder / "study.toml").write_text(text)
     dask = [sys.executable, "-m", "dask"]
     options = {"cwd": folder, "stderr": subprocess.DEVNULL, "env": {**os.environ, "PYTHONPATH": os.getcwd()}}
     scheduler = [*dask, "scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
     worker = [*dask, "worker", address, "--nthreads", "1", "--no-dashboard"]
     processes = [subprocess.Popen(command, **options) for command in (scheduler, worker, worker)]
     try:
-        time.sleep(5)
         command = [sys.executable, "-m", "swtstudy", "run", "study.toml", "--scheduler", address]
         done = subprocess.run(command, **{**options, "stderr": None}, stdout=subprocess.PIPE, text=True)
         print(f"swtstudy run study.toml --scheduler {address}: exit code {done.returncode}")
@@ -67,13 +67,17 @@ def separate_processes(folder: Path, expected: xr.Dataset) -> None:
 
 
 def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--quick", action="store_true", help="a small study, to see that it runs")
+    quick = arguments.parse_args().quick
+    text = study_text(quick)
     with tempfile.TemporaryDirectory() as name:
         begin = time.perf_counter()
-        expected = run(Study.from_text(STUDY), Path(name) / "local.nc")
+        expected = run(Study.from_text(text), Path(name) / "local.nc")
         seconds = time.perf_counter() - begin
         print(f"2 local workers, undisturbed: {expected.s.size} points in {seconds:.1f} s")
-        killed_worker(Path(name), expected, seconds)
-        separate_processes(Path(name), expected)
+        killed_worker(Path(name), text, expected, seconds)
+        separate_processes(Path(name), text, expected)
 
 
 if __name__ == "__main__":

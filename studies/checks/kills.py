@@ -5,6 +5,7 @@ python studies/checks/kills.py > results/kills.txt
 
 from __future__ import annotations
 
+import argparse
 import os
 import random
 import signal
@@ -19,14 +20,13 @@ from typing import Any
 
 import xarray as xr
 from cheap import cheap, logged
-from two_thousand import STUDY, same_values
+from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.run import Stopped
 
-KILLS = 25
 WORKERS = 2
 
 #: Chunks that the pool of local workers is given at once.
@@ -81,26 +81,26 @@ def largest_chunk(log: Path) -> int:
     return max(map(int, Path(f"{log}-chunks").read_text().split()))
 
 
-def kills_of_runs(folder: Path, dice: random.Random) -> None:
-    """Kill runs of 2,000 points, again and again, and let each end."""
+def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> None:
+    """Kill runs of a study, again and again, and let each end."""
     begin = time.perf_counter()
-    expected = run(Study.from_text(STUDY), folder / "undisturbed.nc")
+    expected = run(Study.from_text(text), folder / "undisturbed.nc")
     seconds = time.perf_counter() - begin
     print(f"undisturbed run of {expected.s.size} points on {WORKERS} workers: {seconds:.1f} s")
     print(
-        f"{KILLS} kills, each at a random moment up to 1.5 s after the first points of a run were computed;"
+        f"{limit} kills, each at a random moment up to 1.5 s after the first points of a run were computed;"
     )
     print(f"in flight are {IN_FLIGHT} chunks: with a worker, on the way to one, or on the way back")
     kills = rounds = all_lost = 0
-    while kills < KILLS:
+    while kills < limit:
         rounds += 1
         path, log = folder / f"killed{rounds}.nc", folder / f"log{rounds}"
         saved = 0
-        while kills < KILLS and saved < expected.s.size:
+        while kills < limit and saved < expected.s.size:
             before, done = saved, computed(log)
             Path(f"{log}-chunks").unlink(missing_ok=True)
             whom = "a worker" if kills % 3 == 2 else "the parent"
-            if not kill_one(path, log, whom, dice):
+            if not kill_one(text, path, log, whom, dice):
                 break  # it was ready before
             kills += 1
             assert not path.exists()
@@ -116,19 +116,19 @@ def kills_of_runs(folder: Path, dice: random.Random) -> None:
                 f"({saved - before:3d} more), {lost:3d} lost, at most {bound:3d} were in flight",
                 flush=True,
             )
-        final = run(Study.from_text(STUDY), path, solver=partial(logged, str(log)))
+        final = run(Study.from_text(text), path, solver=partial(logged, str(log)))
         same_values(final, expected)
         assert not parts_folder(path).exists()
         print(f"run {rounds} ends with the very values of the undisturbed one, nothing else is left")
-    print(f"{KILLS} kills: {all_lost} points lost, {all_lost / KILLS:.0f} a kill, and never a saved one\n")
+    print(f"{limit} kills: {all_lost} points lost, {all_lost / limit:.0f} a kill, and never a saved one\n")
 
 
-def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> bool:
+def kill_one(text: str, path: Path, log: Path, whom: str, dice: random.Random) -> bool:
     """Start a run, and kill it, or first one of its workers, at a random moment after its first block.
 
     Returns whether it was still there to be killed.
     """
-    process = start("run", STUDY, path, log)
+    process = start("run", text, path, log)
     at = computed(log)
     while computed(log) == at and process.poll() is None:
         time.sleep(0.01)
@@ -146,9 +146,9 @@ def kill_one(path: Path, log: Path, whom: str, dice: random.Random) -> bool:
     return killed
 
 
-def kills_of_writes(folder: Path, dice: random.Random) -> None:
+def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) -> None:
     """Kill a run while it writes its archive over an older one."""
-    small, large = WRITE % ("0.2", 20), WRITE % ("3", 300)
+    small, large = WRITE % ("0.2", 20), WRITE % ("3", rows)
     path = folder / "written.nc"
     old = run(Study.from_text(small), path, solver=cheap)
     expected = run(Study.from_text(large), folder / "expected.nc", solver=cheap)
@@ -158,7 +158,7 @@ def kills_of_writes(folder: Path, dice: random.Random) -> None:
     outcome = {"before": 0, "during": 0, "after": 0}
     kept = sorted(parts_folder(path).iterdir())
     saved = {part: part.read_bytes() for part in kept}
-    for _ in range(KILLS):
+    for _ in range(limit):
         process = start("write", large, path, folder / "log")
         while process.poll() is None and not writing(path):
             time.sleep(0.002)
@@ -178,7 +178,7 @@ def kills_of_writes(folder: Path, dice: random.Random) -> None:
             parts_folder(path).mkdir(exist_ok=True)
             for part, content in saved.items():
                 part.write_bytes(content)
-    print(f"{KILLS} kills around the write of an archive of {expected.s.size} points ({duration:.2f} s):")
+    print(f"{limit} kills around the write of an archive of {expected.s.size} points ({duration:.2f} s):")
     print(f"  {outcome['during']} with the file half written, {outcome['after']} after it was in place")
     print("  each time the file was the whole old archive or the whole new one")
     final = run(Study.from_text(large), path, solver=cheap)
@@ -219,14 +219,19 @@ def writing(path: Path) -> bool:
 
 
 def main() -> None:
-    dice = random.Random(1)
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument(
+        "--quick", action="store_true", help="few kills of a small study, to see that it runs"
+    )
+    quick = arguments.parse_args().quick
+    dice, limit = random.Random(1), 2 if quick else 25
     with tempfile.TemporaryDirectory() as folder:
-        kills_of_runs(Path(folder), dice)
-        kills_of_writes(Path(folder), dice)
+        kills_of_runs(Path(folder), study_text(quick), limit, dice)
+        kills_of_writes(Path(folder), 30 if quick else 300, 1 if quick else limit, dice)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
+    if sys.argv[1:2] in (["run"], ["write"]):
         child(*sys.argv[1:])
     else:
         main()

@@ -13,6 +13,7 @@ python studies/checks/overhead.py > results/overhead.txt
 
 from __future__ import annotations
 
+import argparse
 import multiprocessing
 import os
 import tempfile
@@ -86,12 +87,15 @@ def waits(log: Path) -> np.ndarray:
 
 
 def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
+    quick = arguments.parse_args().quick
     runner.Progress = Watched
     print(f"load of the {os.cpu_count()} cores before: {os.getloadavg()[0]:.1f}")
     print(f"a solver that sleeps {1e3 * SLEEP:g} ms a point:")
     with tempfile.TemporaryDirectory() as folder:
         log = Path(folder) / "log"
-        points, wall, parent, _ = measured(240, partial(asleep, SLEEP, str(log)))
+        points, wall, parent, _ = measured(3 if quick else 240, partial(asleep, SLEEP, str(log)))
         gaps = waits(log)
     stalls = gaps[gaps > STALL]
     print(f"  a worker waits {1e6 * gaps.sum() / points:4.0f} µs a point, so {WORKERS} take ", end="")
@@ -99,7 +103,7 @@ def main() -> None:
     print(f"    of this, {len(stalls)} stalls over {1e3 * STALL:g} ms: {stalls.sum():.2f} s in {wall:.0f} s")
     print(f"  the parent takes {1e6 * parent / points:.0f} µs of CPU time a point")
     print(f"a solver that keeps a core busy for {1e3 * SPIN:g} ms a point:")
-    points, _, parent, workers = measured(96, partial(spinning, SPIN))
+    points, _, parent, workers = measured(3 if quick else 96, partial(spinning, SPIN))
     print(f"  the parent takes {1e6 * parent / points:.0f} µs of CPU time a point")
     print(
         f"  the workers take {1e6 * (workers / points - SPIN):.0f} µs of CPU time a point beside the solver"

@@ -3,6 +3,9 @@
 Run from the project's folder: python studies/maps/slip_map.py
 """
 
+import argparse
+from pathlib import Path
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -10,13 +13,23 @@ import swtstudy
 from swtstudy.figures.maps import draw_slip_map
 from swtstudy.figures.save import save_figure
 
-figure = Figure(figsize=(13.0, 3.8), layout="constrained")
-for axes, phase in zip(figure.subplots(1, 3, sharey=True), (0.0, 0.5, 2.0), strict=True):
-    states = swtstudy.slip_map(
-        np.linspace(0.0, 1.4, 281), time=np.linspace(0.0, 2.0 * np.pi, 361), phase=phase
-    )
-    handles = draw_slip_map(axes, states)
-    axes.label_outer()
-    axes.set_title(rf"$\psi$ = {phase:g}", loc="left", fontsize="medium")
-figure.legend(handles=handles, loc="outside right upper", frameon=False)
-save_figure(figure, "results/slip_map.png")
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the figure")
+    arguments.add_argument("--quick", action="store_true", help="on coarse grids, to see that it runs")
+    given = arguments.parse_args()
+    fine = 0.1 if given.quick else 1.0
+    position = np.linspace(0.0, 1.4, 1 + round(280 * fine))
+    time = np.linspace(0.0, 2.0 * np.pi, 1 + round(360 * fine))
+    figure = Figure(figsize=(13.0, 3.8), layout="constrained")
+    for axes, phase in zip(figure.subplots(1, 3, sharey=True), (0.0, 0.5, 2.0), strict=True):
+        handles = draw_slip_map(axes, swtstudy.slip_map(position, time=time, phase=phase))
+        axes.label_outer()
+        axes.set_title(rf"$\psi$ = {phase:g}", loc="left", fontsize="medium")
+    figure.legend(handles=handles, loc="outside right upper", frameon=False)
+    save_figure(figure, given.results / "slip_map.png")
+
+
+if __name__ == "__main__":
+    main()

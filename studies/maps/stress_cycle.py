@@ -3,6 +3,9 @@
 Run from the project's folder: python studies/maps/stress_cycle.py
 """
 
+import argparse
+from pathlib import Path
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -10,12 +13,21 @@ import swtstudy
 from swtstudy.figures.maps import draw_stress_cycle
 from swtstudy.figures.save import save_figure
 
-x = float(swtstudy.solve().critical_x)
-time = np.linspace(0.0, 2.0 * np.pi, 721)
 
-figure = Figure(figsize=(9.0, 3.6), layout="constrained")
-for axes, z in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.1), strict=True):
-    draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
-    axes.label_outer()
-    axes.set_title(f"$x/a_H = {x:.3f}$, $z/a_H = {z:g}$", fontsize="medium")
-save_figure(figure, "results/stress_cycle.png")
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the figure")
+    arguments.add_argument("--quick", action="store_true", help="on coarse grids, to see that it runs")
+    given = arguments.parse_args()
+    x = float(swtstudy.solve().critical_x)
+    time = np.linspace(0.0, 2.0 * np.pi, 73 if given.quick else 721)
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    for axes, z in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.1), strict=True):
+        draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
+        axes.label_outer()
+        axes.set_title(f"$x/a_H = {x:.3f}$, $z/a_H = {z:g}$", fontsize="medium")
+    save_figure(figure, given.results / "stress_cycle.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -3,6 +3,9 @@
 Run from the project's folder: python studies/maps/swt_near_critical_point.py
 """
 
+import argparse
+from pathlib import Path
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -10,18 +13,30 @@ import swtstudy
 from swtstudy.figures.maps import draw_swt_map
 from swtstudy.figures.save import save_figure
 
-point = swtstudy.solve()
-x = float(point.critical_x)
-near = x + np.linspace(-0.3, 0.3, 121)
-depth = 0.03 * np.linspace(0.0, 1.0, 41) ** 2
-section = swtstudy.swt_field(x=near, y=0.0, z=depth)
-surface = swtstudy.swt_field(x=near, y=np.linspace(-0.5, 0.5, 61), z=0.0)
 
-figure = Figure(figsize=(9.0, 3.6), layout="constrained")
-both = figure.subplots(1, 2)
-for axes, dataset in zip(both, (section, surface), strict=True):
-    mesh = draw_swt_map(axes, dataset, highest=float(point.s))
-    dot = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "black", "clip_on": False}
-    axes.plot(x, 0.0, **dot)
-figure.colorbar(mesh, ax=both, label=r"swt over $E^* \delta_0/R$")
-save_figure(figure, "results/swt_near_critical_point.png")
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the figure")
+    arguments.add_argument("--quick", action="store_true", help="on coarse grids, to see that it runs")
+    given = arguments.parse_args()
+    fine = 0.1 if given.quick else 1.0
+    point = swtstudy.solve()
+    x = float(point.critical_x)
+    near = x + np.linspace(-0.3, 0.3, 1 + round(120 * fine))
+    depth = 0.03 * np.linspace(0.0, 1.0, 1 + round(40 * fine)) ** 2
+    across = np.linspace(-0.5, 0.5, 1 + round(60 * fine))
+    section = swtstudy.swt_field(x=near, y=0.0, z=depth)
+    surface = swtstudy.swt_field(x=near, y=across, z=0.0)
+
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    both = figure.subplots(1, 2)
+    for axes, dataset in zip(both, (section, surface), strict=True):
+        mesh = draw_swt_map(axes, dataset, highest=float(point.s))
+        dot = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "black", "clip_on": False}
+        axes.plot(x, 0.0, **dot)
+    figure.colorbar(mesh, ax=both, label=r"swt over $E^* \delta_0/R$")
+    save_figure(figure, given.results / "swt_near_critical_point.png")
+
+
+if __name__ == "__main__":
+    main()

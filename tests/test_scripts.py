@@ -1,0 +1,87 @@
+"""Every script of the studies in a process of its own, as shown in pages; on few points if it has --quick."""
+
+import ast
+import os
+import re
+import shlex
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from importlib.util import find_spec
+
+import pytest
+import shown
+
+SCRIPTS = {str(script.relative_to(shown.ROOT)): script for script in shown.scripts()}
+#: Scripts that need what the tests can do without; their texts say so.
+NEEDS = {"extra ``bench``": "tamaas", "distributed": "distributed"}
+#: The seconds that a script may take before it counts as stuck.
+STUCK = 300
+
+
+def text_of(script):
+    return ((script / "__main__.py") if script.is_dir() else script).read_text(encoding="utf-8")
+
+
+def arguments_of(name):
+    """The arguments with which pages show a script, if they do."""
+    commands = [shlex.split(each) for page in shown.PAGES for each in shown.commands_in_prose(page)]
+    return max((words[2:] for words in commands if words[:2] == ["python", name]), default=[])
+
+
+def run(name, results):
+    text = text_of(SCRIPTS[name])
+    command = [sys.executable, str(SCRIPTS[name]), *arguments_of(name)]
+    command += ["--quick"] if "--quick" in text else []
+    command += ["--results", str(results)] if "--results" in text else []
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": str(shown.ROOT)}
+    return subprocess.run(
+        command, cwd=results, env=environment, capture_output=True, text=True, timeout=STUCK, check=False
+    )
+
+
+@pytest.fixture(scope="module")
+def runs(request, tmp_path_factory):
+    """The runs of the scripts whose tests are chosen, two at a time."""
+    chosen = [item.callspec.params["name"] for item in request.session.items if "runs" in item.fixturenames]
+    with ThreadPoolExecutor(2) as pool:
+        started = {}
+        for name in chosen:
+            folder = tmp_path_factory.mktemp("results")
+            started[name] = folder, pool.submit(run, name, folder)
+        yield started
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_a_script(name, runs):
+    text = text_of(SCRIPTS[name])
+    for words, module in NEEDS.items():
+        if words in text and find_spec(module) is None:
+            pytest.skip(f"without {module}")
+    folder, running = runs[name]
+    done = running.result()
+    assert done.returncode == 0, done.stderr
+    # What it leaves or prints has its place in results; where nothing was left out, it is what is there.
+    for file in re.findall(r"(?<=> results/)\w+\.txt", text):
+        (folder / file).write_text(done.stdout, encoding="utf-8")
+    left = sorted(path.name for path in folder.iterdir())
+    assert left
+    for file in left:
+        assert (folder / file).stat().st_size > 0
+        kept = shown.ROOT / "results" / file
+        assert kept.is_file()
+        if "--quick" not in text:
+            assert done.stdout == kept.read_text(encoding="utf-8")
+
+
+def test_every_file_is_a_script_or_of_use_to_one():
+    modules = [file for file in (shown.ROOT / "studies").rglob("*.py") if file not in SCRIPTS.values()]
+    for module in modules:
+        if module.name != "__main__.py":
+            assert module.stem in imported_beside(module), f"{module} is not run"
+
+
+def imported_beside(module):
+    """Names of the modules that other files of the folder import."""
+    trees = [ast.parse(file.read_text(encoding="utf-8")) for file in module.parent.glob("*.py")]
+    return {node.module for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}

@@ -1,0 +1,147 @@
+"""What the README, the pages and the help show is run as it stands, and does what they say."""
+
+import ast
+import operator
+import re
+import shutil
+import sys
+from types import ModuleType
+
+import numpy as np
+import pytest
+import shown
+
+import swtstudy
+from swtstudy import Study
+from swtstudy.runner.work import assess
+
+PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
+SHELL = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "sh"]
+IN_PROSE = [command for page in shown.PAGES for command in shown.commands_in_prose(page)]
+IN_HELP = [part for line in shown.commands_in_help() for part in shown.commands_of(line)]
+#: Each once. What makes a file comes before what needs it, and what is short before what is longer.
+COMMANDS = sorted({*IN_PROSE, *IN_HELP}, key=lambda command: (" new " not in command, len(command), command))
+#: Names of the package, such as swtstudy.solve, as far as the dots go.
+NAMES = sorted(
+    {
+        re.match(r"swtstudy\.([\w.]*\w)", call)[1]
+        for page in shown.PAGES
+        for call in shown.calls_in_prose(page)
+    }
+)
+#: Blocks that the build of the pages makes of files; CI builds them, and their files are tested elsewhere.
+BUILT = {"{include}", "{literalinclude}", "{toctree}", "{eval-rst}"}
+#: A hundred points of an audit are some ten seconds.
+FEWER = {"swtstudy audit figure3 --points 100": "--points 2"}
+
+
+@pytest.fixture(scope="module")
+def fresh(tmp_path_factory):
+    """A copy of what a clone has beside the package; its archives must be those of its studies."""
+    folder = tmp_path_factory.mktemp("clone")
+    for name in ("results", "studies"):
+        shutil.copytree(shown.ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    for study in sorted((folder / "studies").glob("*.toml")):
+        work = assess(Study.from_toml(study), folder / "results" / f"{study.stem}.nc")
+        assert not work.missing.any(), f"results/{study.stem}.nc is to be made anew"
+    return folder
+
+
+@pytest.fixture(scope="module")
+def clone(fresh, tmp_path_factory):
+    """Such a copy in which commands leave what they make; a.nc and b.nc of the help are there."""
+    folder = shutil.copytree(fresh, tmp_path_factory.mktemp("commands") / "clone")
+    for name in "ab":
+        shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
+    return folder
+
+
+@pytest.fixture
+def slurm(monkeypatch):
+    """dask_jobqueue without a queue: its cluster is one of threads in this process."""
+    distributed = pytest.importorskip("distributed")
+    made = []
+
+    class SLURMCluster(distributed.LocalCluster):
+        def __init__(self, *, cores: int, processes: int, memory: str, walltime: str):
+            assert cores % processes == 0
+            assert re.fullmatch(r"\d+GB", memory)
+            assert re.fullmatch(r"\d\d:\d\d:\d\d", walltime)
+            made.append(self)
+            super().__init__(n_workers=0, processes=False, dashboard_address=":0")
+
+        def scale(self, n: int = 0, *, jobs: int = 0):
+            super().scale(n or min(jobs, 2))
+
+    module = ModuleType("dask_jobqueue")
+    module.SLURMCluster = SLURMCluster
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", module)
+    yield made
+    if made:
+        distributed.default_client().close()
+    for cluster in made:
+        cluster.close()
+
+
+@pytest.mark.filterwarnings("default")  # the cluster has its own
+@pytest.mark.parametrize("page", PYTHON, ids=lambda page: page.name)
+def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
+    shutil.copytree(fresh, tmp_path, dirs_exist_ok=True)
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {"__name__": "page"}
+    for block in shown.blocks_of(page):
+        if block.language == "python":
+            if "dask_jobqueue" in block.text:
+                (tmp_path / "results" / "figure4.nc").unlink()  # or there is nothing to do for it
+            exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+            for dims in re.findall(r"# dims: (\(.*\))", block.text):
+                assert names["ds"].s.dims == ast.literal_eval(dims)
+    if page.name == "README.md":
+        assert slurm
+        assert names["ds"].sizes == {"normal_amplitude": 2, "frequency_ratio": 5, "phase": 145}
+        assert np.isfinite(names["ds"].s).all()
+
+
+@pytest.mark.parametrize("block", SHELL, ids=str)
+def test_shell_blocks(block, fresh, tmp_path, monkeypatch):
+    shutil.copytree(fresh / "studies", tmp_path / "studies")
+    monkeypatch.chdir(tmp_path)
+    for command in shown.commands_of(block.text):
+        shown.run_command(command)
+    for file in re.findall(r"\w+/\w+\.(?:nc|png)", block.lead + block.text):
+        assert (tmp_path / file).is_file(), file
+    for call in shown.calls_in_prose(block.page):
+        if call.endswith(")") and "..." not in call:
+            assert eval(call, {"swtstudy": swtstudy}) is not None
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_in_prose(name):
+    assert operator.attrgetter(name)(swtstudy)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_in_prose_and_help(command, clone, monkeypatch):
+    monkeypatch.chdir(clone)
+    shown.run_command(f"{command} {FEWER.get(command, '')}")
+    for kept in (shown.ROOT / "results").glob("*.md"):  # swtstudy check and audit write two of them anew
+        assert (clone / "results" / kept.name).read_text("utf-8") == kept.read_text("utf-8"), kept
+
+
+def test_every_kind_of_block_has_a_rule():
+    kinds = {block.language for page in shown.PAGES for block in shown.blocks_of(page)}
+    assert kinds <= {"python", "sh", *BUILT}, "say here how this kind is run"
+
+
+def test_links_of_the_readme_lead_somewhere():
+    for link in re.findall(
+        r"\]\((?!https?://)([^)#]+)", (shown.ROOT / "README.md").read_text(encoding="utf-8")
+    ):
+        assert (shown.ROOT / link).is_file(), link
+
+
+def test_blocks_that_show_files_show_files_that_are_there():
+    for page in shown.PAGES:
+        text = page.read_text(encoding="utf-8")
+        for file in re.findall(r"^```\{(?:literal)?include\} (?!generated/)(\S+)", text, re.MULTILINE):
+            assert (page.parent / file).is_file(), f"{page}: {file}"
