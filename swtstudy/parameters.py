@@ -125,3 +125,8 @@ PROFILE_SHAPES: dict[str, tuple[str, ...]] = {
     "truncated_paraboloid": ("flat_radius",),
     "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
 }
+
+
+def profiles_with(name: str) -> list[str]:
+    """The profiles that have a shape parameter."""
+    return [profile for profile, names in PROFILE_SHAPES.items() if name in names]

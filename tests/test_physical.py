@@ -121,6 +121,16 @@ def test_there_and_back(parameters):
         assert value == (value if isinstance(value, str) else pytest.approx(back[name]))
 
 
+def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **wavy)
+    punch = contact.with_parameters(profile="rounded_punch", flat_radius=0.5)
+    assert punch.shape == pytest.approx({"flat_radius": 0.5})  # a_H = √(50 · 0.02) = 1
+    assert punch.with_parameters(profile="truncated_paraboloid").shape == pytest.approx(punch.shape)
+    with pytest.raises(ValueError, match="wavelength: found 7, which no profile here has"):
+        punch.with_parameters(wavelength=7)
+
+
 def test_pressures_of_other_profiles():
     made = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001)
     for b in (0.3, 2.0):
@@ -186,6 +196,8 @@ def test_mistakes_are_named(changes, words):
         ({"normal_amplitude": "0"}, ["normal_amplitude: found '0'"]),
         ({"profile": ["paraboloid"]}, ["profile: found ['paraboloid'] (not a name)"]),
         ({"similar": None}, ["similar: found None"]),
+        ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),
+        ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
         (
             {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
             ["friction: found -1", "phase: found None", "radius: found 0", "tangential_amplitude: found -1"],

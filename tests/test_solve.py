@@ -79,6 +79,7 @@ def test_attributes_follow_the_table():
         ({"phase": [[0, 1]]}, "one-dimensional"),
         ({"phase": [[0, 1], [2]]}, "one-dimensional"),
         ({"profile": "rounded_punch"}, "flat_radius"),
+        ({"flat_radius": 0.5}, "flat_radius: found 0.5, which no profile here has"),
         ({"rtol": 0}, "rtol"),
         ({"rtol": float("nan")}, "rtol"),
         ({"friction": 10**400}, "not a finite number"),

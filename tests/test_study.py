@@ -144,9 +144,16 @@ def test_shape_parameters_are_required_by_their_profiles():
     assert "rounded_punch needs it" in mistakes["fixed.flat_radius"]
 
 
-def test_a_shape_parameter_that_the_profile_lacks_is_not_used():
-    study = Study.from_text(MINIMAL + "[fixed]\nflat_radius = 0.5")
-    assert study.grid.values("flat_radius") == (0.5,)
+def test_a_shape_parameter_that_no_profile_has_is_a_mistake():
+    assert mistakes_of(MINIMAL + "[fixed]\nflat_radius = 0.5") == {
+        "fixed.flat_radius": "0.5, which no profile here has (paraboloid); "
+        "only with the profile rounded_punch or truncated_paraboloid"
+    }
+    several = '[axes]\nprofile = ["paraboloid", "rounded_punch"]\n[fixed]\nflat_radius = 0.5\n'
+    assert Study.from_text(MINIMAL + several).grid.values("flat_radius") == (0.5,)
+    assert list(mistakes_of(MINIMAL + several + "wavelength = 7")) == ["fixed.wavelength"]
+    # A misspelt profile may be the one that has it.
+    assert list(mistakes_of(MINIMAL + several.replace("punch", "punsh"))) == ["axes.profile[1]"]
 
 
 def test_waviness_that_breaks_the_contact_up_is_refused():

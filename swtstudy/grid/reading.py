@@ -15,7 +15,7 @@ from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete, shapes_needed
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, profiles_with
 
 #: Builds a mistake from key, found and allowed; knows where the input came from.
 Report = Callable[[str, str, str], None]
@@ -162,23 +162,26 @@ def _check_shapes(
     keys: Callable[[str], str],
     report: Report,
 ) -> None:
-    """Every profile needs its shape parameters; an axis that no profile has would change nothing."""
+    """Every profile needs its shape parameters; one that no profile has would change nothing."""
     if "profile" in good_fixed:
-        profiles = [str(good_fixed["profile"])]
+        profiles, sound = [str(good_fixed["profile"])], True
     elif "profile" in fixed or "profile" in axes:
-        profiles = [str(profile) for profile in good_axes.get("profile", ())]
+        profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
+        # A profile that could not be read may be the one that has the others.
+        sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
     else:
-        profiles = [str(PARAMETERS["profile"].default)]
+        profiles, sound = [str(PARAMETERS["profile"].default)], True
     needed = shapes_needed(profiles)
     for name in needed:
         if name not in fixed and name not in axes:
             owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
             report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
-    for name in good_axes:
-        if name in SHAPE_COLUMNS and name not in needed and profiles:
-            report(
-                keys(name), f"an axis that no profile here has ({', '.join(profiles)})", "axes that matter"
-            )
+    for name in SHAPE_COLUMNS:
+        if name in needed or not sound or not (name in fixed or name in axes):
+            continue
+        found = literal(fixed[name]) if name in fixed else "an axis"
+        allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+        report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
 
 
 def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> None:

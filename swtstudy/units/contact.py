@@ -139,12 +139,14 @@ class PhysicalContact:
         """
         if "poisson_ratio" in parameters:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
-        grid, mistakes = read_grid({**self.parameters(), **parameters}, {})
+        profile = parameters.get("profile", self.profile)
+        kept = PROFILE_SHAPES.get(profile, ()) if isinstance(profile, str) else ()
+        own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
+        grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
         values = grid.fixed
-        profile, friction = str(values["profile"]), float(values["friction"])
-        names = PROFILE_SHAPES[profile]
+        friction, names = float(values["friction"]), PROFILE_SHAPES[str(values["profile"])]
         h = float(values["waviness_amplitude"]) * self.depth if "waviness_amplitude" in names else 0.0
         units = _shape_units(self.depth, self.radius, h)
         slip = friction * self.moduli.normal * self.depth / self.moduli.tangential
@@ -155,7 +157,7 @@ class PhysicalContact:
             tangential_amplitude=float(values["tangential_amplitude"]) * slip,
             frequency_ratio=Fraction(values["frequency_ratio"]),
             phase=float(values["phase"]),
-            profile=profile,
+            profile=str(values["profile"]),
             shape={name: float(values[name]) * units[name] for name in names},
         )
 

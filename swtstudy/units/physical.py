@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -12,7 +12,7 @@ from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import PROFILE_SHAPES, profiles_with
 from swtstudy.units.contact import PhysicalContact
 from swtstudy.units.moduli import Moduli
 
@@ -93,7 +93,7 @@ def physical(
     grid, mistakes = read_grid(plain if known else {**plain, "profile": profile}, {})
     mistakes += _wrong_bodies(_pair(young_modulus), _pair(poisson_ratio), similar)
     mistakes += _wrong_load(depth, normal_force)
-    mistakes += _wrong_lengths(lengths, PROFILE_SHAPES[profile] if known else ())
+    mistakes += _wrong_lengths(lengths, profile if known else None)
     if grid is None or mistakes:
         raise StudyError(mistakes)
     if float(grid.fixed["friction"]) == 0.0 and tangential_amplitude:
@@ -155,10 +155,16 @@ def _wrong_load(depth: object, normal_force: object) -> list[Mistake]:
     ]
 
 
-def _wrong_lengths(lengths: Mapping[str, object], needed: Collection[str]) -> list[Mistake]:
+def _wrong_lengths(lengths: Mapping[str, object], profile: str | None) -> list[Mistake]:
+    """Lengths that are none, or that the profile does not have; it is None if it is a mistake itself."""
     mistakes = []
+    needed = PROFILE_SHAPES[profile] if profile else ()
     for name, value in lengths.items():
-        if value is None and name in SHAPE_COLUMNS and name not in needed:
+        if name in SHAPE_COLUMNS and name not in needed:
+            if value is not None and profile:
+                found = f"{literal(value)}, which the profile does not have ({profile})"
+                allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+                mistakes.append(Mistake(name, found, allowed))
             continue
         zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
         number = plain_number(value)
