@@ -7,12 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.units.moduli import Moduli
 
+LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
+STEEL = FatigueConstants(
+    young_modulus=207e3, strength=1758.0, strength_exponent=-0.0977, ductility=2.12, ductility_exponent=-0.774
+)
 ALUMINIUM = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
 
 
@@ -89,6 +94,54 @@ def test_bodies_of_different_stiffness():
         assert found.poisson_ratio.values[body] == nu
         expected = s * contact.stress_scale**2 / young[body] * (1 - nu**2)
         assert float(found.SWT[body]) == pytest.approx(expected)
+
+
+def test_each_body_has_its_own_life():
+    """The same stress strains the softer body more: its SWT is higher by E1/E2, its life shorter."""
+    contact = physical(
+        **{**ALUMINIUM, "young_modulus": (210e3, 180e3)}, depth=0.01, tangential_amplitude=0.002
+    )
+    found = contact.solve(rtol=1e-2)
+    assert found.s.dims == ("body",)
+    stiff, soft = contact.swt(found.s)
+    assert float(soft / stiff) == pytest.approx(210 / 180)
+    lives = contact.cycles(STEEL, found.s)
+    assert lives.attrs == {
+        "long_name": "cycles to the initiation of a crack",
+        "units": "1",
+        "symbol": "N",
+    }
+    assert lives.values == pytest.approx([float(STEEL.cycles(stiff)), float(STEEL.cycles(soft))])
+    # In any order, one body alone, and from plain numbers.
+    assert contact.cycles(STEEL, found.s[::-1]).values == pytest.approx(lives.values[::-1])
+    assert float(contact.cycles(STEEL, found.s[1])) == pytest.approx(float(lives[1]))
+    s = found.s.values[1]
+    assert float(contact.cycles(STEEL, s, body=1)) == pytest.approx(float(lives[1]))
+    grid = found.s.expand_dims(phase=[0.0, 1.0])
+    np.testing.assert_allclose(contact.swt(grid), [contact.swt(found.s)] * 2)
+    weak = FatigueConstants(200e3, 900.0, -0.1, 1.0, -0.7)
+    pair = contact.cycles((STEEL, weak), found.s).values
+    assert pair == pytest.approx([float(lives[0]), float(weak.cycles(soft))])
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda contact: contact.swt(0.1), "body: found nothing; allowed: 0 or 1, since the bodies differ"),
+        (lambda contact: contact.cycles(STEEL, 0.1), "body: found nothing"),
+        (lambda contact: contact.swt(0.1, body=2), "body: found 2; allowed: 0 or 1"),
+        (lambda contact: contact.parameters(-1), "body: found -1; allowed: 0 or 1"),
+        (lambda contact: contact.swt(LABELLED, body=1), "body: found 1; allowed: nothing, since s has"),
+        (lambda contact: contact.swt(LABELLED.assign_coords(body=[0, 1])), r"body: found the .*\[0, 1\]"),
+        (lambda contact: contact.cycles([STEEL], LABELLED), "constants: found"),
+        (lambda contact: contact.cycles(None, LABELLED), "constants: found None; allowed: a Fatigue"),
+        (lambda contact: contact.swt(-0.1, body=0), "s: found -0.1; allowed: numbers ≥ 0"),
+    ],
+)
+def test_a_body_that_is_not_known_is_asked_for(call, words):
+    bodies = {**ALUMINIUM, "young_modulus": (210e3, 180e3)}
+    with pytest.raises(swtstudy.StudyError, match=words):
+        call(physical(**bodies, depth=0.01, tangential_amplitude=0.002))
 
 
 @pytest.mark.parametrize(
@@ -228,11 +281,6 @@ def test_dundurs():
     physical(
         **{**ALUMINIUM, "young_modulus": (210e3, 70e3)}, depth=0.01, tangential_amplitude=1e-3, similar=0.2
     )
-
-
-STEEL = FatigueConstants(
-    young_modulus=207e3, strength=1758.0, strength_exponent=-0.0977, ductility=2.12, ductility_exponent=-0.774
-)
 
 
 @pytest.mark.parametrize("cycles", [10.0, 1e3, 1e5, 1e9])

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.units.bodies import (
+    LABELS,
+    SWT_ATTRIBUTES,
+    Values,
+    bodies_of,
+    checked_body,
+    cycles_from,
+    swt_from,
+)
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -116,6 +125,7 @@ class PhysicalContact:
             0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
             and the stress beneath them on that of the body itself alone.
         """
+        body = checked_body(body)
         slip = self.friction * self.moduli.normal * self.depth
         tangential = self.moduli.tangential * self.tangential_amplitude
         return {
@@ -161,12 +171,28 @@ class PhysicalContact:
             shape={name: float(values[name]) * units[name] for name in names},
         )
 
-    def swt(self, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
-        """SWT of a body, in the unit of stress of the moduli, from s (eq. 19).
+    def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
+        """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
 
-        Also from non-local values, or from s_local of `swtstudy.swt_field`.
+        Parameters
+        ----------
+        s
+            From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
+            DataArray with the coordinate ``body``, such as `solve` gives, each value is that of its body.
+        body
+            0 or 1, the body that has this s. Needed where the bodies differ and s does not say it.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not said which body has this s, or s is negative or no number.
         """
-        return np.asarray(s, dtype=float) * self.swt_scale * self.moduli.swt_share(body)
+        return swt_from(s, self.swt_scale, self.moduli, body)
 
     def solve(self, rtol: float = 1e-4) -> xr.Dataset:
         """s and SWT of both bodies.
@@ -183,20 +209,15 @@ class PhysicalContact:
 
         bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
         dataset = xr.concat(
-            bodies, xr.DataArray([1, 2], dims="body", name="body"), coords="different", compat="equals"
+            bodies, xr.DataArray(list(LABELS), dims="body", name="body"), coords="different", compat="equals"
         )
-        share = np.array([self.moduli.swt_share(body) for body in (0, 1)])
-        scale = xr.DataArray(self.swt_scale * share, dims="body")
-        words = {"units": "unit of stress of the moduli"}
+        swt, swt_error = self.swt(dataset.s), self.swt(dataset.s_error)
         own = {
-            "SWT": (
-                dataset.s * scale,
-                {"long_name": "Smith-Watson-Topper parameter of the body", **words}
-                | {"symbol": r"\mathrm{SWT}", "ancillary_variables": "SWT_error regime"},
-            ),
+            "SWT": (swt, SWT_ATTRIBUTES | {"ancillary_variables": "SWT_error regime"}),
             "SWT_error": (
-                dataset.s_error * scale,
-                {"long_name": "estimated absolute error of SWT", **words, "symbol": r"\Delta \mathrm{SWT}"},
+                swt_error,
+                SWT_ATTRIBUTES
+                | {"long_name": "estimated absolute error of SWT", "symbol": r"\Delta \mathrm{SWT}"},
             ),
             "critical_position": (
                 dataset.critical_x * self.length_scale,
@@ -208,9 +229,32 @@ class PhysicalContact:
             dataset[name] = values
         return dataset
 
-    def cycles(self, constants: FatigueConstants, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
-        """Cycles to the initiation of a crack in a body; mind the caveat of `FatigueConstants.cycles`."""
-        return constants.cycles(self.swt(s, body))
+    def cycles(
+        self,
+        constants: FatigueConstants | Sequence[FatigueConstants],
+        s: ArrayLike | xr.DataArray,
+        body: int | None = None,
+    ) -> Values:
+        """Cycles to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+
+        Parameters
+        ----------
+        constants
+            Of both bodies, or a pair for bodies of different materials.
+        s, body
+            As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, as of `swt`, or if the constants are none.
+        """
+        return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
 
 
 def _shape_units(depth: float, radius: float, h: float) -> dict[str, float]:

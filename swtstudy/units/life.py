@@ -49,7 +49,7 @@ class FatigueConstants:
 
     def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
-        reversals = 2.0 * _not_negative("cycles", cycles)
+        reversals = 2.0 * not_negative("cycles", cycles)
         b, c = self.strength_exponent, self.ductility_exponent
         elastic = self.strength**2 / self.young_modulus * reversals ** (2.0 * b)
         return np.asarray(elastic + self.strength * self.ductility * reversals ** (b + c))
@@ -79,7 +79,7 @@ class FatigueConstants:
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        swt = _not_negative("swt", swt)
+        swt = not_negative("swt", swt)
         elastic, plastic = self.strength**2 / self.young_modulus, self.strength * self.ductility
         slopes = np.array([2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent])
         with np.errstate(divide="ignore"):
@@ -96,7 +96,8 @@ class FatigueConstants:
         return np.asarray(0.5 * np.exp(x))
 
 
-def _not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """What a user gave as numbers ≥ 0, or NaN; a StudyError if it is none."""
     try:
         numbers = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
