@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
+
+#: Builds a mistake from key, found and allowed; knows where the input came from.
+Report = Callable[[str, str, str], None]
 
 
 @dataclass(frozen=True)

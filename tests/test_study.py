@@ -162,6 +162,37 @@ def test_waviness_that_breaks_the_contact_up_is_refused():
     assert list(mistakes) == ["fixed.waviness_amplitude, fixed.wavelength"]
 
 
+WAVY = 'title = "t"\n[fixed]\nprofile = "wavy_paraboloid"\n[axes]\n'
+
+
+def test_every_refused_shape_is_counted(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.shapes._SLAB", 3)
+    # Smooth waves, h = 0, are compact however short; of the others λ/√(hR) must reach 3.5.
+    axes = "waviness_amplitude = [0, 0.01, 0.02]\nwavelength = [3.6, 3.4, 1.0]"
+    assert mistakes_of(WAVY + axes) == {
+        "axes.waviness_amplitude, axes.wavelength": "waviness_amplitude = 0.01, wavelength = 3.4; "
+        "3 more like it; "
+        "wavelength 3.4 is below 3.52, the smallest for which the contact stays compact at "
+        "waviness_amplitude 0.01 up to the depth 1.75 δ0"
+    }
+
+
+@pytest.mark.parametrize("wavelength", ["5e-324", "1e-300"])
+@pytest.mark.parametrize("amplitude", ["5e-324", "0.01"])
+def test_waves_too_short_for_a_float_are_refused_without_a_warning(amplitude, wavelength):
+    mistakes = mistakes_of(WAVY + f"waviness_amplitude = [{amplitude}]\nwavelength = [{wavelength}]")
+    assert "is below 3.52" in next(iter(mistakes.values()))
+
+
+def test_more_shapes_than_can_be_looked_at_are_not_looked_at(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.shapes.MOST_SHAPES", 8)
+    monkeypatch.setattr("swtstudy.mechanics.profiles.compact_shapes", None)
+    axes = "waviness_amplitude = [0.01, 0.02, 0.03]\nwavelength = [7, 8, 9]"
+    assert mistakes_of(WAVY + axes) == {
+        "axes.waviness_amplitude, axes.wavelength": "9 shapes of the wavy_paraboloid; at most 8"
+    }
+
+
 FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\nhue = "friction"\n'
 
 

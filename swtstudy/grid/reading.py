@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -10,15 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from swtstudy.grid.canonical import SHAPE_COLUMNS, canonical_number
+from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
-from swtstudy.grid.grid import Grid, complete, shapes_needed
+from swtstudy.grid.grid import Grid, complete
+from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import Value, read_value
-from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, profiles_with
-
-#: Builds a mistake from key, found and allowed; knows where the input came from.
-Report = Callable[[str, str, str], None]
+from swtstudy.mistakes import Mistake, Report, literal, nearest
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -77,11 +74,11 @@ def read_grid(
     for name, raw in axes.items():
         if name in PARAMETERS and raw is not None:
             good_axes[name] = _read_axis(name, raw, keys(name), report)
-    _check_shapes(fixed, axes, good_fixed, good_axes, keys, report)
+    check_shapes_given(fixed, axes, good_fixed, good_axes, keys, report)
     if mistakes:
         return None, mistakes
     grid = complete(good_fixed, good_axes)
-    _check_profiles(grid, keys, report)
+    check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes
 
 
@@ -152,55 +149,3 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
     if sys.float_info.min < ratio < math.inf:
         return [start, *(first * ratio**part for part in parts), stop]
     return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]
-
-
-def _check_shapes(
-    fixed: Mapping[str, object],
-    axes: Mapping[str, object],
-    good_fixed: Mapping[str, Value],
-    good_axes: Mapping[str, tuple[Value, ...]],
-    keys: Callable[[str], str],
-    report: Report,
-) -> None:
-    """Every profile needs its shape parameters; one that no profile has would change nothing."""
-    if "profile" in good_fixed:
-        profiles, sound = [str(good_fixed["profile"])], True
-    elif "profile" in fixed or "profile" in axes:
-        profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
-        # A profile that could not be read may be the one that has the others.
-        sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
-    else:
-        profiles, sound = [str(PARAMETERS["profile"].default)], True
-    needed = shapes_needed(profiles)
-    for name in needed:
-        if name not in fixed and name not in axes:
-            owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
-            report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
-    for name in SHAPE_COLUMNS:
-        if name in needed or not sound or not (name in fixed or name in axes):
-            continue
-        found = literal(fixed[name]) if name in fixed else "an axis"
-        allowed = f"only with the profile {' or '.join(profiles_with(name))}"
-        report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
-
-
-def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
-    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    # The largest contact of the study is the hardest to keep compact.
-    normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
-    for profile in map(str, grid.values("profile")):
-        names = PROFILE_SHAPES[profile]
-        if not names:
-            continue
-        from swtstudy.mechanics.profiles import check_shape
-
-        refused, first = 0, ("", "")
-        for values in itertools.product(*(grid.values(name) for name in names)):
-            shape = {name: float(value) for name, value in zip(names, values, strict=True)}
-            message = check_shape(profile, shape, normal_amplitude)
-            if message is not None and not refused:
-                first = ", ".join(f"{name} = {value:g}" for name, value in shape.items()), message
-            refused += message is not None
-        if refused:
-            more = f"; {refused - 1} more like it" if refused > 1 else ""
-            report(", ".join(map(keys, names)), first[0] + more, first[1])

@@ -8,6 +8,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
+
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
@@ -188,7 +190,7 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
 
     if "wavelength" in contact.shape:
         h, wavelength = contact.shape["waviness_amplitude"], contact.shape["wavelength"]
-        least = smallest_compact_wavelength(math.pi) * math.sqrt(h * contact.radius)
+        least = float(smallest_compact_wavelength(np.array(math.pi))) * math.sqrt(h * contact.radius)
         if wavelength < least:
             found = f"{wavelength!r} at waviness_amplitude {h!r}"
             allowed = (
