@@ -63,9 +63,9 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
         except ValueError:
             dimensions = 2  # ragged
         if isinstance(raw, str) or dimensions == 0:
-            fixed[name] = raw[()] if isinstance(raw, np.ndarray) else _scalar(raw)
+            fixed[name] = raw
         elif dimensions == 1:
-            axes[name] = [_scalar(element) for element in raw]  # type: ignore[attr-defined]
+            axes[name] = list(raw)  # type: ignore[call-overload]
         else:
             axes[name] = None
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
@@ -79,10 +79,3 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
     dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
-
-
-def _scalar(raw: object) -> object:
-    """A zero-dimensional array or NumPy scalar as the plain value that it holds."""
-    if raw is np.ma.masked:
-        return raw  # its item is 0.0
-    return raw.item() if isinstance(raw, np.generic | np.ndarray) or hasattr(raw, "item") else raw

@@ -13,7 +13,7 @@ from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
-from swtstudy.grid.values import Value, read_value
+from swtstudy.grid.values import Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 
@@ -122,9 +122,8 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
     for part in ("start", "stop"):
         raw = getattr(axis, part)
         try:
-            if isinstance(raw, bool) or not isinstance(raw, str | int | float | Fraction):
-                raise ValueError("not a number")
-            ends.append(evaluate(raw if isinstance(raw, str) else str(raw)))
+            # The decimal number that a float is written as, not the binary one that it is.
+            ends.append(evaluate(raw if isinstance(raw, str) else str(read_exact(raw))))
         except ValueError as error:
             report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
     if not 2 <= axis.num <= LONGEST_AXIS:

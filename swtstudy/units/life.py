@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.numbers import read_numbers
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
@@ -96,12 +97,9 @@ class FatigueConstants:
         return np.asarray(0.5 * np.exp(x))
 
 
-def not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
+def not_negative(name: str, values: object) -> NDArray[np.float64]:
     """What a user gave as numbers ≥ 0, or NaN; a StudyError if it is none."""
-    try:
-        numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise StudyError([Mistake(name, literal(values), "numbers ≥ 0")]) from None
+    numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
         raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
     return numbers
