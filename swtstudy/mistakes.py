@@ -5,11 +5,13 @@ from __future__ import annotations
 import difflib
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from numbers import Real
 from typing import TypeGuard
+
+from swtstudy.parameters import SYMBOLS, spelled
 
 #: Builds a mistake from key, found and allowed; knows where the input came from.
 Report = Callable[[str, str, str], None]
@@ -99,21 +101,28 @@ def plain_number(value: object) -> float:
         return math.nan
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """What is allowed where an unknown name stands: the nearest known one first.
+def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
+    """What is allowed where an unknown name stands: the one that was meant first.
 
     Examples
     --------
     >>> nearest("frictoin", ["friction", "phase"])
     'did you mean friction? known: friction, phase'
+    >>> nearest("mu", ["friction", "phase"])
+    'did you mean friction (μ)? known: friction, phase'
     """
     known = list(known)
-    close = meant(name, known)
-    hint = f"did you mean {close}? " if close else ""
+    close = meant(name, known, symbols)
+    named, letter = symbols.get(spelled(name), ("", ""))
+    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? " if close else ""
     return f"{hint}known: {', '.join(known)}"
 
 
-def meant(name: str, known: Iterable[str]) -> str | None:
-    """The known name that an unknown one comes near to, if any."""
+def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
+    """The known name that an unknown one is a symbol of or comes near to, if any."""
+    known = list(known)
+    named, _ = symbols.get(spelled(name), ("", ""))
+    if named in known:
+        return named
     close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
     return close[0] if close else None

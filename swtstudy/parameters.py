@@ -6,6 +6,7 @@ it; none of them repeats a name, a symbol, a default or a range.
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass
 
 
@@ -124,6 +125,30 @@ PROFILE_SHAPES: dict[str, tuple[str, ...]] = {
     "rounded_punch": ("flat_radius",),
     "truncated_paraboloid": ("flat_radius",),
     "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
+}
+
+
+def spelled(symbol: str) -> str:
+    """A symbol as one may type it: no LaTeX, Greek letters by name, letters and digits alone.
+
+    Examples
+    --------
+    >>> spelled("δ_A"), spelled(r"G^* u_A"), spelled("λ")
+    ('deltaa', 'gua', 'lambda')
+    """
+    # NFKC makes a keyboard's µ the letter μ; Unicode writes lambda without its b.
+    words = (
+        unicodedata.name(c).split()[-1].replace("LAMDA", "LAMBDA") if "α" <= c.lower() <= "ω" else c
+        for c in unicodedata.normalize("NFKC", symbol)
+    )
+    return "".join(c for c in "".join(words).lower() if c.isalnum())
+
+
+#: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
+SYMBOLS: dict[str, tuple[str, str]] = {
+    spelled(symbol): (parameter.name, parameter.letter)
+    for parameter in PARAMETERS.values()
+    for symbol in (parameter.letter, parameter.symbol, parameter.symbol.split("/")[0])
 }
 
 

@@ -93,6 +93,22 @@ def test_a_style_is_the_users(study, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("--mu", "--friction"),
+        ("--psi=0", "--phase"),
+        ("--frictoin", "--friction"),
+        ("--u-a", "--tangential-amplitude"),
+    ],
+)
+def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
+    result = call("solve", typed)
+    assert result.exit_code == 2
+    assert "Usage: swtstudy solve" in result.stderr.replace("main", "swtstudy")
+    assert f"'{typed.removesuffix('=0')}'. Did you mean '{meant}'?" in result.stderr
+
+
+@pytest.mark.parametrize(
     ("arguments", "line"),
     [
         (
