@@ -131,6 +131,7 @@ def test_all_mistakes_come_at_once():
 
 
 def test_the_package_exports_lazily():
-    assert set(swtstudy.__all__) <= set(dir(swtstudy))
+    assert dir(swtstudy) == sorted(swtstudy.__all__)
+    assert all(hasattr(swtstudy, name) for name in dir(swtstudy))
     with pytest.raises(AttributeError):
         swtstudy.nothing  # noqa: B018
