@@ -2,6 +2,7 @@
 
 import math
 import runpy
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
@@ -249,6 +250,22 @@ def test_mistakes_are_named(changes, words):
         ({"normal_amplitude": "0"}, ["normal_amplitude: found '0'"]),
         ({"profile": ["paraboloid"]}, ["profile: found ['paraboloid'] (not a name)"]),
         ({"similar": None}, ["similar: found None"]),
+        ({"young_modulus": 5e-324}, ["young_modulus: found 5e-324; allowed: a positive number, or a pair"]),
+        ({"young_modulus": 1e308}, ["young_modulus: found 1e+308; allowed: a positive number, or a pair"]),
+        ({"radius": 5e-324}, ["radius: found 5e-324; allowed: a positive length, in magnitude from 1e-100"]),
+        ({"normal_force": 1e308}, ["normal_force: found 1e+308; allowed: a positive number, in magnitude"]),
+        ({"tangential_amplitude": 5e-324}, ["tangential_amplitude: found 5e-324; allowed: a length ≥ 0, in"]),
+        ({"friction": 5e-324}, ["tangential_amplitude: found 0.002, non-dimensional inf"]),
+        ({"frictoin": 1}, ["frictoin: found unknown parameter 'frictoin'; allowed: did you mean friction?"]),
+        ({"E": 1}, ["E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?"]),
+        ({"psi": 1}, ["psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?"]),
+        (
+            {"youngs_modulus": 1, "young_modulus": None, "radius": None},
+            [
+                "youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod",
+                "radius: found nothing; allowed: a positive length",
+            ],
+        ),
         ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),
         ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
         (
@@ -265,6 +282,24 @@ def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages
     assert len(found) == len(messages)
     for line, start in zip(found, messages, strict=True):
         assert line.startswith(start)
+
+
+def test_what_is_not_given_is_named():
+    with pytest.raises(swtstudy.StudyError) as caught:
+        physical()
+    assert {(mistake.key, mistake.found) for mistake in caught.value.mistakes} == {
+        *((name, "nothing") for name in ("young_modulus", "poisson_ratio", "radius", "friction")),
+        ("tangential_amplitude", "nothing"),
+        ("depth, normal_force", "neither"),
+    }
+
+
+def test_any_plain_numbers_make_the_same_contact():
+    numbers = {**ALUMINIUM, "depth": 0.01, "tangential_amplitude": 0.002}
+    for kind in (np.float64, np.array, lambda value: Decimal(str(value))):
+        assert physical(**{name: kind(value) for name, value in numbers.items()}) == physical(**numbers)
+    pairs = {"young_modulus": np.array([210e3, 180e3]), "poisson_ratio": [0.3, 0.3]}
+    assert physical(**{**numbers, **pairs}).moduli.young == (210e3, 180e3)
 
 
 def test_waves_too_short_to_follow_are_left_out_of_the_force_too():
@@ -306,7 +341,28 @@ def test_lives_of_arrays_and_limits():
         STEEL.swt([1.0, np.nan, -2.0])
 
 
+@pytest.mark.parametrize("swt", [5e-324, 1e-300, 1e-60, 1e60, 1e300, np.inf])
+def test_lives_at_any_swt(swt):
+    """One term alone rules far out: elastic at long lives, (σf′²/E) (2N)^(2b), plastic at short ones."""
+    if swt < 1.0:
+        logarithm = (math.log(swt) - math.log(1758.0**2 / 207e3)) / (2 * -0.0977)
+    else:
+        logarithm = (math.log(swt) - math.log(1758.0 * 2.12)) / (-0.0977 - 0.774)
+    expected = 0.5 * math.exp(logarithm) if logarithm < 709.0 else math.inf
+    assert float(STEEL.cycles(swt)) == pytest.approx(expected, rel=1e-6)
+
+
+def test_lives_of_two_extremes():
+    assert STEEL.swt([0.0, np.inf]).tolist() == [np.inf, 0.0]
+    brittle = FatigueConstants(1e100, 1e100, -1e-100, 1e-100, -1e100)
+    assert brittle.cycles([1.0, 1e200, 1e300]).tolist() == [np.inf, 0.5, 0.5]  # (2N)^(−1e100) alone
+    assert FatigueConstants(Decimal(2), np.float32(3), -1, 4, -1).young_modulus.hex() == (2.0).hex()
+
+
 def test_wrong_constants_are_named_at_once():
+    with pytest.raises(swtstudy.StudyError, match="in magnitude from 1e-100 to 1e\\+100") as caught:
+        FatigueConstants(5e-324, 1e308, -1e-310, True, -np.inf)
+    assert [mistake.key for mistake in caught.value.mistakes] == list(vars(STEEL))
     with pytest.raises(swtstudy.StudyError) as caught:
         FatigueConstants("1", None, 0.1, 1.0, -0.5)
     assert str(caught.value).splitlines() == [
