@@ -269,6 +269,18 @@ def test_mistakes_are_named(changes, words):
         ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),
         ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
         (
+            {"flat_radius": 1e77, "profile": "truncated_paraboloid"},
+            ["flat_radius: found 1e+77 at normal_force 200.0; allowed: a length of at most 20 a_H at"],
+        ),
+        (
+            {"flat_radius": 1e-4, "profile": "rounded_punch", "normal_force": 5e-89},
+            ["flat_radius: found 0.0001 at normal_force 5e-89; allowed: a length of at most 20 a_H at"],
+        ),
+        (
+            {"waviness_amplitude": 1.0, "wavelength": 100.0, "profile": "wavy_paraboloid"},
+            ["waviness_amplitude: found 1.0 at normal_force 200.0; allowed: a length of at most 10 δ0 at"],
+        ),
+        (
             {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
             ["friction: found -1", "phase: found None", "radius: found 0", "tangential_amplitude: found -1"],
         ),
@@ -282,6 +294,18 @@ def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages
     assert len(found) == len(messages)
     for line, start in zip(found, messages, strict=True):
         assert line.startswith(start)
+
+
+@pytest.mark.parametrize("profile", ["rounded_punch", "truncated_paraboloid"])
+def test_the_depth_of_a_face_as_large_as_it_may_be(profile):
+    # b/a_H = 20 is the limit: a little more force, and so depth, than there.
+    b, modulus = 3.0, 73.1e3 / (2 * (1 - 0.33**2))
+    depth = 1.02 * (b / 20) ** 2 / 50.0
+    contact = physical(**ALUMINIUM, depth=depth, tangential_amplitude=0, profile=profile, flat_radius=b)
+    force = contact.normal_force
+    assert force > 2 * modulus * b * depth  # that of a flat punch of this radius
+    again = physical(**ALUMINIUM, normal_force=force, tangential_amplitude=0, profile=profile, flat_radius=b)
+    assert again.depth == pytest.approx(depth, rel=1e-9)
 
 
 def test_what_is_not_given_is_named():

@@ -89,9 +89,13 @@ class PhysicalContact:
     @property
     def normal_force(self) -> float:
         """Force at the mean depth δ0: 2 E* ∫ (δ0 − g) dξ over the springs."""
+        return self.force_factor * self.moduli.normal * self.depth * self.length_scale
+
+    @property
+    def force_factor(self) -> float:
+        """Force at the mean depth over E* δ0 a_H: 4/3 for a paraboloid."""
         edge = self._profile().radius(np.ones((1, 1)))
-        half = float(self._profile().half_load(edge)[0, 0])
-        return 2.0 * half * self.moduli.normal * self.depth * self.length_scale
+        return 2.0 * float(self._profile().half_load(edge)[0, 0])
 
     @property
     def mean_pressure(self) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 from swtstudy.units.contact import PhysicalContact
 from swtstudy.units.given import (
     SIMILAR,
@@ -149,12 +149,29 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
             raise StudyError([Mistake("wavelength", found, allowed)])
 
     def excess(logarithm: float) -> float:
-        return math.log(replace(contact, depth=math.exp(logarithm)).normal_force / force)
+        # In logarithms: a force out of the range of numbers is too large or too small like others.
+        factor = replace(contact, depth=math.exp(logarithm)).force_factor
+        scale = math.log(contact.moduli.normal) + 0.5 * math.log(contact.radius) + 1.5 * logarithm
+        return math.log(factor) + scale - math.log(force)
 
+    least = _least_depth(contact)
+    if least > 0.0 and excess(math.log(least)) > 0.0:
+        (name, length) = next(iter(contact.shape.items()))
+        most = PARAMETERS[name].upper
+        allowed = f"a length of at most {most:g} {'a_H' if name == 'flat_radius' else 'δ0'} at this force"
+        raise StudyError([Mistake(name, f"{length!r} at normal_force {force!r}", allowed)])
     # Hertz's depth, and from there outwards.
-    low = high = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
+    hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
+    low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
     while excess(low) > 0.0:
         low -= 1.0
     while excess(high) < 0.0:
         high += 1.0
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
+
+
+def _least_depth(contact: PhysicalContact) -> float:
+    """The depth below which b/a_H or h/δ0 is out of its range."""
+    b, h = (contact.shape.get(name, 0.0) for name in ("flat_radius", "waviness_amplitude"))
+    face = (b / PARAMETERS["flat_radius"].upper) ** 2 / contact.radius
+    return max(face, h / PARAMETERS["waviness_amplitude"].upper)
