@@ -45,12 +45,12 @@ class CriticalPlane(NamedTuple):
     normal: FloatArray
 
 
-def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
+def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
     """Largest swt over all planes (eq. 9); `swtstudy.swt_of_history`, without its checks of the input."""
     history = np.asarray(stress, dtype=float)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
-    strain = strain_history(history, poisson_ratio, youngs_modulus)
+    strain = strain_history(history, poisson_ratio, young_modulus)
     start = _starts(history, poisson_ratio)
     index = np.tile(np.arange(len(history)), _CANDIDATES)
     swt, normal = climb(history[index], strain[index], start.reshape(-1, 3))
@@ -75,7 +75,7 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
 
 
 def strain_history(
-    stress: FloatArray, poisson_ratio: float | FloatArray, youngs_modulus: float = 1.0
+    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
 ) -> FloatArray:
     """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
 
@@ -83,16 +83,16 @@ def strain_history(
     ----------
     stress
         Shape (..., 6).
-    poisson_ratio, youngs_modulus
+    poisson_ratio, young_modulus
         ν, E; ν may be an array that can be broadcast to (..., 1).
     """
     strain = (1.0 + poisson_ratio) * stress
     strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)
-    return strain / youngs_modulus
+    return strain / young_modulus
 
 
 def swt_on_planes(
-    stress: ArrayLike, normals: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0
+    stress: ArrayLike, normals: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0
 ) -> FloatArray:
     """The parameter on given planes.
 
@@ -102,7 +102,7 @@ def swt_on_planes(
         Shape (..., time, 6).
     normals
         Shape (planes, 3), unit vectors.
-    poisson_ratio, youngs_modulus
+    poisson_ratio, young_modulus
         ν, E.
 
     Returns
@@ -116,15 +116,15 @@ def swt_on_planes(
     # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
     on_planes -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
     range_ = on_planes.max(axis=-2) - on_planes.min(axis=-2)
-    return tension * range_ * (0.5 * (1.0 + poisson_ratio) / youngs_modulus)
+    return tension * range_ * (0.5 * (1.0 + poisson_ratio) / young_modulus)
 
 
-def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> FloatArray:
+def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> FloatArray:
     """Largest parameter over the coarse planes only: a few per cent low, several times as fast.
 
     Parameters
     ----------
-    stress, poisson_ratio, youngs_modulus
+    stress, poisson_ratio, young_modulus
         As for `swt_of_history`.
 
     Returns
@@ -137,7 +137,7 @@ def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: 
     history = history.reshape(-1, *history.shape[-2:])
     normals = hemisphere(_COARSE_PLANES).astype(np.float32)
     blocks = (history[first : first + _BLOCK] for first in range(0, len(history), _BLOCK))
-    swt = [swt_on_planes(block, normals, poisson_ratio, youngs_modulus).max(axis=1) for block in blocks]
+    swt = [swt_on_planes(block, normals, poisson_ratio, young_modulus).max(axis=1) for block in blocks]
     return np.concatenate([np.zeros(0), *swt]).reshape(batch)
 
 
