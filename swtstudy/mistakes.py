@@ -69,6 +69,8 @@ def literal(value: object, longest: int = 60) -> str:
         text = re.sub(r"\s*\n\s*", " ", repr(value))
     except ValueError:  # Python writes no integers of more than 4,300 digits
         text = f"{type(value).__name__} with too many digits to be shown"
+    except Exception:  # the word of another's code must not hide the mistake
+        text = f"{type(value).__name__} that cannot be shown"
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 

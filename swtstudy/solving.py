@@ -58,11 +58,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
     for name, raw in parameters.items():
-        try:
-            dimensions = np.ndim(raw)  # type: ignore[arg-type]
-        except ValueError:
-            dimensions = 2  # ragged
-        if isinstance(raw, str) or dimensions == 0:
+        dimensions = _dimensions(raw)
+        if dimensions == 0:
             fixed[name] = raw
         elif dimensions == 1:
             axes[name] = list(raw)  # type: ignore[call-overload]
@@ -79,3 +76,13 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
     dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
+
+
+def _dimensions(raw: object) -> int:
+    """How many dimensions a value has; text and bytes, which are sequences too, have none."""
+    if isinstance(raw, str | bytes | bytearray | memoryview):
+        return 0
+    try:
+        return np.ndim(raw)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return 2  # ragged, or no array at all

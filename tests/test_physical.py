@@ -113,6 +113,7 @@ def test_each_body_has_its_own_life():
         "symbol": "N",
     }
     assert lives.values == pytest.approx([float(STEEL.cycles(stiff)), float(STEEL.cycles(soft))])
+    assert contact.swt(1e308, body=0) == np.inf  # without a warning
     # In any order, one body alone, and from plain numbers.
     assert contact.cycles(STEEL, found.s[::-1]).values == pytest.approx(lives.values[::-1])
     assert float(contact.cycles(STEEL, found.s[1])) == pytest.approx(float(lives[1]))
@@ -132,6 +133,7 @@ def test_each_body_has_its_own_life():
         (lambda contact: contact.cycles(STEEL, 0.1), "body: found nothing"),
         (lambda contact: contact.swt(0.1, body=2), "body: found 2; allowed: 0 or 1"),
         (lambda contact: contact.parameters(-1), "body: found -1; allowed: 0 or 1"),
+        (lambda contact: contact.parameters(np.timedelta64(1, "s")), "body: found np.timedelta64"),
         (lambda contact: contact.swt(LABELLED, body=1), "body: found 1; allowed: nothing, since s has"),
         (lambda contact: contact.swt(LABELLED.assign_coords(body=[0, 1])), r"body: found the .*\[0, 1\]"),
         (lambda contact: contact.cycles([STEEL], LABELLED), "constants: found"),

@@ -331,6 +331,14 @@ def test_a_study_of_the_paper_by_its_name(tmp_path, monkeypatch):
         Study.from_toml("figure33")
 
 
+@pytest.mark.parametrize("wrong", [None, 3, b"figure3", ["figure3"]])
+def test_what_is_no_path_and_no_text_is_no_study(wrong):
+    with pytest.raises(StudyError, match=r"^path: found .*; allowed: the path or the name of a study$"):
+        Study.from_toml(wrong)
+    with pytest.raises(StudyError, match=r"^text: found .*; allowed: the text of a study file$"):
+        Study.from_text(wrong)
+
+
 def test_a_folder_is_no_study(tmp_path):
     with pytest.raises(StudyError, match="directory"):
         Study.from_toml(tmp_path)

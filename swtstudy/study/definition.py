@@ -82,6 +82,8 @@ class Study:
         StudyError
             With every mistake in the file, or the one that keeps it from being read.
         """
+        if not isinstance(path, str | PathLike):
+            raise StudyError([Mistake("path", literal(path), "the path or the name of a study")])
         source = str(path)
         try:
             text = find_study(source).read_text(encoding="utf-8")
@@ -108,6 +110,8 @@ class Study:
         StudyError
             With every mistake in the text.
         """
+        if not isinstance(text, str):
+            raise StudyError([Mistake("text", literal(text), "the text of a study file")])
         try:
             raw = tomllib.loads(text)
         except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:

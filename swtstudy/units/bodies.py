@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.units.life import FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
 
@@ -36,16 +36,18 @@ def checked_body(body: object) -> int:
     StudyError
         If it is neither.
     """
-    if isinstance(body, bool | np.bool_) or not isinstance(body, int | np.integer) or body not in (0, 1):
+    number = plain_number(body)
+    if number not in (0.0, 1.0):
         raise StudyError([Mistake("body", literal(body), "0 or 1")])
-    return int(body)
+    return int(number)
 
 
 def swt_from(s: ArrayLike | xr.DataArray, scale: float, moduli: Moduli, body: int | None) -> Values:
     """SWT of the bodies from s, with the SWT scale of the half-space with E*."""
     bodies = bodies_of(s, moduli, body)
     shares = np.array([moduli.swt_share(0), moduli.swt_share(1)])
-    swt = not_negative("s", s) * (scale * shares[bodies])
+    with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
+        swt = not_negative("s", s) * (scale * shares[bodies])
     return _labelled("SWT", swt, s, SWT_ATTRIBUTES)
 
 
