@@ -32,6 +32,8 @@ class Parameter:
         True if ``lower`` itself is not allowed.
     kind
         "number", "ratio" (a rational number p/q) or "profile".
+    part
+        What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
     units
         CF units: "1", or "rad" for the phase.
     """
@@ -45,6 +47,7 @@ class Parameter:
     upper: float = 1.0
     open_lower: bool = False
     kind: str = "number"
+    part: str = "load"
     units: str = "1"
 
     @property
@@ -66,8 +69,8 @@ LARGEST_FREQUENCY_TERM = 64
 PARAMETERS: dict[str, Parameter] = {
     p.name: p
     for p in (
-        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5),
-        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0),
+        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5, part="body"),
+        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0, part="body"),
         Parameter(
             "normal_amplitude",
             r"\delta_A/\delta_0",
@@ -100,9 +103,18 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
-        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile"),
-        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0),
-        Parameter("waviness_amplitude", r"h/\delta_0", "h", "amplitude of the waviness", None, 0.0, 10.0),
+        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
+        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0, part="shape"),
+        Parameter(
+            "waviness_amplitude",
+            r"h/\delta_0",
+            "h",
+            "amplitude of the waviness",
+            None,
+            0.0,
+            10.0,
+            part="shape",
+        ),
         Parameter(
             "wavelength",
             r"\lambda/\sqrt{hR}",
@@ -112,6 +124,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             1000.0,
             open_lower=True,
+            part="shape",
         ),
     )
 }

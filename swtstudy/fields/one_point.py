@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from swtstudy.grid.canonical import NUMBERS
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.body import scene_of
 from swtstudy.mechanics.points import Points
@@ -42,11 +43,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in PROFILE_SHAPES[profile]},
-        poisson_ratio=number("poisson_ratio"),
-        friction=number("friction"),
-        normal_amplitude=number("normal_amplitude"),
-        tangential_amplitude=number("tangential_amplitude"),
-        phase=number("phase"),
+        **{name: number(name) for name in NUMBERS},
     )
 
 
