@@ -345,6 +345,8 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert study.title == "my first"
     assert study.figure is not None
     assert (tmp_path / "study.schema.json").is_file()
+    assert call("new", "").stderr == "Error: NAME: found ''; allowed: a name for the study, such as mine\n"
+    assert not (tmp_path / ".toml").exists()
     (tmp_path / "my_first.toml").write_text("mine")
     result = call("new", "my_first.toml")
     assert result.exit_code == 2

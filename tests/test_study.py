@@ -301,6 +301,11 @@ def test_the_figure_is_not_blamed_for_a_misspelt_axis(small_text):
     assert [mistake.key for mistake in caught.value.mistakes] == ["axes.normal_amplitud"]
 
 
+def test_an_integer_that_python_does_not_read_is_one_message():
+    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits to be read"):
+        Study.from_text(MINIMAL + "[fixed]\nfriction = " + 5000 * "9", "big.toml")
+
+
 def test_a_syntax_error_is_one_message():
     with pytest.raises(
         StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML$"

@@ -114,9 +114,12 @@ class Study:
             raise StudyError([Mistake("text", literal(text), "the text of a study file")])
         try:
             raw = tomllib.loads(text)
-        except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        except (tomllib.TOMLDecodeError, RecursionError) as error:
             message = f"a syntax error: {error or 'nested too deeply'}"
             raise StudyError([Mistake("", message, "TOML", source)]) from None
+        except ValueError:  # all else that tomllib leaves to Python's int and float
+            message = "an integer with too many digits to be read"
+            raise StudyError([Mistake("", message, "TOML with shorter ones", source)]) from None
         return _study_from(raw, text, source)
 
 
