@@ -68,7 +68,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-    grid, found = read_grid(fixed, axes)
+    grid, found = read_grid(fixed, axes, others=("rtol",))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)

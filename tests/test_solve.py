@@ -101,6 +101,7 @@ def test_attributes_follow_the_table():
         ({"profile": "rounded_punch"}, "flat_radius"),
         ({"flat_radius": 0.5}, "flat_radius: found 0.5, which no profile here has"),
         ({"rtol": 0}, "rtol"),
+        ({"rtoll": 1e-3}, r"rtoll: found unknown .* did you mean rtol\?"),
         ({"rtol": float("nan")}, "rtol"),
         ({"friction": 10**400}, "not a finite number"),
         ({"friction": 10**5000}, "found int with too many digits"),

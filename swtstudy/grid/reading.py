@@ -36,6 +36,7 @@ def read_grid(
     axes: Mapping[str, Sequence[object] | Range | None],
     keys: Callable[[str], str] = lambda name: name,
     source: str = "",
+    others: Sequence[str] = (),
 ) -> tuple[Grid | None, list[Mistake]]:
     """The grid spanned by fixed values and axes.
 
@@ -47,6 +48,8 @@ def read_grid(
         The key of a parameter in messages, from its name.
     source
         Where the input comes from, for messages.
+    others
+        Names that are known beside the parameters, and may be meant by an unknown one.
 
     Returns
     -------
@@ -64,7 +67,7 @@ def read_grid(
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
         if name not in PARAMETERS:
-            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, PARAMETERS))
+            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
     for name in sorted(fixed.keys() & axes.keys()):
         report(keys(name), "both a fixed value and an axis", "one of the two")
     for name, single in fixed.items():
