@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import inspect
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 
+from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
@@ -114,24 +116,32 @@ def physical(
     if float(grid.fixed["friction"]) == 0.0 and tangential_amplitude:
         found = f"{literal(tangential_amplitude)} without friction"
         raise StudyError([Mistake("tangential_amplitude", found, "0, since the contact slides at once")])
-    contact = PhysicalContact(
-        Moduli(pair_of_numbers(young), pair_of_numbers(poisson)),
-        plain_number(radius),
-        1.0 if depth is None else plain_number(depth),
-        float(grid.fixed["friction"]),
-        plain_number(normal_amplitude),
-        plain_number(tangential_amplitude),
-        Fraction(grid.fixed["frequency_ratio"]),
-        float(grid.fixed["phase"]),
-        profile,
-        {name: plain_number(lengths[name]) for name in PROFILE_SHAPES[profile]},
-    )
+    bodies = Moduli(pair_of_numbers(young), pair_of_numbers(poisson))
+    contact = _contact(bodies, grid, profile, lengths, 1.0 if depth is None else plain_number(depth))
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
     _, mistakes = read_grid(contact.parameters(), {})
     if mistakes:
         raise StudyError(in_own_values(mistake, lengths) for mistake in mistakes)
     return contact
+
+
+def _contact(
+    bodies: Moduli, grid: Grid, profile: str, lengths: Mapping[str, object], depth: float
+) -> PhysicalContact:
+    """The contact at a depth, from what has no mistakes."""
+    return PhysicalContact(
+        bodies,
+        plain_number(lengths["radius"]),
+        depth,
+        float(grid.fixed["friction"]),
+        plain_number(lengths["normal_amplitude"]),
+        plain_number(lengths["tangential_amplitude"]),
+        Fraction(grid.fixed["frequency_ratio"]),
+        float(grid.fixed["phase"]),
+        profile,
+        {name: plain_number(lengths[name]) for name in PROFILE_SHAPES[profile]},
+    )
 
 
 def _depth_at(contact: PhysicalContact, force: float) -> float:
