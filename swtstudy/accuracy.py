@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from swtstudy.mistakes import plain_number
+
 DEFAULT_RTOL = 1e-4
 SMALLEST_RTOL = 1e-8
 LARGEST_RTOL = 0.1
@@ -12,6 +14,4 @@ ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
 
 def is_rtol(raw: object) -> bool:
     """Whether a value can be asked for as relative accuracy."""
-    if isinstance(raw, bool) or not isinstance(raw, float | int):
-        return False
-    return SMALLEST_RTOL <= raw <= LARGEST_RTOL
+    return SMALLEST_RTOL <= plain_number(raw) <= LARGEST_RTOL

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from numbers import Real
+from typing import TypeGuard
+
+from swtstudy.parameters import SYMBOLS, spelled
+
+#: Builds a mistake from key, found and allowed; knows where the input came from.
+Report = Callable[[str, str, str], None]
 
 
 @dataclass(frozen=True)
@@ -56,37 +64,67 @@ class StudyError(ValueError):
 
 
 def literal(value: object, longest: int = 60) -> str:
-    """A value as it stands in a message: like Python writes it, shortened if long."""
-    text = repr(value)
+    """A value as it stands in a message: like Python writes it, on one line, shortened if long."""
+    try:
+        text = re.sub(r"\s*\n\s*", " ", repr(value))
+    except ValueError:  # Python writes no integers of more than 4,300 digits
+        text = f"{type(value).__name__} with too many digits to be shown"
+    except Exception:  # the word of another's code must not hide the mistake
+        text = f"{type(value).__name__} that cannot be shown"
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+def plain(value: object) -> object:
+    """What a NumPy scalar or an array without dimensions holds; all else, and what is masked, as it is."""
+    array = getattr(value, "ndim", None) == 0 and hasattr(value, "item")
+    # Its item would be a number where the value is masked, or a time in nanoseconds.
+    if not array or getattr(value, "mask", False) or getattr(value, "dtype", None).kind in "mM":  # type: ignore[union-attr]
+        return value
+    return value.item()  # type: ignore[attr-defined]
+
+
+def is_number(value: object) -> TypeGuard[Real | Decimal]:
+    """Whether a value is a real number, and neither a truth value nor a time."""
+    # NumPy's bool is no Real, Python's is; and so is NumPy's timedelta64, told here without its import.
+    is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
+    return isinstance(value, Real | Decimal) and not isinstance(value, bool) and not is_time
 
 
 def plain_number(value: object) -> float:
     """A plain number as a float; NaN, which no range holds, for all else."""
-    # NumPy's bool is no Real, Python's is.
-    if isinstance(value, bool) or not isinstance(value, Real):
+    value = plain(value)
+    if not is_number(value):
         return math.nan
     try:
         return float(value)
     except OverflowError:
         return math.inf
+    except ValueError:  # a signalling NaN
+        return math.nan
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """What is allowed where an unknown name stands: the nearest known one first.
+def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
+    """What is allowed where an unknown name stands: the one that was meant first.
 
     Examples
     --------
     >>> nearest("frictoin", ["friction", "phase"])
     'did you mean friction? known: friction, phase'
+    >>> nearest("mu", ["friction", "phase"])
+    'did you mean friction (μ)? known: friction, phase'
     """
     known = list(known)
-    close = meant(name, known)
-    hint = f"did you mean {close}? " if close else ""
+    close = meant(name, known, symbols)
+    named, letter = symbols.get(spelled(name), ("", ""))
+    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? " if close else ""
     return f"{hint}known: {', '.join(known)}"
 
 
-def meant(name: str, known: Iterable[str]) -> str | None:
-    """The known name that an unknown one comes near to, if any."""
+def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
+    """The known name that an unknown one is a symbol of or comes near to, if any."""
+    known = list(known)
+    named, _ = symbols.get(spelled(name), ("", ""))
+    if named in known:
+        return named
     close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
     return close[0] if close else None

@@ -6,6 +6,7 @@ it; none of them repeats a name, a symbol, a default or a range.
 
 from __future__ import annotations
 
+import unicodedata
 from dataclasses import dataclass
 
 
@@ -31,6 +32,8 @@ class Parameter:
         True if ``lower`` itself is not allowed.
     kind
         "number", "ratio" (a rational number p/q) or "profile".
+    part
+        What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
     units
         CF units: "1", or "rad" for the phase.
     """
@@ -44,6 +47,7 @@ class Parameter:
     upper: float = 1.0
     open_lower: bool = False
     kind: str = "number"
+    part: str = "load"
     units: str = "1"
 
     @property
@@ -65,8 +69,8 @@ LARGEST_FREQUENCY_TERM = 64
 PARAMETERS: dict[str, Parameter] = {
     p.name: p
     for p in (
-        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5),
-        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0),
+        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5, part="body"),
+        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0, part="body"),
         Parameter(
             "normal_amplitude",
             r"\delta_A/\delta_0",
@@ -99,9 +103,18 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
-        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile"),
-        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0),
-        Parameter("waviness_amplitude", r"h/\delta_0", "h", "amplitude of the waviness", None, 0.0, 10.0),
+        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
+        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0, part="shape"),
+        Parameter(
+            "waviness_amplitude",
+            r"h/\delta_0",
+            "h",
+            "amplitude of the waviness",
+            None,
+            0.0,
+            10.0,
+            part="shape",
+        ),
         Parameter(
             "wavelength",
             r"\lambda/\sqrt{hR}",
@@ -111,6 +124,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             1000.0,
             open_lower=True,
+            part="shape",
         ),
     )
 }
@@ -125,3 +139,32 @@ PROFILE_SHAPES: dict[str, tuple[str, ...]] = {
     "truncated_paraboloid": ("flat_radius",),
     "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
 }
+
+
+def spelled(symbol: str) -> str:
+    """A symbol as one may type it: no LaTeX, Greek letters by name, letters and digits alone.
+
+    Examples
+    --------
+    >>> spelled("δ_A"), spelled(r"G^* u_A"), spelled("λ")
+    ('deltaa', 'gua', 'lambda')
+    """
+    # NFKC makes a keyboard's µ the letter μ; Unicode writes lambda without its b.
+    words = (
+        unicodedata.name(c).split()[-1].replace("LAMDA", "LAMBDA") if "α" <= c.lower() <= "ω" else c
+        for c in unicodedata.normalize("NFKC", symbol)
+    )
+    return "".join(c for c in "".join(words).lower() if c.isalnum())
+
+
+#: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
+SYMBOLS: dict[str, tuple[str, str]] = {
+    spelled(symbol): (parameter.name, parameter.letter)
+    for parameter in PARAMETERS.values()
+    for symbol in (parameter.letter, parameter.symbol, parameter.symbol.split("/")[0])
+}
+
+
+def profiles_with(name: str) -> list[str]:
+    """The profiles that have a shape parameter."""
+    return [profile for profile, names in PROFILE_SHAPES.items() if name in names]

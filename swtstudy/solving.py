@@ -58,20 +58,17 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
     for name, raw in parameters.items():
-        try:
-            dimensions = np.ndim(raw)  # type: ignore[arg-type]
-        except ValueError:
-            dimensions = 2  # ragged
-        if isinstance(raw, str) or dimensions == 0:
-            fixed[name] = raw[()] if isinstance(raw, np.ndarray) else _scalar(raw)
+        dimensions = _dimensions(raw)
+        if dimensions == 0:
+            fixed[name] = raw
         elif dimensions == 1:
-            axes[name] = [_scalar(element) for element in raw]  # type: ignore[attr-defined]
+            axes[name] = list(raw)  # type: ignore[call-overload]
         else:
             axes[name] = None
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-    grid, found = read_grid(fixed, axes)
+    grid, found = read_grid(fixed, axes, others=("rtol",))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)
@@ -81,8 +78,11 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
 
 
-def _scalar(raw: object) -> object:
-    """A zero-dimensional array or NumPy scalar as the plain value that it holds."""
-    if raw is np.ma.masked:
-        return raw  # its item is 0.0
-    return raw.item() if isinstance(raw, np.generic | np.ndarray) or hasattr(raw, "item") else raw
+def _dimensions(raw: object) -> int:
+    """How many dimensions a value has; text and bytes, which are sequences too, have none."""
+    if isinstance(raw, str | bytes | bytearray | memoryview):
+        return 0
+    try:
+        return np.ndim(raw)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return 2  # ragged, or no array at all

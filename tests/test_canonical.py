@@ -3,8 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.canonical import COLUMNS, LOAD_COLUMNS, describe_point, group_rows
 from swtstudy.grid.reading import read_grid
+from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.plan import block_ends, chunks, loads, unique_points, weights
 
 
@@ -24,6 +25,19 @@ def test_values_are_told_apart_by_twelve_digits():
     third, _ = grid_of({"friction": 0.2 + 1e-9}).canonical()
     assert (one == other).all()
     assert (one != third).any()
+
+
+def test_the_columns_are_the_rows_of_the_table_of_parameters():
+    assert LOAD_COLUMNS == ("p", "q", "normal_amplitude", "tangential_amplitude", "phase")
+    shapes = ("flat_radius", "waviness_amplitude", "wavelength")
+    # Blocks are cut along this order, and the last digits of a value depend on its block.
+    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio") == COLUMNS
+    assert {*COLUMNS} - {"p", "q"} == {*PARAMETERS} - {"frequency_ratio"}
+    table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
+    assert describe_point(table[0]) == (
+        "profile=rounded_punch, flat_radius=0.5, frequency_ratio=3/2, normal_amplitude=0.75, "
+        "tangential_amplitude=0.833333, phase=0, friction=0.3, poisson_ratio=0.3"
+    )
 
 
 PHASES = [i * np.pi / 72 for i in range(145)]  # 2.5° steps over 0…2π
@@ -51,7 +65,6 @@ def test_the_phase_folds_whatever_its_rounding_error(p, q, numerator, turns, den
 
 def test_what_does_not_matter_makes_no_new_point():
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
-    assert count({"profile": "paraboloid", "flat_radius": 0.5}) == 1
     assert count(profile=profiles, flat_radius=[0, 0.5]) == 3  # b = 0 is the paraboloid
     wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0}
     assert count(wavy, wavelength=[5, 6]) == 1

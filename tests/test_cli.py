@@ -92,6 +92,43 @@ def test_a_style_is_the_users(study, tmp_path):
     assert len(result.stderr.splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("--mu", "--friction"),
+        ("--psi=0", "--phase"),
+        ("--frictoin", "--friction"),
+        ("--u-a", "--tangential-amplitude"),
+    ],
+)
+def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
+    result = call("solve", typed)
+    assert result.exit_code == 2
+    assert "Usage: swtstudy solve" in result.stderr.replace("main", "swtstudy")
+    assert f"'{typed.removesuffix('=0')}'. Did you mean '{meant}'?" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (
+            ["solve", "--friction", "0.3", "--friction=0.6"],
+            "--friction: found 2 times; allowed: once, several values between commas",
+        ),
+        (["show", "--phase", "0", "--phase", "0"], "--phase: found 2 times; allowed: once"),
+        (["show", "-o", "a.png", "--output", "b.png"], "--output: found 2 times; allowed: once"),
+        (["run", "figure3", "--workers", "1", "--workers", "2"], "--workers: found 2 times; allowed: once"),
+        (["schema", "-o", "a.json", "-o", "b.json"], "--output: found 2 times; allowed: once"),
+    ],
+)
+def test_an_option_given_twice_is_refused(tmp_path, monkeypatch, arguments, line):
+    monkeypatch.chdir(tmp_path)
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert result.stderr == f"Error: {line}\n"
+    assert not list(tmp_path.iterdir())
+
+
 def test_show_draws_one_point(tmp_path):
     target = tmp_path / "point.pdf"
     result = call("show", "--phase", "pi/6", "--frequency-ratio", "3/2", "-o", target)
@@ -183,6 +220,7 @@ def test_version_and_help():
     assert swtstudy.__version__ in call("--version").output
     for name, command in main.commands.items():
         assert name in call("--help").output
+        assert call(name, "-h").output == call(name, "--help").output
         assert command.epilog is None or "  Examples:\n    swtstudy " in call(name, "--help").output
 
 
@@ -307,6 +345,8 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert study.title == "my first"
     assert study.figure is not None
     assert (tmp_path / "study.schema.json").is_file()
+    assert call("new", "").stderr == "Error: NAME: found ''; allowed: a name for the study, such as mine\n"
+    assert not (tmp_path / ".toml").exists()
     (tmp_path / "my_first.toml").write_text("mine")
     result = call("new", "my_first.toml")
     assert result.exit_code == 2
@@ -314,18 +354,21 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 
-def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch):
+@pytest.mark.parametrize("profile", swtstudy.parameters.PROFILE_SHAPES)
+def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
     monkeypatch.chdir(tmp_path)
     call("new", "full")
-    text = Path("full.toml").read_text().replace('"paraboloid"\n#', '"wavy_paraboloid"\n#', 1)
-    for name, parameter in swtstudy.parameters.PARAMETERS.items():
-        value = parameter.default or {"wavelength": 7}.get(name, 0.01)
+    text = Path("full.toml").read_text().replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
+    names = {name for name, row in swtstudy.parameters.PARAMETERS.items() if row.default is not None}
+    names |= {*swtstudy.parameters.PROFILE_SHAPES[profile]}
+    for name in swtstudy.parameters.PARAMETERS:
+        value = swtstudy.parameters.PARAMETERS[name].default or {"wavelength": 7}.get(name, 0.01)
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
         assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
-        for line in lines:
+        for line in lines if name in names else ():
             text = text.replace(line, f"{name} = {value}")
     study = swtstudy.Study.from_text(text)
-    assert set(study.grid.fixed) | set(study.grid.axes) == set(swtstudy.parameters.PARAMETERS)
+    assert set(study.grid.fixed) | set(study.grid.axes) == names
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,8 @@
 """The search over all planes."""
 
+from decimal import Decimal
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -72,24 +75,30 @@ def test_never_less_than_the_search_in_the_plane_of_sliding():
         ({"stress": "x"}, "stress: found 'x'; allowed: an array of numbers"),
         ({"poisson_ratio": -5}, r"poisson_ratio: found -5; allowed: a number in \(-1, 0.5\]"),
         ({"poisson_ratio": None}, "poisson_ratio: found None"),
-        ({"youngs_modulus": 0}, "youngs_modulus: found 0; allowed: a positive number"),
-        ({"youngs_modulus": np.nan}, "youngs_modulus: found nan"),
+        ({"young_modulus": 0}, "young_modulus: found 0; allowed: a positive number"),
+        ({"young_modulus": np.nan}, "young_modulus: found nan"),
     ],
 )
 def test_mistakes_are_named(changes, words):
     pull = np.zeros((2, 6))
     pull[1, 0] = 1.0
-    good = {"stress": pull, "poisson_ratio": POISSON, "youngs_modulus": 2.0}
+    good = {"stress": pull, "poisson_ratio": POISSON, "young_modulus": 2.0}
     assert swtstudy.swt_of_history(**good).swt == pytest.approx(0.25)
     with pytest.raises(ValueError, match=words):
         swtstudy.swt_of_history(**{**good, **changes})
+
+
+def test_any_plain_numbers_are_constants():
+    pull = np.outer([0.0, 1.0, 0.5], [1, 0, 0, 0, 0, 0])
+    swt, _ = swtstudy.swt_of_history(pull, Fraction(3, 10), young_modulus=Decimal(10))
+    assert swt == pytest.approx(0.05)
 
 
 def test_closed_forms():
     # Uniaxial, pulsating: the plane normal to the load. Pure compression: no plane opens.
     pull = np.zeros((3, 6))
     pull[1:, 1] = 2.0, 1.0
-    swt, normal = swt_of_history(pull, POISSON, youngs_modulus=10.0)
+    swt, normal = swt_of_history(pull, POISSON, young_modulus=10.0)
     assert swt == pytest.approx(0.2)
     np.testing.assert_allclose(normal, [0, 1, 0], atol=1e-9)
     assert swt_of_history(-pull, POISSON).swt == 0.0

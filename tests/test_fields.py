@@ -140,6 +140,15 @@ def test_nonlocal_values_are_nan_where_s_is_not_finite():
     assert np.isnan(dataset.s_point.sel(tangential_amplitude=3.0)).all()
 
 
+def test_nonlocal_values_of_several_profiles_at_once():
+    at = {"critical_distance": 0.05, "rtol": 1e-2}
+    both = swtstudy.nonlocal_swt(profile=["paraboloid", "rounded_punch"], flat_radius=0.5, **at)
+    punch = swtstudy.nonlocal_swt(profile=["rounded_punch"], flat_radius=0.5, **at)
+    assert both.s_volume.sel(profile="rounded_punch").item() == pytest.approx(punch.s_volume.item())
+    with pytest.raises(ValueError, match=r"flat_radius: found .*, which no profile here has"):
+        swtstudy.slip_map(0.5, flat_radius=0.5)
+
+
 def test_waves_too_short_to_follow_are_left_out_of_fields_too():
     wave = {"waviness_amplitude": 1e-20, "wavelength": 5.0}
     smooth, wavy = (

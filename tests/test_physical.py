@@ -2,17 +2,23 @@
 
 import math
 import runpy
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.units.moduli import Moduli
 
+LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
+STEEL = FatigueConstants(
+    young_modulus=207e3, strength=1758.0, strength_exponent=-0.0977, ductility=2.12, ductility_exponent=-0.774
+)
 ALUMINIUM = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
 
 
@@ -91,6 +97,56 @@ def test_bodies_of_different_stiffness():
         assert float(found.SWT[body]) == pytest.approx(expected)
 
 
+def test_each_body_has_its_own_life():
+    """The same stress strains the softer body more: its SWT is higher by E1/E2, its life shorter."""
+    contact = physical(
+        **{**ALUMINIUM, "young_modulus": (210e3, 180e3)}, depth=0.01, tangential_amplitude=0.002
+    )
+    found = contact.solve(rtol=1e-2)
+    assert found.s.dims == ("body",)
+    stiff, soft = contact.swt(found.s)
+    assert float(soft / stiff) == pytest.approx(210 / 180)
+    lives = contact.cycles(STEEL, found.s)
+    assert lives.attrs == {
+        "long_name": "cycles to the initiation of a crack",
+        "units": "1",
+        "symbol": "N",
+    }
+    assert lives.values == pytest.approx([float(STEEL.cycles(stiff)), float(STEEL.cycles(soft))])
+    assert contact.swt(1e308, body=0) == np.inf  # without a warning
+    # In any order, one body alone, and from plain numbers.
+    assert contact.cycles(STEEL, found.s[::-1]).values == pytest.approx(lives.values[::-1])
+    assert float(contact.cycles(STEEL, found.s[1])) == pytest.approx(float(lives[1]))
+    s = found.s.values[1]
+    assert float(contact.cycles(STEEL, s, body=1)) == pytest.approx(float(lives[1]))
+    grid = found.s.expand_dims(phase=[0.0, 1.0])
+    np.testing.assert_allclose(contact.swt(grid), [contact.swt(found.s)] * 2)
+    weak = FatigueConstants(200e3, 900.0, -0.1, 1.0, -0.7)
+    pair = contact.cycles((STEEL, weak), found.s).values
+    assert pair == pytest.approx([float(lives[0]), float(weak.cycles(soft))])
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda contact: contact.swt(0.1), "body: found nothing; allowed: 0 or 1, since the bodies differ"),
+        (lambda contact: contact.cycles(STEEL, 0.1), "body: found nothing"),
+        (lambda contact: contact.swt(0.1, body=2), "body: found 2; allowed: 0 or 1"),
+        (lambda contact: contact.parameters(-1), "body: found -1; allowed: 0 or 1"),
+        (lambda contact: contact.parameters(np.timedelta64(1, "s")), "body: found np.timedelta64"),
+        (lambda contact: contact.swt(LABELLED, body=1), "body: found 1; allowed: nothing, since s has"),
+        (lambda contact: contact.swt(LABELLED.assign_coords(body=[0, 1])), r"body: found the .*\[0, 1\]"),
+        (lambda contact: contact.cycles([STEEL], LABELLED), "constants: found"),
+        (lambda contact: contact.cycles(None, LABELLED), "constants: found None; allowed: a Fatigue"),
+        (lambda contact: contact.swt(-0.1, body=0), "s: found -0.1; allowed: numbers ≥ 0"),
+    ],
+)
+def test_a_body_that_is_not_known_is_asked_for(call, words):
+    bodies = {**ALUMINIUM, "young_modulus": (210e3, 180e3)}
+    with pytest.raises(swtstudy.StudyError, match=words):
+        call(physical(**bodies, depth=0.01, tangential_amplitude=0.002))
+
+
 @pytest.mark.parametrize(
     "parameters",
     [
@@ -119,6 +175,16 @@ def test_there_and_back(parameters):
     assert again.depth == pytest.approx(0.02)
     for name, value in again.parameters().items():
         assert value == (value if isinstance(value, str) else pytest.approx(back[name]))
+
+
+def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **wavy)
+    punch = contact.with_parameters(profile="rounded_punch", flat_radius=0.5)
+    assert punch.shape == pytest.approx({"flat_radius": 0.5})  # a_H = √(50 · 0.02) = 1
+    assert punch.with_parameters(profile="truncated_paraboloid").shape == pytest.approx(punch.shape)
+    with pytest.raises(ValueError, match="wavelength: found 7, which no profile here has"):
+        punch.with_parameters(wavelength=7)
 
 
 def test_pressures_of_other_profiles():
@@ -186,6 +252,36 @@ def test_mistakes_are_named(changes, words):
         ({"normal_amplitude": "0"}, ["normal_amplitude: found '0'"]),
         ({"profile": ["paraboloid"]}, ["profile: found ['paraboloid'] (not a name)"]),
         ({"similar": None}, ["similar: found None"]),
+        ({"young_modulus": 5e-324}, ["young_modulus: found 5e-324; allowed: a positive number, or a pair"]),
+        ({"young_modulus": 1e308}, ["young_modulus: found 1e+308; allowed: a positive number, or a pair"]),
+        ({"radius": 5e-324}, ["radius: found 5e-324; allowed: a positive length, in magnitude from 1e-100"]),
+        ({"normal_force": 1e308}, ["normal_force: found 1e+308; allowed: a positive number, in magnitude"]),
+        ({"tangential_amplitude": 5e-324}, ["tangential_amplitude: found 5e-324; allowed: a length ≥ 0, in"]),
+        ({"friction": 5e-324}, ["tangential_amplitude: found 0.002, non-dimensional inf"]),
+        ({"frictoin": 1}, ["frictoin: found unknown parameter 'frictoin'; allowed: did you mean friction?"]),
+        ({"E": 1}, ["E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?"]),
+        ({"psi": 1}, ["psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?"]),
+        (
+            {"youngs_modulus": 1, "young_modulus": None, "radius": None},
+            [
+                "youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod",
+                "radius: found nothing; allowed: a positive length",
+            ],
+        ),
+        ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),
+        ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
+        (
+            {"flat_radius": 1e77, "profile": "truncated_paraboloid"},
+            ["flat_radius: found 1e+77 at normal_force 200.0; allowed: a length of at most 20 a_H at"],
+        ),
+        (
+            {"flat_radius": 1e-4, "profile": "rounded_punch", "normal_force": 5e-89},
+            ["flat_radius: found 0.0001 at normal_force 5e-89; allowed: a length of at most 20 a_H at"],
+        ),
+        (
+            {"waviness_amplitude": 1.0, "wavelength": 100.0, "profile": "wavy_paraboloid"},
+            ["waviness_amplitude: found 1.0 at normal_force 200.0; allowed: a length of at most 10 δ0 at"],
+        ),
         (
             {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
             ["friction: found -1", "phase: found None", "radius: found 0", "tangential_amplitude: found -1"],
@@ -202,6 +298,36 @@ def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages
         assert line.startswith(start)
 
 
+@pytest.mark.parametrize("profile", ["rounded_punch", "truncated_paraboloid"])
+def test_the_depth_of_a_face_as_large_as_it_may_be(profile):
+    # b/a_H = 20 is the limit: a little more force, and so depth, than there.
+    b, modulus = 3.0, 73.1e3 / (2 * (1 - 0.33**2))
+    depth = 1.02 * (b / 20) ** 2 / 50.0
+    contact = physical(**ALUMINIUM, depth=depth, tangential_amplitude=0, profile=profile, flat_radius=b)
+    force = contact.normal_force
+    assert force > 2 * modulus * b * depth  # that of a flat punch of this radius
+    again = physical(**ALUMINIUM, normal_force=force, tangential_amplitude=0, profile=profile, flat_radius=b)
+    assert again.depth == pytest.approx(depth, rel=1e-9)
+
+
+def test_what_is_not_given_is_named():
+    with pytest.raises(swtstudy.StudyError) as caught:
+        physical()
+    assert {(mistake.key, mistake.found) for mistake in caught.value.mistakes} == {
+        *((name, "nothing") for name in ("young_modulus", "poisson_ratio", "radius", "friction")),
+        ("tangential_amplitude", "nothing"),
+        ("depth, normal_force", "neither"),
+    }
+
+
+def test_any_plain_numbers_make_the_same_contact():
+    numbers = {**ALUMINIUM, "depth": 0.01, "tangential_amplitude": 0.002}
+    for kind in (np.float64, np.array, lambda value: Decimal(str(value))):
+        assert physical(**{name: kind(value) for name, value in numbers.items()}) == physical(**numbers)
+    pairs = {"young_modulus": np.array([210e3, 180e3]), "poisson_ratio": [0.3, 0.3]}
+    assert physical(**{**numbers, **pairs}).moduli.young == (210e3, 180e3)
+
+
 def test_waves_too_short_to_follow_are_left_out_of_the_force_too():
     waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-30, "wavelength": 3e-14}
     contact = physical(**ALUMINIUM, normal_force=200.0, tangential_amplitude=0.002, **waves)
@@ -216,11 +342,6 @@ def test_dundurs():
     physical(
         **{**ALUMINIUM, "young_modulus": (210e3, 70e3)}, depth=0.01, tangential_amplitude=1e-3, similar=0.2
     )
-
-
-STEEL = FatigueConstants(
-    young_modulus=207e3, strength=1758.0, strength_exponent=-0.0977, ductility=2.12, ductility_exponent=-0.774
-)
 
 
 @pytest.mark.parametrize("cycles", [10.0, 1e3, 1e5, 1e9])
@@ -246,7 +367,28 @@ def test_lives_of_arrays_and_limits():
         STEEL.swt([1.0, np.nan, -2.0])
 
 
+@pytest.mark.parametrize("swt", [5e-324, 1e-300, 1e-60, 1e60, 1e300, np.inf])
+def test_lives_at_any_swt(swt):
+    """One term alone rules far out: elastic at long lives, (σf′²/E) (2N)^(2b), plastic at short ones."""
+    if swt < 1.0:
+        logarithm = (math.log(swt) - math.log(1758.0**2 / 207e3)) / (2 * -0.0977)
+    else:
+        logarithm = (math.log(swt) - math.log(1758.0 * 2.12)) / (-0.0977 - 0.774)
+    expected = 0.5 * math.exp(logarithm) if logarithm < 709.0 else math.inf
+    assert float(STEEL.cycles(swt)) == pytest.approx(expected, rel=1e-6)
+
+
+def test_lives_of_two_extremes():
+    assert STEEL.swt([0.0, np.inf]).tolist() == [np.inf, 0.0]
+    brittle = FatigueConstants(1e100, 1e100, -1e-100, 1e-100, -1e100)
+    assert brittle.cycles([1.0, 1e200, 1e300]).tolist() == [np.inf, 0.5, 0.5]  # (2N)^(−1e100) alone
+    assert FatigueConstants(Decimal(2), np.float32(3), -1, 4, -1).young_modulus.hex() == (2.0).hex()
+
+
 def test_wrong_constants_are_named_at_once():
+    with pytest.raises(swtstudy.StudyError, match="in magnitude from 1e-100 to 1e\\+100") as caught:
+        FatigueConstants(5e-324, 1e308, -1e-310, True, -np.inf)
+    assert [mistake.key for mistake in caught.value.mistakes] == list(vars(STEEL))
     with pytest.raises(swtstudy.StudyError) as caught:
         FatigueConstants("1", None, 0.1, 1.0, -0.5)
     assert str(caught.value).splitlines() == [

@@ -14,10 +14,10 @@ import xarray as xr
 from swtstudy import open_results
 from swtstudy.audit.point import TOLERANCE
 from swtstudy.cli.run import POINTS_FAILED
-from swtstudy.mechanics.face_edge import LEFT_OUT
+from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
+from swtstudy.mechanics.line.circle_gain import SAFE_POISSON_RATIO
+from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.mechanics.profiles.flat_faced import NEAREST, SMALLEST_FACE
-from swtstudy.mechanics.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.units.physical import SIMILAR
 
 RESULTS = shown.ROOT / "results"

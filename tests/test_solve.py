@@ -1,10 +1,14 @@
+from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import swtstudy
 from swtstudy import StudyError, solve
+from swtstudy.accuracy import is_rtol
+from swtstudy.mistakes import plain_number
 
 
 def test_dimensions_in_the_order_given():
@@ -22,6 +26,18 @@ def test_scalars_give_scalars():
     assert dataset.s.ndim == 0
     assert dataset.frequency_ratio.item() == 1.5
     assert dataset.frequency_ratio.attrs["fractions"] == "3/2"
+
+
+@pytest.mark.parametrize(
+    "one", [np.float32(0.25), Decimal("0.25"), Fraction(1, 4), np.array(0.25), xr.DataArray(0.25), "1/4"]
+)
+def test_any_plain_number_is_a_number_everywhere(one):
+    dataset = solve(friction=one, phase=[one, 1], rtol=np.float32(0.05))
+    assert dataset.friction.item() == dataset.phase.values[0] == 0.25
+    if not isinstance(one, str):
+        assert is_rtol(one) is False
+        assert is_rtol(one / 4 if isinstance(one, Decimal | Fraction) else one * 0.25) is True
+        assert plain_number(one) == 0.25
 
 
 @pytest.mark.parametrize("values", [[0, 1], (0, 1), range(2), np.array([0, 1]), np.array([0.0, 1.0])])
@@ -72,16 +88,39 @@ def test_attributes_follow_the_table():
         ({"poisson_ratio": 0.6}, "out of range"),
         ({"frequency_ratio": np.pi}, "irrational"),
         ({"frequency_ratio": "3/0"}, "division by zero"),
-        ({"psi": 0}, "unknown parameter"),
+        ({"psi": 0}, r"unknown parameter 'psi'; allowed: did you mean phase \(ψ\)\?"),
+        ({"µ": 0}, r"did you mean friction \(μ\)\?"),
+        ({"G*uA": 0}, r"did you mean tangential_amplitude \(uA\)\?"),
+        ({"λ": 0}, r"did you mean wavelength \(λ\)\?"),
+        ({"Poisson": 0}, r"did you mean poisson_ratio\?"),
         ({"frictoin": 0}, "did you mean friction"),
         ({"phase": []}, "an empty axis"),
         ({"phase": [0, 0]}, "the same as"),
         ({"phase": [[0, 1]]}, "one-dimensional"),
         ({"phase": [[0, 1], [2]]}, "one-dimensional"),
         ({"profile": "rounded_punch"}, "flat_radius"),
+        ({"flat_radius": 0.5}, "flat_radius: found 0.5, which no profile here has"),
         ({"rtol": 0}, "rtol"),
+        ({"rtoll": 1e-3}, r"rtoll: found unknown .* did you mean rtol\?"),
         ({"rtol": float("nan")}, "rtol"),
         ({"friction": 10**400}, "not a finite number"),
+        ({"friction": 10**5000}, "found int with too many digits"),
+        ({"friction": [[10**5000]]}, "found list with too many digits"),
+        ({"friction": Decimal("1e999999999")}, "not a finite number"),
+        ({"friction": Decimal("sNaN")}, "not a finite number"),
+        ({"friction": np.ma.array(1.0, mask=True)}, "not a number"),
+        ({"friction": np.datetime64(1, "ns")}, "not a number"),
+        ({"friction": np.array(1, "timedelta64[ns]")}, "not a number"),
+        ({"friction": np.array([True])}, "not a number"),
+        ({"friction": 0.3 + 0j}, "not a number"),
+        ({"friction": b"0.3"}, "not a number"),
+        ({"friction": {0.3}}, "not a number"),
+        ({"phase": bytearray(b"a")}, "not a number"),
+        ({"phase": memoryview(b"a")}, "not a number"),
+        ({"phase": xr.Dataset({"a": 1.0})}, "one-dimensional"),
+        ({"phase": type("Shy", (), {"__repr__": lambda self: 1 / 0})()}, "found Shy that cannot be shown"),
+        ({"rtol": True}, "rtol"),
+        ({"rtol": "1e-4"}, "rtol"),
         ({"friction": np.ma.array([1.0, 2.0], mask=[0, 1])}, "found masked .not a number"),
     ],
 )
@@ -97,6 +136,7 @@ def test_all_mistakes_come_at_once():
 
 
 def test_the_package_exports_lazily():
-    assert set(swtstudy.__all__) <= set(dir(swtstudy))
+    assert dir(swtstudy) == sorted(swtstudy.__all__)
+    assert all(hasattr(swtstudy, name) for name in dir(swtstudy))
     with pytest.raises(AttributeError):
         swtstudy.nothing  # noqa: B018

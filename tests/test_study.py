@@ -73,6 +73,7 @@ def test_ratios_are_exact():
         ("friction = true", "not a number"),
         ("friction = [0.1]", "not a number"),
         ("friction = 1979-05-27", "not a number"),
+        ("friction = 0x" + 4000 * "f", "int with too many digits"),
         ("poisson_ratio = 0.51", "out of range"),
         ('frequency_ratio = "3/0"', "division by zero"),
         ('frequency_ratio = "pi"', "irrational"),
@@ -84,6 +85,14 @@ def test_ratios_are_exact():
         ('profile = "parabloid"', "did you mean paraboloid?"),
         ("profile = 3", "not a name"),
         ("frictoin = 0.1", "did you mean friction?"),
+        ("mu = 0.1", "did you mean friction (μ)?"),
+        ("nu = 0.1", "did you mean poisson_ratio (ν)?"),
+        ("psi = 0.1", "did you mean phase (ψ)?"),
+        ("u_A = 0.1", "did you mean tangential_amplitude (uA)?"),
+        ("delta_A = 0.1", "did you mean normal_amplitude (δA)?"),
+        ("omega_2 = 1", "did you mean frequency_ratio (ω2)?"),
+        ("lambda = 7", "did you mean wavelength (λ)?"),
+        ("h = 0.01", "did you mean waviness_amplitude (h)?"),
         ('tangential_amplitude = "5 6"', "unexpected"),
         ("phase = 1e9", "out of range"),
     ],
@@ -105,6 +114,9 @@ def test_a_bad_value_is_named(entry, found):
         ("phase = [0, nan]", "axes.phase[1]", "not a finite number"),
         ("fase = [0, 1]", "axes.fase", "did you mean phase?"),
         ("phase = {start = 0, stop = 1}", "axes.phase.num", "nothing"),
+        ("phase = {start = 0, stop = inf, num = 2}", "axes.phase.stop", "not a finite number"),
+        ("phase = {start = 0, stop = 0x" + 4000 * "f" + ", num = 2}", "axes.phase.stop", "too many digits"),
+        ("phase = {start = 0, stop = 1, num = 0x" + 4000 * "f" + "}", "axes.phase.num", "too many digits"),
         ("phase = {start = 0, stop = 1, num = 1}", "axes.phase.num", "a whole number from 2"),
         ("phase = {start = 0, stop = 1, num = 2.5}", "axes.phase.num", "a whole number"),
         ("phase = {start = 0, stop = 0, num = 3}", "axes.phase", "two different ends"),
@@ -144,15 +156,53 @@ def test_shape_parameters_are_required_by_their_profiles():
     assert "rounded_punch needs it" in mistakes["fixed.flat_radius"]
 
 
-def test_a_shape_parameter_that_the_profile_lacks_is_not_used():
-    study = Study.from_text(MINIMAL + "[fixed]\nflat_radius = 0.5")
-    assert study.grid.values("flat_radius") == (0.5,)
+def test_a_shape_parameter_that_no_profile_has_is_a_mistake():
+    assert mistakes_of(MINIMAL + "[fixed]\nflat_radius = 0.5") == {
+        "fixed.flat_radius": "0.5, which no profile here has (paraboloid); "
+        "only with the profile rounded_punch or truncated_paraboloid"
+    }
+    several = '[axes]\nprofile = ["paraboloid", "rounded_punch"]\n[fixed]\nflat_radius = 0.5\n'
+    assert Study.from_text(MINIMAL + several).grid.values("flat_radius") == (0.5,)
+    assert list(mistakes_of(MINIMAL + several + "wavelength = 7")) == ["fixed.wavelength"]
+    # A misspelt profile may be the one that has it.
+    assert list(mistakes_of(MINIMAL + several.replace("punch", "punsh"))) == ["axes.profile[1]"]
 
 
 def test_waviness_that_breaks_the_contact_up_is_refused():
     fixed = '[fixed]\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 0.02\nwavelength = 3'
     mistakes = mistakes_of(MINIMAL + fixed)
     assert list(mistakes) == ["fixed.waviness_amplitude, fixed.wavelength"]
+
+
+WAVY = 'title = "t"\n[fixed]\nprofile = "wavy_paraboloid"\n[axes]\n'
+
+
+def test_every_refused_shape_is_counted(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.shapes._SLAB", 3)
+    # Smooth waves, h = 0, are compact however short; of the others λ/√(hR) must reach 3.5.
+    axes = "waviness_amplitude = [0, 0.01, 0.02]\nwavelength = [3.6, 3.4, 1.0]"
+    assert mistakes_of(WAVY + axes) == {
+        "axes.waviness_amplitude, axes.wavelength": "waviness_amplitude = 0.01, wavelength = 3.4; "
+        "3 more like it; "
+        "wavelength 3.4 is below 3.52, the smallest for which the contact stays compact at "
+        "waviness_amplitude 0.01 up to the depth 1.75 δ0"
+    }
+
+
+@pytest.mark.parametrize("wavelength", ["5e-324", "1e-300"])
+@pytest.mark.parametrize("amplitude", ["5e-324", "0.01"])
+def test_waves_too_short_for_a_float_are_refused_without_a_warning(amplitude, wavelength):
+    mistakes = mistakes_of(WAVY + f"waviness_amplitude = [{amplitude}]\nwavelength = [{wavelength}]")
+    assert "is below 3.52" in next(iter(mistakes.values()))
+
+
+def test_more_shapes_than_can_be_looked_at_are_not_looked_at(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.shapes.MOST_SHAPES", 8)
+    monkeypatch.setattr("swtstudy.mechanics.indenter.compact_shapes", None)
+    axes = "waviness_amplitude = [0.01, 0.02, 0.03]\nwavelength = [7, 8, 9]"
+    assert mistakes_of(WAVY + axes) == {
+        "axes.waviness_amplitude, axes.wavelength": "9 shapes of the wavy_paraboloid; at most 8"
+    }
 
 
 FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\nhue = "friction"\n'
@@ -251,6 +301,11 @@ def test_the_figure_is_not_blamed_for_a_misspelt_axis(small_text):
     assert [mistake.key for mistake in caught.value.mistakes] == ["axes.normal_amplitud"]
 
 
+def test_an_integer_that_python_does_not_read_is_one_message():
+    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits to be read"):
+        Study.from_text(MINIMAL + "[fixed]\nfriction = " + 5000 * "9", "big.toml")
+
+
 def test_a_syntax_error_is_one_message():
     with pytest.raises(
         StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML$"
@@ -279,6 +334,14 @@ def test_a_study_of_the_paper_by_its_name(tmp_path, monkeypatch):
     assert Study.from_toml("figure3").title.startswith("Figure 3")
     with pytest.raises(StudyError, match=r"^figure33: found no such file; .* did you mean figure3\?"):
         Study.from_toml("figure33")
+
+
+@pytest.mark.parametrize("wrong", [None, 3, b"figure3", ["figure3"]])
+def test_what_is_no_path_and_no_text_is_no_study(wrong):
+    with pytest.raises(StudyError, match=r"^path: found .*; allowed: the path or the name of a study$"):
+        Study.from_toml(wrong)
+    with pytest.raises(StudyError, match=r"^text: found .*; allowed: the text of a study file$"):
+        Study.from_text(wrong)
 
 
 def test_a_folder_is_no_study(tmp_path):

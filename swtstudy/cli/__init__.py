@@ -17,6 +17,7 @@ from swtstudy.cli.info import info
 from swtstudy.cli.list import list_studies
 from swtstudy.cli.merge import merge
 from swtstudy.cli.new import new
+from swtstudy.cli.options import check_options
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
@@ -34,6 +35,14 @@ STOPPED = 130
 
 class _Commands(click.Group):
     """A group whose commands end bad input with one line a mistake, never with a traceback."""
+
+    def resolve_command(
+        self, context: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        name, command, rest = super().resolve_command(context, args)
+        if command is not None and not context.resilient_parsing:
+            check_options(context, command, rest)
+        return name, command, rest
 
     def invoke(self, context: click.Context) -> Any:
         _log_to_terminal()

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from swtstudy.cli.examples import examples
+from swtstudy.mistakes import Mistake, StudyError, literal
 
 
 @click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
@@ -21,6 +22,8 @@ def new(name: str) -> None:
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template
 
+    if Path(name).name in ("", ".toml"):
+        raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
     target = Path(name if name.endswith(".toml") else f"{name}.toml")
     check_writable(target)
     try:

@@ -9,13 +9,13 @@ from swtstudy.cli.solve import with_parameters
 
 
 @click.command(epilog=examples("swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf"))
-@with_parameters
+@with_parameters("VALUE")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 def show(output: str, style: str | None, **texts: str | None) -> None:
     """Draw one point of the parameters: load path, slip, tractions, stress cycle and swt.
 
-    VALUES is a single value here; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
     from swtstudy.archive.files import check_writable
     from swtstudy.figures.inspection import inspect

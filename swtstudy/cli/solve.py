@@ -10,6 +10,7 @@ import click
 
 from swtstudy.accuracy import DEFAULT_RTOL
 from swtstudy.cli.examples import examples
+from swtstudy.cli.options import SEVERAL
 from swtstudy.parameters import PARAMETERS
 
 
@@ -17,13 +18,18 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
+def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """One option for each row of the table of parameters."""
-    for parameter in reversed(PARAMETERS.values()):
-        default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
-        words = f"{parameter.meaning}; {parameter.allowed}{default}"
-        command = click.option(f"--{parameter.name.replace('_', '-')}", metavar="VALUES", help=words)(command)
-    return command
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        for parameter in reversed(PARAMETERS.values()):
+            default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
+            words = f"{parameter.meaning}; {parameter.allowed}{default}"
+            option = f"--{parameter.name.replace('_', '-')}"
+            command = click.option(option, metavar=metavar, help=words)(command)
+        return command
+
+    return decorate
 
 
 @click.command(
@@ -32,7 +38,7 @@ def with_parameters(command: Callable[..., Any]) -> Callable[..., Any]:
         "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
     )
 )
-@with_parameters
+@with_parameters(SEVERAL)
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 def solve(rtol: float, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.

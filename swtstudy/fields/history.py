@@ -12,14 +12,14 @@ from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 
 
-def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
+def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
     """Largest Smith–Watson–Topper parameter over all planes (eq. 9).
 
     Parameters
     ----------
     stress
         Shape (..., time, 6): one cycle, components xx, yy, zz, yz, xz, xy; tension positive.
-    poisson_ratio, youngs_modulus
+    poisson_ratio, young_modulus
         ν and E of Hooke's law. In this package's units (stress in E* √(δ0/R), s = swt/(E* δ0/R)) the half-
         space has E = 1 − ν².
 
@@ -56,8 +56,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
             mistakes.append(Mistake("stress", f"{wrong} components that are not finite", "finite numbers"))
     if not -1.0 < plain_number(poisson_ratio) <= 0.5:
         mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
-    if not 0.0 < plain_number(youngs_modulus) < math.inf:
-        mistakes.append(Mistake("youngs_modulus", literal(youngs_modulus), "a positive number"))
+    if not 0.0 < plain_number(young_modulus) < math.inf:
+        mistakes.append(Mistake("young_modulus", literal(young_modulus), "a positive number"))
     if mistakes:
         raise StudyError(mistakes)
-    return all_planes.swt_of_history(history, poisson_ratio, youngs_modulus)
+    return all_planes.swt_of_history(history, plain_number(poisson_ratio), plain_number(young_modulus))

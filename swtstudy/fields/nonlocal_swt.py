@@ -9,10 +9,11 @@ import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import numbers
+from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.body.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 from swtstudy.solving import solve
 
 _CELLS, _STEPS = 60, 10
@@ -51,7 +52,9 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     # Where s is not finite there is no critical point.
     for index in zip(*np.nonzero(np.isfinite(dataset.critical_x.values)), strict=True):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
-        values = {name: one[name].item() for name in PARAMETERS if name in one.coords}
+        # A grid of several profiles has the shape parameters of all of them.
+        others = {*SHAPE_COLUMNS} - {*PROFILE_SHAPES[one.profile.item()]}
+        values = {name: one[name].item() for name in PARAMETERS if name in one.coords and name not in others}
         volume[index], point[index], line[index] = _of_point(values, float(one.critical_x), distance)
     meaning = {"long_name": "critical distance, in units of a_H", "units": "1", "symbol": r"\ell/a_H"}
     dataset = dataset.assign_coords(

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from swtstudy.grid.canonical import NUMBERS
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
@@ -41,11 +42,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in PROFILE_SHAPES[profile]},
-        poisson_ratio=number("poisson_ratio"),
-        friction=number("friction"),
-        normal_amplitude=number("normal_amplitude"),
-        tangential_amplitude=number("tangential_amplitude"),
-        phase=number("phase"),
+        **{name: number(name) for name in NUMBERS},
     )
 
 

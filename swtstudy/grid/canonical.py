@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
@@ -21,18 +21,19 @@ if TYPE_CHECKING:
 PROFILES = tuple(PROFILE_SHAPES)
 SHAPE_COLUMNS = tuple(dict.fromkeys(name for shape in PROFILE_SHAPES.values() for name in shape))
 
-#: Columns of a table of canonical points; the profile is an index into `PROFILES`, ω2/ω1 = p/q.
-COLUMNS = (
-    "profile",
-    "p",
-    "q",
-    "normal_amplitude",
-    "tangential_amplitude",
-    "phase",
-    *SHAPE_COLUMNS,
-    "friction",
-    "poisson_ratio",
-)
+
+def _numbers(part: str) -> tuple[str, ...]:
+    return tuple(name for name, row in PARAMETERS.items() if row.part == part and row.kind == "number")
+
+
+#: Columns that make the load, ω2/ω1 = p/q.
+LOAD_COLUMNS = ("p", "q", *_numbers("load"))
+#: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
+#: which the tractions do not depend on.
+NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
+#: Columns of a table of canonical points, in the order in which they are sorted; the profile is an index into
+#: `PROFILES`.
+COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
@@ -118,13 +119,12 @@ def points_from(table: FloatArray) -> Points:
     from swtstudy.mechanics.points import Points
 
     profile = PROFILES[int(table[0, 0])]
-    names = ("poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase")
     return Points(
         profile=profile,
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in PROFILE_SHAPES[profile]},
-        **{name: table[:, _COLUMN[name]].copy() for name in names},
+        **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
 
@@ -134,5 +134,4 @@ def describe_point(row: FloatArray) -> str:
     parts = [f"profile={profile}"]
     parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in PROFILE_SHAPES[profile]]
     parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
-    names = ("normal_amplitude", "tangential_amplitude", "phase", "friction", "poisson_ratio")
-    return ", ".join([*parts, *(f"{name}={row[_COLUMN[name]]:.6g}" for name in names)])
+    return ", ".join([*parts, *(f"{name}={row[_COLUMN[name]]:.6g}" for name in NUMBERS)])

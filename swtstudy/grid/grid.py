@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import COLUMNS, PROFILES, SHAPE_COLUMNS, canonical_number, canonical_points
+from swtstudy.grid.canonical import COLUMNS, PROFILES, canonical_number, canonical_points
 from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -86,8 +86,3 @@ def complete(fixed: dict[str, Value], axes: dict[str, tuple[Value, ...]]) -> Gri
         if name not in fixed and name not in axes and parameter.default is not None:
             filled[name] = read_value(parameter, parameter.default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes))
-
-
-def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
-    """The shape parameters that at least one of the profiles has."""
-    return tuple(n for n in SHAPE_COLUMNS if any(n in PROFILE_SHAPES.get(p, ()) for p in profiles))

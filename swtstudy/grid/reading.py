@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -10,15 +9,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from swtstudy.grid.canonical import SHAPE_COLUMNS, canonical_number
+from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
-from swtstudy.grid.grid import Grid, complete, shapes_needed
-from swtstudy.grid.values import Value, read_value
-from swtstudy.mistakes import Mistake, literal, nearest
+from swtstudy.grid.grid import Grid, complete
+from swtstudy.grid.shapes import check_shapes, check_shapes_given
+from swtstudy.grid.values import Value, read_exact, read_value
+from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
-
-#: Builds a mistake from key, found and allowed; knows where the input came from.
-Report = Callable[[str, str, str], None]
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -39,6 +36,7 @@ def read_grid(
     axes: Mapping[str, Sequence[object] | Range | None],
     keys: Callable[[str], str] = lambda name: name,
     source: str = "",
+    others: Sequence[str] = (),
 ) -> tuple[Grid | None, list[Mistake]]:
     """The grid spanned by fixed values and axes.
 
@@ -50,6 +48,8 @@ def read_grid(
         The key of a parameter in messages, from its name.
     source
         Where the input comes from, for messages.
+    others
+        Names that are known beside the parameters, and may be meant by an unknown one.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def read_grid(
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
         if name not in PARAMETERS:
-            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, PARAMETERS))
+            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
     for name in sorted(fixed.keys() & axes.keys()):
         report(keys(name), "both a fixed value and an axis", "one of the two")
     for name, single in fixed.items():
@@ -77,11 +77,11 @@ def read_grid(
     for name, raw in axes.items():
         if name in PARAMETERS and raw is not None:
             good_axes[name] = _read_axis(name, raw, keys(name), report)
-    _check_shapes(fixed, axes, good_fixed, good_axes, keys, report)
+    check_shapes_given(fixed, axes, good_fixed, good_axes, keys, report)
     if mistakes:
         return None, mistakes
     grid = complete(good_fixed, good_axes)
-    _check_profiles(grid, keys, report)
+    check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes
 
 
@@ -125,9 +125,8 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
     for part in ("start", "stop"):
         raw = getattr(axis, part)
         try:
-            if isinstance(raw, bool) or not isinstance(raw, str | int | float | Fraction):
-                raise ValueError("not a number")
-            ends.append(evaluate(raw if isinstance(raw, str) else str(raw)))
+            # The decimal number that a float is written as, not the binary one that it is.
+            ends.append(evaluate(raw if isinstance(raw, str) else str(read_exact(raw))))
         except ValueError as error:
             report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
     if not 2 <= axis.num <= LONGEST_AXIS:
@@ -152,52 +151,3 @@ def _expand(axis: Range, key: str, report: Report) -> list[object]:
     if sys.float_info.min < ratio < math.inf:
         return [start, *(first * ratio**part for part in parts), stop]
     return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]
-
-
-def _check_shapes(
-    fixed: Mapping[str, object],
-    axes: Mapping[str, object],
-    good_fixed: Mapping[str, Value],
-    good_axes: Mapping[str, tuple[Value, ...]],
-    keys: Callable[[str], str],
-    report: Report,
-) -> None:
-    """Every profile needs its shape parameters; an axis that no profile has would change nothing."""
-    if "profile" in good_fixed:
-        profiles = [str(good_fixed["profile"])]
-    elif "profile" in fixed or "profile" in axes:
-        profiles = [str(profile) for profile in good_axes.get("profile", ())]
-    else:
-        profiles = [str(PARAMETERS["profile"].default)]
-    needed = shapes_needed(profiles)
-    for name in needed:
-        if name not in fixed and name not in axes:
-            owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
-            report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
-    for name in good_axes:
-        if name in SHAPE_COLUMNS and name not in needed and profiles:
-            report(
-                keys(name), f"an axis that no profile here has ({', '.join(profiles)})", "axes that matter"
-            )
-
-
-def _check_profiles(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
-    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    # The largest contact of the study is the hardest to keep compact.
-    normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
-    for profile in map(str, grid.values("profile")):
-        names = PROFILE_SHAPES[profile]
-        if not names:
-            continue
-        from swtstudy.mechanics.indenter import check_shape
-
-        refused, first = 0, ("", "")
-        for values in itertools.product(*(grid.values(name) for name in names)):
-            shape = {name: float(value) for name, value in zip(names, values, strict=True)}
-            message = check_shape(profile, shape, normal_amplitude)
-            if message is not None and not refused:
-                first = ", ".join(f"{name} = {value:g}" for name, value in shape.items()), message
-            refused += message is not None
-        if refused:
-            more = f"; {refused - 1} more like it" if refused > 1 else ""
-            report(", ".join(map(keys, names)), first[0] + more, first[1])

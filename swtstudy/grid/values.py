@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from numbers import Rational, Real
+from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
+from swtstudy.mistakes import is_number, plain, plain_number
 from swtstudy.parameters import PROFILE_SHAPES, Parameter
 
 #: A checked value: a float, an exact frequency ratio, or the name of a profile.
@@ -36,9 +37,10 @@ def read_value(parameter: Parameter, raw: object) -> Value:
     ValueError
         With the reason only, if the value is not allowed; `Parameter.allowed` says what is.
     """
+    raw = plain(raw)
     if parameter.kind == "profile":
         return _read_profile(raw)
-    exact = _read_exact(raw)
+    exact = read_exact(raw)
     if parameter.kind == "ratio":
         return _read_ratio(exact, int(parameter.upper))
     number = float(exact)
@@ -54,23 +56,22 @@ def _read_profile(raw: object) -> str:
     raise ValueError("no such profile" if isinstance(raw, str) else "not a name")
 
 
-def _read_exact(raw: object) -> Fraction | float:
+def read_exact(raw: object) -> Fraction | float:
+    """A finite number, exact where it is rational, from a number or an expression.
+
+    Raises
+    ------
+    ValueError
+        With the reason only.
+    """
     if isinstance(raw, str):
         return evaluate(raw)
-    # NumPy's bool is no Real, Python's is.
-    if isinstance(raw, bool) or not isinstance(raw, Real):
+    if not is_number(raw):
         raise ValueError("not a number")
-    if isinstance(raw, Rational):
-        value: Fraction | float = Fraction(int(raw.numerator), int(raw.denominator))
-    else:
-        value = float(raw)
-    try:
-        finite = math.isfinite(value)
-    except OverflowError:
-        finite = False
-    if not finite:
+    number = plain_number(raw)
+    if not math.isfinite(number):
         raise ValueError("not a finite number")
-    return value
+    return Fraction(int(raw.numerator), int(raw.denominator)) if isinstance(raw, Rational) else number
 
 
 def _read_ratio(exact: Fraction | float, largest: int) -> Fraction:

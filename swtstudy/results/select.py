@@ -62,7 +62,7 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mi
     """Place of a value along its coordinate; a mistake and 0 if it is not there."""
     name = str(there.name)
     try:
-        value: Value = read_value(PARAMETERS[name], raw.item() if isinstance(raw, np.generic) else raw)
+        value: Value = read_value(PARAMETERS[name], raw)
     except ValueError as error:
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
         return 0

@@ -82,6 +82,8 @@ class Study:
         StudyError
             With every mistake in the file, or the one that keeps it from being read.
         """
+        if not isinstance(path, str | PathLike):
+            raise StudyError([Mistake("path", literal(path), "the path or the name of a study")])
         source = str(path)
         try:
             text = find_study(source).read_text(encoding="utf-8")
@@ -108,11 +110,16 @@ class Study:
         StudyError
             With every mistake in the text.
         """
+        if not isinstance(text, str):
+            raise StudyError([Mistake("text", literal(text), "the text of a study file")])
         try:
             raw = tomllib.loads(text)
-        except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
+        except (tomllib.TOMLDecodeError, RecursionError) as error:
             message = f"a syntax error: {error or 'nested too deeply'}"
             raise StudyError([Mistake("", message, "TOML", source)]) from None
+        except ValueError:  # all else that tomllib leaves to Python's int and float
+            message = "an integer with too many digits to be read"
+            raise StudyError([Mistake("", message, "TOML with shorter ones", source)]) from None
         return _study_from(raw, text, source)
 
 

@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.reading import Report
 from swtstudy.grid.values import Value, read_value
-from swtstudy.mistakes import literal, nearest
+from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import LETTERS, PARAMETERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, Parameter
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, Parameter, profiles_with
 from swtstudy.study.tables import StudyTable
 
 #: Name of the schema's file beside studies; their first line points to it.
@@ -99,9 +99,7 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
 
 
 def _words(parameter: Parameter) -> str:
-    owners = [
-        profile.replace("_", " ") for profile, names in PROFILE_SHAPES.items() if parameter.name in names
-    ]
+    owners = [profile.replace("_", " ") for profile in profiles_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
     return f"{parameter.meaning}: {parameter.allowed}{of}"
 

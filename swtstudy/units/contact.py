@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.units.bodies import (
+    LABELS,
+    SWT_ATTRIBUTES,
+    Values,
+    bodies_of,
+    checked_body,
+    cycles_from,
+    swt_from,
+)
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -80,9 +89,13 @@ class PhysicalContact:
     @property
     def normal_force(self) -> float:
         """Force at the mean depth δ0: 2 E* ∫ (δ0 − g) dξ over the springs."""
+        return self.force_factor * self.moduli.normal * self.depth * self.length_scale
+
+    @property
+    def force_factor(self) -> float:
+        """Force at the mean depth over E* δ0 a_H: 4/3 for a paraboloid."""
         edge = self._profile().radius(np.ones((1, 1)))
-        half = float(self._profile().half_load(edge)[0, 0])
-        return 2.0 * half * self.moduli.normal * self.depth * self.length_scale
+        return 2.0 * float(self._profile().half_load(edge)[0, 0])
 
     @property
     def mean_pressure(self) -> float:
@@ -116,6 +129,7 @@ class PhysicalContact:
             0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
             and the stress beneath them on that of the body itself alone.
         """
+        body = checked_body(body)
         slip = self.friction * self.moduli.normal * self.depth
         tangential = self.moduli.tangential * self.tangential_amplitude
         return {
@@ -139,12 +153,14 @@ class PhysicalContact:
         """
         if "poisson_ratio" in parameters:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
-        grid, mistakes = read_grid({**self.parameters(), **parameters}, {})
+        profile = parameters.get("profile", self.profile)
+        kept = PROFILE_SHAPES.get(profile, ()) if isinstance(profile, str) else ()
+        own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
+        grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
         values = grid.fixed
-        profile, friction = str(values["profile"]), float(values["friction"])
-        names = PROFILE_SHAPES[profile]
+        friction, names = float(values["friction"]), PROFILE_SHAPES[str(values["profile"])]
         h = float(values["waviness_amplitude"]) * self.depth if "waviness_amplitude" in names else 0.0
         units = _shape_units(self.depth, self.radius, h)
         slip = friction * self.moduli.normal * self.depth / self.moduli.tangential
@@ -155,16 +171,32 @@ class PhysicalContact:
             tangential_amplitude=float(values["tangential_amplitude"]) * slip,
             frequency_ratio=Fraction(values["frequency_ratio"]),
             phase=float(values["phase"]),
-            profile=profile,
+            profile=str(values["profile"]),
             shape={name: float(values[name]) * units[name] for name in names},
         )
 
-    def swt(self, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
-        """SWT of a body, in the unit of stress of the moduli, from s (eq. 19).
+    def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
+        """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
 
-        Also from non-local values, or from s_local of `swtstudy.swt_field`.
+        Parameters
+        ----------
+        s
+            From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
+            DataArray with the coordinate ``body``, such as `solve` gives, each value is that of its body.
+        body
+            0 or 1, the body that has this s. Needed where the bodies differ and s does not say it.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not said which body has this s, or s is negative or no number.
         """
-        return np.asarray(s, dtype=float) * self.swt_scale * self.moduli.swt_share(body)
+        return swt_from(s, self.swt_scale, self.moduli, body)
 
     def solve(self, rtol: float = 1e-4) -> xr.Dataset:
         """s and SWT of both bodies.
@@ -181,20 +213,15 @@ class PhysicalContact:
 
         bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
         dataset = xr.concat(
-            bodies, xr.DataArray([1, 2], dims="body", name="body"), coords="different", compat="equals"
+            bodies, xr.DataArray(list(LABELS), dims="body", name="body"), coords="different", compat="equals"
         )
-        share = np.array([self.moduli.swt_share(body) for body in (0, 1)])
-        scale = xr.DataArray(self.swt_scale * share, dims="body")
-        words = {"units": "unit of stress of the moduli"}
+        swt, swt_error = self.swt(dataset.s), self.swt(dataset.s_error)
         own = {
-            "SWT": (
-                dataset.s * scale,
-                {"long_name": "Smith-Watson-Topper parameter of the body", **words}
-                | {"symbol": r"\mathrm{SWT}", "ancillary_variables": "SWT_error regime"},
-            ),
+            "SWT": (swt, SWT_ATTRIBUTES | {"ancillary_variables": "SWT_error regime"}),
             "SWT_error": (
-                dataset.s_error * scale,
-                {"long_name": "estimated absolute error of SWT", **words, "symbol": r"\Delta \mathrm{SWT}"},
+                swt_error,
+                SWT_ATTRIBUTES
+                | {"long_name": "estimated absolute error of SWT", "symbol": r"\Delta \mathrm{SWT}"},
             ),
             "critical_position": (
                 dataset.critical_x * self.length_scale,
@@ -206,9 +233,32 @@ class PhysicalContact:
             dataset[name] = values
         return dataset
 
-    def cycles(self, constants: FatigueConstants, s: ArrayLike, body: int = 0) -> NDArray[np.float64]:
-        """Cycles to the initiation of a crack in a body; mind the caveat of `FatigueConstants.cycles`."""
-        return constants.cycles(self.swt(s, body))
+    def cycles(
+        self,
+        constants: FatigueConstants | Sequence[FatigueConstants],
+        s: ArrayLike | xr.DataArray,
+        body: int | None = None,
+    ) -> Values:
+        """Cycles to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+
+        Parameters
+        ----------
+        constants
+            Of both bodies, or a pair for bodies of different materials.
+        s, body
+            As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, as of `swt`, or if the constants are none.
+        """
+        return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
 
 
 def _shape_units(depth: float, radius: float, h: float) -> dict[str, float]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.mistakes import Mistake, StudyError, plain_number
+from swtstudy.numbers import read_numbers
+from swtstudy.units.sizes import wrong_size
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
@@ -38,21 +41,30 @@ class FatigueConstants:
     ductility_exponent: float
 
     def __post_init__(self) -> None:
-        mistakes = []
+        mistakes: list[Mistake] = []
         for name, value in vars(self).items():
             sign = -1.0 if name.endswith("exponent") else 1.0
-            if not 0.0 < sign * plain_number(value) < np.inf:
-                allowed = "a negative number" if sign < 0.0 else "a positive number"
-                mistakes.append(Mistake(name, literal(value), allowed))
+            allowed = "a negative number" if sign < 0.0 else "a positive number"
+            mistakes += wrong_size(name, value, allowed, sign)
         if mistakes:
             raise StudyError(mistakes)
+        for name, value in vars(self).items():
+            object.__setattr__(self, name, plain_number(value))
+
+    @property
+    def _terms(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Level and slope of the elastic and the plastic term over the logarithm of 2N."""
+        elastic = 2.0 * math.log(self.strength) - math.log(self.young_modulus)
+        plastic = math.log(self.strength) + math.log(self.ductility)
+        slopes = 2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent
+        return np.array([elastic, plastic]), np.array(slopes)
 
     def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
-        reversals = 2.0 * _not_negative("cycles", cycles)
-        b, c = self.strength_exponent, self.ductility_exponent
-        elastic = self.strength**2 / self.young_modulus * reversals ** (2.0 * b)
-        return np.asarray(elastic + self.strength * self.ductility * reversals ** (b + c))
+        level, slopes = self._terms
+        with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
+            logarithm = np.log(2.0 * not_negative("cycles", cycles))
+            return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
     def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
         """Cycles N to the initiation of a crack at a given SWT; inf where it is 0, NaN where it is NaN.
@@ -79,28 +91,26 @@ class FatigueConstants:
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        swt = _not_negative("swt", swt)
-        elastic, plastic = self.strength**2 / self.young_modulus, self.strength * self.ductility
-        slopes = np.array([2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent])
+        swt = not_negative("swt", swt)
+        level, slopes = self._terms
         with np.errstate(divide="ignore"):
-            target = np.log(swt)
-            level = np.log(np.array([elastic, plastic]))
+            level = level - np.log(swt)[..., None]
         # Each term alone gives too short a life: from there Newton's steps only go up.
-        x = np.max((target[..., None] - level) / slopes, axis=-1)
-        known = np.isfinite(x)
+        x = np.max(-level / slopes, axis=-1)
+        known = np.isfinite(x)[..., None]
         for _ in range(_STEPS):
-            terms = np.exp(level + slopes * np.where(known, x, 0.0)[..., None])
+            # Of both terms over SWT the larger one is near 1: nothing overflows.
+            terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
             total = terms.sum(axis=-1)
-            step = (np.log(total) - np.where(known, target, 0.0)) * total / (terms * slopes).sum(axis=-1)
-            x = np.where(known, x - step, x)
-        return np.asarray(0.5 * np.exp(x))
+            step = np.log(total) * total / (terms * slopes).sum(axis=-1)
+            x = np.where(known[..., 0], x - step, x)
+        with np.errstate(over="ignore"):
+            return np.asarray(0.5 * np.exp(x))
 
 
-def _not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    try:
-        numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise StudyError([Mistake(name, literal(values), "numbers ≥ 0")]) from None
+def not_negative(name: str, values: object) -> NDArray[np.float64]:
+    """What a user gave as numbers ≥ 0, or NaN; a StudyError if it is none."""
+    numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
         raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
     return numbers

@@ -13,6 +13,11 @@ class Moduli:
     poisson: tuple[float, float]
 
     @property
+    def alike(self) -> bool:
+        """Whether the two bodies are elastically the same."""
+        return self.young[0] == self.young[1] and self.poisson[0] == self.poisson[1]
+
+    @property
     def shear(self) -> tuple[float, float]:
         """Shear moduli G = E/(2 + 2ν)."""
         one, two = (e / (2.0 + 2.0 * nu) for e, nu in zip(self.young, self.poisson, strict=True))

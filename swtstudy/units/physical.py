@@ -2,31 +2,40 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
 
-from swtstudy.grid.canonical import SHAPE_COLUMNS
+import numpy as np
+
+from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 from swtstudy.units.contact import PhysicalContact
+from swtstudy.units.given import (
+    SIMILAR,
+    in_own_values,
+    pair,
+    pair_of_numbers,
+    with_unknown,
+    wrong_bodies,
+    wrong_lengths,
+    wrong_load,
+)
 from swtstudy.units.moduli import Moduli
-
-#: Dundurs' |β| up to which the bodies count as similar.
-SIMILAR = 0.05
 
 
 def physical(
     *,
-    young_modulus: float | tuple[float, float],
-    poisson_ratio: float | tuple[float, float],
-    radius: float,
-    friction: float,
-    tangential_amplitude: float,
+    young_modulus: float | tuple[float, float] | None = None,
+    poisson_ratio: float | tuple[float, float] | None = None,
+    radius: float | None = None,
+    friction: float | None = None,
+    tangential_amplitude: float | None = None,
     depth: float | None = None,
     normal_force: float | None = None,
     normal_amplitude: float = 0.0,
@@ -37,13 +46,15 @@ def physical(
     waviness_amplitude: float | None = None,
     wavelength: float | None = None,
     similar: float = SIMILAR,
+    **unknown: object,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Parameters
     ----------
     young_modulus, poisson_ratio
-        Of both bodies: one value for two equal bodies, or a pair.
+        Of both bodies: one value for two equal bodies, or a pair. These, radius, friction and
+        tangential_amplitude must be given.
     radius
         R of the relative curvature, 1/R = 1/R1 + 1/R2.
     friction
@@ -60,6 +71,8 @@ def physical(
         b, h, λ: lengths of profiles that have them.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar (eq. 1).
+    **unknown
+        A mistake that names the keyword that was meant.
 
     Returns
     -------
@@ -88,92 +101,47 @@ def physical(
         "waviness_amplitude": waviness_amplitude,
         "wavelength": wavelength,
     }
+    young, poisson = pair(young_modulus), pair(poisson_ratio)
     known = isinstance(profile, str) and profile in PROFILE_SHAPES
-    plain = {"friction": friction, "frequency_ratio": frequency_ratio, "phase": phase}
-    grid, mistakes = read_grid(plain if known else {**plain, "profile": profile}, {})
-    mistakes += _wrong_bodies(_pair(young_modulus), _pair(poisson_ratio), similar)
-    mistakes += _wrong_load(depth, normal_force)
-    mistakes += _wrong_lengths(lengths, PROFILE_SHAPES[profile] if known else ())
+    pure = {"friction": friction, "frequency_ratio": frequency_ratio, "phase": phase}
+    grid, mistakes = read_grid(pure if known else {**pure, "profile": profile}, {})
+    mistakes += wrong_bodies(young, poisson, similar)
+    mistakes += wrong_load(depth, normal_force)
+    mistakes += wrong_lengths(lengths, profile if known else None)
+    own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "friction": friction}
+    lacking = [name for name, value in {**own, **lengths}.items() if value is None]
+    mistakes = with_unknown(unknown, list(inspect.signature(physical).parameters), lacking, mistakes)
     if grid is None or mistakes:
         raise StudyError(mistakes)
     if float(grid.fixed["friction"]) == 0.0 and tangential_amplitude:
         found = f"{literal(tangential_amplitude)} without friction"
         raise StudyError([Mistake("tangential_amplitude", found, "0, since the contact slides at once")])
-    contact = PhysicalContact(
-        Moduli(_pair(young_modulus), _pair(poisson_ratio)),
-        float(radius),
-        1.0 if depth is None else float(depth),
-        float(grid.fixed["friction"]),
-        float(normal_amplitude),
-        float(tangential_amplitude),
-        Fraction(grid.fixed["frequency_ratio"]),
-        float(grid.fixed["phase"]),
-        profile,
-        {name: float(lengths[name]) for name in PROFILE_SHAPES[profile]},  # type: ignore[arg-type]
-    )
+    bodies = Moduli(pair_of_numbers(young), pair_of_numbers(poisson))
+    contact = _contact(bodies, grid, profile, lengths, 1.0 if depth is None else plain_number(depth))
     if normal_force is not None:
-        contact = replace(contact, depth=_depth_at(contact, float(normal_force)))
+        contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
     _, mistakes = read_grid(contact.parameters(), {})
     if mistakes:
-        raise StudyError(_in_own_values(mistake, lengths) for mistake in mistakes)
+        raise StudyError(in_own_values(mistake, lengths) for mistake in mistakes)
     return contact
 
 
-def _pair(value: Any) -> tuple[Any, Any]:
-    return (value[0], value[1]) if isinstance(value, list | tuple) and len(value) == 2 else (value, value)
-
-
-def _wrong_bodies(young: tuple[Any, Any], poisson: tuple[Any, Any], similar: object) -> list[Mistake]:
-    mistakes = [
-        Mistake("young_modulus", literal(value), "a positive number, or a pair of them")
-        for value in young
-        if not 0.0 < plain_number(value) < math.inf
-    ]
-    mistakes += [
-        Mistake("poisson_ratio", literal(value), "a number in [0, 0.5], or a pair of them")
-        for value in poisson
-        if not 0.0 <= plain_number(value) <= 0.5
-    ]
-    if not 0.0 <= plain_number(similar) < math.inf:
-        mistakes.append(Mistake("similar", literal(similar), "a number ≥ 0"))
-    if not mistakes and abs(beta := Moduli(young, poisson).mismatch) > float(similar):  # type: ignore[arg-type]
-        found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
-        allowed = f"|β| ≤ {similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
-        mistakes.append(Mistake("young_modulus, poisson_ratio", found, allowed))
-    return list(dict.fromkeys(mistakes))  # one value stands for both bodies
-
-
-def _wrong_load(depth: object, normal_force: object) -> list[Mistake]:
-    load = {"depth": depth, "normal_force": normal_force}
-    given = {name: value for name, value in load.items() if value is not None}
-    if len(given) != 1:
-        return [Mistake("depth, normal_force", "both" if given else "neither", "one of the two")]
-    return [
-        Mistake(name, literal(value), "a positive number")
-        for name, value in given.items()
-        if not 0.0 < plain_number(value) < math.inf
-    ]
-
-
-def _wrong_lengths(lengths: Mapping[str, object], needed: Collection[str]) -> list[Mistake]:
-    mistakes = []
-    for name, value in lengths.items():
-        if value is None and name in SHAPE_COLUMNS and name not in needed:
-            continue
-        zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
-        number = plain_number(value)
-        if not (0.0 < number < math.inf or (zero and number == 0.0)):
-            allowed = "a length ≥ 0" if zero else "a positive length"
-            if name in needed:
-                allowed += " (this profile needs it)"
-            mistakes.append(Mistake(name, "nothing" if value is None else literal(value), allowed))
-    return mistakes
-
-
-def _in_own_values(mistake: Mistake, lengths: Mapping[str, object]) -> Mistake:
-    """A mistake in non-dimensional parameters with the lengths that they come from."""
-    own = [literal(lengths[name]) for name in mistake.key.split(", ") if name in lengths]
-    return replace(mistake, found=f"{', '.join(own)}, non-dimensional {mistake.found}") if own else mistake
+def _contact(
+    bodies: Moduli, grid: Grid, profile: str, lengths: Mapping[str, object], depth: float
+) -> PhysicalContact:
+    """The contact at a depth, from what has no mistakes."""
+    return PhysicalContact(
+        bodies,
+        plain_number(lengths["radius"]),
+        depth,
+        float(grid.fixed["friction"]),
+        plain_number(lengths["normal_amplitude"]),
+        plain_number(lengths["tangential_amplitude"]),
+        Fraction(grid.fixed["frequency_ratio"]),
+        float(grid.fixed["phase"]),
+        profile,
+        {name: plain_number(lengths[name]) for name in PROFILE_SHAPES[profile]},
+    )
 
 
 def _depth_at(contact: PhysicalContact, force: float) -> float:
@@ -182,7 +150,7 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
 
     if "wavelength" in contact.shape:
         h, wavelength = contact.shape["waviness_amplitude"], contact.shape["wavelength"]
-        least = smallest_compact_wavelength(math.pi) * math.sqrt(h * contact.radius)
+        least = float(smallest_compact_wavelength(np.array(math.pi))) * math.sqrt(h * contact.radius)
         if wavelength < least:
             found = f"{wavelength!r} at waviness_amplitude {h!r}"
             allowed = (
@@ -191,12 +159,29 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
             raise StudyError([Mistake("wavelength", found, allowed)])
 
     def excess(logarithm: float) -> float:
-        return math.log(replace(contact, depth=math.exp(logarithm)).normal_force / force)
+        # In logarithms: a force out of the range of numbers is too large or too small like others.
+        factor = replace(contact, depth=math.exp(logarithm)).force_factor
+        scale = math.log(contact.moduli.normal) + 0.5 * math.log(contact.radius) + 1.5 * logarithm
+        return math.log(factor) + scale - math.log(force)
 
+    least = _least_depth(contact)
+    if least > 0.0 and excess(math.log(least)) > 0.0:
+        (name, length) = next(iter(contact.shape.items()))
+        most = PARAMETERS[name].upper
+        allowed = f"a length of at most {most:g} {'a_H' if name == 'flat_radius' else 'δ0'} at this force"
+        raise StudyError([Mistake(name, f"{length!r} at normal_force {force!r}", allowed)])
     # Hertz's depth, and from there outwards.
-    low = high = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
+    hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
+    low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
     while excess(low) > 0.0:
         low -= 1.0
     while excess(high) < 0.0:
         high += 1.0
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
+
+
+def _least_depth(contact: PhysicalContact) -> float:
+    """The depth below which b/a_H or h/δ0 is out of its range."""
+    b, h = (contact.shape.get(name, 0.0) for name in ("flat_radius", "waviness_amplitude"))
+    face = (b / PARAMETERS["flat_radius"].upper) ** 2 / contact.radius
+    return max(face, h / PARAMETERS["waviness_amplitude"].upper)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid
@@ -37,9 +40,23 @@ def resolved_shape(
     return PROFILES[name].resolved(largest_depth, **shape)
 
 
+def compact_shapes(profile: str, shape: dict[str, FloatArray], normal_amplitude: float) -> NDArray[np.bool_]:
+    """Whether `check_shape` has nothing against each of n shapes."""
+    return PROFILES[profile].compact(1.0 + normal_amplitude, **shape)
+
+
 def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:
     """Why a profile cannot be used up to the depth 1 + ``normal_amplitude``, or None."""
     return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
 
 
-__all__ = ["PROFILES", "Primitives", "Profile", "check_shape", "make_profile", "resolved_shape", "roughness"]
+__all__ = [
+    "PROFILES",
+    "Primitives",
+    "Profile",
+    "check_shape",
+    "compact_shapes",
+    "make_profile",
+    "resolved_shape",
+    "roughness",
+]

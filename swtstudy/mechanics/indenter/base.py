@@ -66,6 +66,11 @@ class Profile(ABC):
         return shape, np.zeros(len(largest_depth))
 
     @classmethod
+    def compact(cls, largest_depth: float, **shape: FloatArray) -> NDArray[np.bool_]:
+        """Whether the contact is a full disc up to ``largest_depth``, for shapes of shape (n,)."""
+        return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
+
+    @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
         """Why the contact is not a full disc up to ``largest_depth``, or None."""
         return None

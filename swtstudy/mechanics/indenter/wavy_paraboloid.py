@@ -71,15 +71,16 @@ class WavyParaboloid(Profile):
         )
 
     @classmethod
-    def check(cls, largest_depth: float, **shape: float) -> str | None:
+    def compact(cls, largest_depth: float, **shape: FloatArray) -> NDArray[np.bool_]:
         h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
-        if h == 0.0:
+        return (h == 0.0) | (wavelength >= _smallest_wavelength(largest_depth, h, wavelength))
+
+    @classmethod
+    def check(cls, largest_depth: float, **shape: float) -> str | None:
+        if cls.compact(largest_depth, **{name: np.array([value]) for name, value in shape.items()}):
             return None
-        k = 2.0 * np.pi / (wavelength * np.sqrt(h))
-        reach = float(np.sqrt(largest_depth)) + np.pi / k
-        limit = smallest_compact_wavelength(k * reach)
-        if wavelength >= limit:
-            return None
+        h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
+        limit = _smallest_wavelength(largest_depth, np.array(h), np.array(wavelength))
         return (
             f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays "
             f"compact at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
@@ -151,12 +152,19 @@ class WavyParaboloid(Profile):
         return TablePrimitives(self, position, nodes, nodes, largest)
 
 
-def smallest_compact_wavelength(phase: float) -> float:
+def _smallest_wavelength(largest_depth: float, h: FloatArray, wavelength: FloatArray) -> FloatArray:
+    """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
+    with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
+        phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
+    return smallest_compact_wavelength(phase)
+
+
+def smallest_compact_wavelength(phase: FloatArray) -> FloatArray:
     """Smallest λ/√(hR) for which g′ ≥ 0 up to kξ = ``phase``.
 
     g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with A = H₀ + z (2/π − H₁).
     """
-    return float(np.sqrt(np.pi**3 * max(np.interp(phase, *_steepest_falls()), 0.0)))
+    return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
 
 @lru_cache

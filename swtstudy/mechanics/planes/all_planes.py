@@ -47,12 +47,12 @@ class CriticalPlane(NamedTuple):
     normal: FloatArray
 
 
-def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> CriticalPlane:
+def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
     """Largest swt over all planes (eq. 9); `swtstudy.swt_of_history`, without its checks of the input."""
     history = np.asarray(stress, dtype=float)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
-    strain = strain_history(history, poisson_ratio, youngs_modulus)
+    strain = strain_history(history, poisson_ratio, young_modulus)
     start = _starts(history, poisson_ratio)
     index = np.tile(np.arange(len(history)), _CANDIDATES)
     swt, normal = climb(history[index], strain[index], start.reshape(-1, 3))
@@ -77,7 +77,7 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, youngs_modulus: floa
 
 
 def swt_on_planes(
-    stress: ArrayLike, normals: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0
+    stress: ArrayLike, normals: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0
 ) -> FloatArray:
     """The parameter on given planes.
 
@@ -87,7 +87,7 @@ def swt_on_planes(
         Shape (..., time, 6).
     normals
         Shape (planes, 3), unit vectors.
-    poisson_ratio, youngs_modulus
+    poisson_ratio, young_modulus
         ν, E.
 
     Returns
@@ -100,16 +100,16 @@ def swt_on_planes(
     tension = on_planes.max(axis=-2)
     # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
     on_planes -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
-    modulus = youngs_modulus / (1.0 + poisson_ratio)
+    modulus = young_modulus / (1.0 + poisson_ratio)
     return of_maxima(tension, on_planes.max(axis=-2) / modulus, -on_planes.min(axis=-2) / modulus)
 
 
-def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: float = 1.0) -> FloatArray:
+def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> FloatArray:
     """Largest parameter over the coarse planes only: a few per cent low, several times as fast.
 
     Parameters
     ----------
-    stress, poisson_ratio, youngs_modulus
+    stress, poisson_ratio, young_modulus
         As for `swt_of_history`.
 
     Returns
@@ -122,7 +122,7 @@ def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, youngs_modulus: 
     history = history.reshape(-1, *history.shape[-2:])
     normals = hemisphere(_COARSE_PLANES).astype(np.float32)
     blocks = (history[first : first + _BLOCK] for first in range(0, len(history), _BLOCK))
-    swt = [swt_on_planes(block, normals, poisson_ratio, youngs_modulus).max(axis=1) for block in blocks]
+    swt = [swt_on_planes(block, normals, poisson_ratio, young_modulus).max(axis=1) for block in blocks]
     return np.concatenate([np.zeros(0), *swt]).reshape(batch)
 
 

@@ -6,7 +6,7 @@ from swtstudy.mechanics.points import FloatArray
 
 
 def strain_history(
-    stress: FloatArray, poisson_ratio: float | FloatArray, youngs_modulus: float = 1.0
+    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
 ) -> FloatArray:
     """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
 
@@ -14,9 +14,9 @@ def strain_history(
     ----------
     stress
         Shape (..., 6).
-    poisson_ratio, youngs_modulus
+    poisson_ratio, young_modulus
         ν, E; ν may be an array that can be broadcast to (..., 1).
     """
     strain = (1.0 + poisson_ratio) * stress
     strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)
-    return strain / youngs_modulus
+    return strain / young_modulus

@@ -1,0 +1,44 @@
+"""Options that are unknown, or given twice, where click would silently take the last."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import click
+
+from swtstudy.mistakes import Mistake, StudyError, meant
+
+#: Stands for an option's value where several may be given between commas.
+SEVERAL = "VALUES"
+
+
+def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:
+    """Refuse options that the command does not have, and those that are there twice unless they may be.
+
+    Raises
+    ------
+    StudyError
+        With each of them.
+    UsageError
+        With the one that was meant, also where a symbol such as --mu stands for it.
+    """
+    own = click.Context(command, context, command.name)
+    try:
+        _, _, order = command.make_parser(own).parse_args(list(args))
+    except click.NoSuchOption as error:
+        names = {name: f"--{name.replace('_', '-')}" for name in (p.name for p in command.params) if name}
+        close = meant(error.option_name.lstrip("-"), names)
+        if close is None:
+            raise
+        words = f"No such option '{error.option_name}'. Did you mean '{names[close]}'?"
+        raise click.UsageError(words, own) from None
+    except click.UsageError:
+        return  # click reports it
+    mistakes = []
+    for parameter, count in Counter(order).items():
+        single = isinstance(parameter, click.Option) and not (parameter.multiple or parameter.is_flag)
+        if single and count > 1:
+            allowed = "once" + ", several values between commas" * (parameter.metavar == SEVERAL)
+            mistakes.append(Mistake(parameter.opts[0], f"{count} times", allowed))
+    if mistakes:
+        raise StudyError(mistakes)

@@ -1,0 +1,100 @@
+"""The shape parameters of a grid: that its profiles have them, and that they are admissible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.values import Value
+from swtstudy.mistakes import Report, literal
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, profiles_with
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.points import FloatArray
+
+#: Shapes of one profile; each is looked at, a million in 0.1 s.
+MOST_SHAPES = 50_000_000
+#: Shapes that are looked at together: the working memory for one is some 100 bytes.
+_SLAB = 500_000
+
+
+def check_shapes_given(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, object],
+    good_fixed: Mapping[str, Value],
+    good_axes: Mapping[str, tuple[Value, ...]],
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Every profile needs its shape parameters; one that no profile has would change nothing."""
+    if "profile" in good_fixed:
+        profiles, sound = [str(good_fixed["profile"])], True
+    elif "profile" in fixed or "profile" in axes:
+        profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
+        # A profile that could not be read may be the one that has the others.
+        sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
+    else:
+        profiles, sound = [str(PARAMETERS["profile"].default)], True
+    needed = _shapes_needed(profiles)
+    for name in needed:
+        if name not in fixed and name not in axes:
+            owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
+            report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
+    for name in SHAPE_COLUMNS:
+        if name in needed or not sound or not (name in fixed or name in axes):
+            continue
+        found = literal(fixed[name]) if name in fixed else "an axis"
+        allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+        report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
+
+
+def _shapes_needed(profiles: list[str]) -> tuple[str, ...]:
+    """The shape parameters that at least one of the profiles has."""
+    return tuple(n for n in SHAPE_COLUMNS if any(n in PROFILE_SHAPES.get(p, ()) for p in profiles))
+
+
+def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
+    # The largest contact of the study is the hardest to keep compact.
+    normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
+    for profile in map(str, grid.values("profile")):
+        names = PROFILE_SHAPES[profile]
+        axes = [np.array(grid.values(name), float) for name in names]
+        if not names:
+            continue
+        count = math.prod(map(len, axes))
+        if count > MOST_SHAPES:
+            report(", ".join(map(keys, names)), f"{count} shapes of the {profile}", f"at most {MOST_SHAPES}")
+            continue
+        refused, first = _refused(profile, axes, normal_amplitude)
+        if first is not None:
+            from swtstudy.mechanics.indenter import check_shape
+
+            shape = dict(zip(names, first, strict=True))
+            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
+            more = f"; {refused - 1} more like it" if refused > 1 else ""
+            allowed = check_shape(profile, shape, normal_amplitude) or ""
+            report(", ".join(map(keys, names)), found + more, allowed)
+
+
+def _refused(
+    profile: str, axes: list[FloatArray], normal_amplitude: float
+) -> tuple[int, tuple[float, ...] | None]:
+    """How many of the shapes are not admissible, and the first of these."""
+    from swtstudy.mechanics.indenter import compact_shapes
+
+    lengths, refused, first = tuple(map(len, axes)), 0, None
+    for start in range(0, math.prod(lengths), _SLAB):
+        places = np.unravel_index(np.arange(start, min(start + _SLAB, math.prod(lengths))), lengths)
+        values = [axis[place] for axis, place in zip(axes, places, strict=True)]
+        shape = dict(zip(PROFILE_SHAPES[profile], values, strict=True))
+        wrong = np.flatnonzero(~compact_shapes(profile, shape, normal_amplitude))
+        if wrong.size and first is None:
+            first = tuple(float(value[wrong[0]]) for value in values)
+        refused += wrong.size
+    return refused, first

@@ -1,0 +1,104 @@
+"""Which of two bodies a value of s belongs to, and what it is worth there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.units.life import FatigueConstants, not_negative
+from swtstudy.units.moduli import Moduli
+
+#: Labels of the bodies along the dimension ``body``.
+LABELS = (1, 2)
+
+#: Attributes of SWT.
+SWT_ATTRIBUTES = {
+    "long_name": "Smith-Watson-Topper parameter of the body",
+    "units": "unit of stress of the moduli",
+    "symbol": r"\mathrm{SWT}",
+}
+_CYCLES = {"long_name": "cycles to the initiation of a crack", "units": "1", "symbol": "N"}
+
+#: Values with names for their dimensions keep them.
+Values = NDArray[np.float64] | xr.DataArray
+
+
+def checked_body(body: object) -> int:
+    """0 or 1.
+
+    Raises
+    ------
+    StudyError
+        If it is neither.
+    """
+    number = plain_number(body)
+    if number not in (0.0, 1.0):
+        raise StudyError([Mistake("body", literal(body), "0 or 1")])
+    return int(number)
+
+
+def swt_from(s: ArrayLike | xr.DataArray, scale: float, moduli: Moduli, body: int | None) -> Values:
+    """SWT of the bodies from s, with the SWT scale of the half-space with E*."""
+    bodies = bodies_of(s, moduli, body)
+    shares = np.array([moduli.swt_share(0), moduli.swt_share(1)])
+    with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
+        swt = not_negative("s", s) * (scale * shares[bodies])
+    return _labelled("SWT", swt, s, SWT_ATTRIBUTES)
+
+
+def bodies_of(s: ArrayLike | xr.DataArray, moduli: Moduli, body: int | None) -> NDArray[np.intp]:
+    """The body of each value, broadcastable to the shape of the values.
+
+    Raises
+    ------
+    StudyError
+        If `body` and the coordinate ``body`` name it both, or neither and the bodies differ.
+    """
+    if isinstance(s, xr.DataArray) and "body" in s.coords:
+        if body is not None:
+            raise StudyError([Mistake("body", literal(body), "nothing, since s has the coordinate body")])
+        if not np.isin(s.body, LABELS).all():
+            found = f"the coordinate {literal(s.body.values.tolist())}"
+            raise StudyError([Mistake("body", found, "1 and 2")])
+        return (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+    if body is not None:
+        return np.array(checked_body(body))
+    if moduli.alike:
+        return np.array(0)
+    allowed = "0 or 1, since the bodies differ; or s over the dimension body, as solve() gives it"
+    raise StudyError([Mistake("body", "nothing", allowed)])
+
+
+def cycles_from(
+    constants: FatigueConstants | Sequence[FatigueConstants], swt: Values, bodies: NDArray[np.intp]
+) -> Values:
+    """Cycles of each value with the constants of its body.
+
+    Raises
+    ------
+    StudyError
+        If the constants are neither those of both bodies nor a pair.
+    """
+    pair: Any = (constants, constants) if isinstance(constants, FatigueConstants) else constants
+    if not isinstance(pair, list | tuple) or len(pair) != 2:
+        pair = (None, None)
+    if not all(isinstance(one, FatigueConstants) for one in pair):
+        allowed = "a FatigueConstants, or a pair of them for bodies of different materials"
+        raise StudyError([Mistake("constants", literal(constants), allowed)])
+    one, two = (each.cycles(np.asarray(swt)) for each in pair)
+    cycles = np.where(bodies == 1, two, one)
+    return _labelled("cycles", cycles, swt, _CYCLES)
+
+
+def _labelled(
+    name: str, values: NDArray[np.float64], like: ArrayLike | xr.DataArray, attributes: dict[str, str]
+) -> Values:
+    """The values with the dimensions and coordinates of others, if those have any."""
+    if not isinstance(like, xr.DataArray):
+        return values
+    return xr.DataArray(values, like.coords, like.dims, name, attributes)

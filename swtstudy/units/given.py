@@ -1,0 +1,107 @@
+"""What is wrong with what is known of a real contact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
+from swtstudy.parameters import PROFILE_SHAPES, SYMBOLS, profiles_with, spelled
+from swtstudy.units.moduli import Moduli
+from swtstudy.units.sizes import wrong_size
+
+#: Dundurs' |β| up to which the bodies count as similar.
+SIMILAR = 0.05
+
+#: Name and letter by what may be typed for it.
+_SYMBOLS = SYMBOLS | {
+    spelled(letter): (name, letter)
+    for name, letter in (("young_modulus", "E"), ("radius", "R"), ("depth", "δ0"), ("depth", "δ"))
+}
+
+
+def pair(value: Any) -> tuple[Any, Any]:
+    """One value for each body."""
+    several = (isinstance(value, list | tuple) and len(value) == 2) or getattr(value, "shape", None) == (2,)
+    one, two = value if several else (value, value)
+    return one, two
+
+
+def pair_of_numbers(values: tuple[object, object]) -> tuple[float, float]:
+    """The values as floats."""
+    return plain_number(values[0]), plain_number(values[1])
+
+
+def with_unknown(
+    unknown: Iterable[str], known: Iterable[str], lacking: Collection[str], mistakes: Iterable[Mistake]
+) -> list[Mistake]:
+    """The unknown keywords, and the other mistakes; what is lacking since it is misspelt counts once."""
+    known = [name for name in known if name != "unknown"]
+    found = [
+        Mistake(name, f"unknown parameter {literal(name)}", nearest(name, known, _SYMBOLS))
+        for name in unknown
+    ]
+    intended = {meant(name, known, _SYMBOLS) for name in unknown}
+    for mistake in mistakes:
+        if mistake.key not in lacking:
+            found.append(mistake)
+        elif mistake.key not in intended:
+            found.append(replace(mistake, found="nothing"))
+    return found
+
+
+def wrong_bodies(young: tuple[Any, Any], poisson: tuple[Any, Any], similar: object) -> list[Mistake]:
+    """Elastic constants that are none, and bodies that are not similar."""
+    mistakes: list[Mistake] = []
+    for value in young:
+        mistakes += wrong_size("young_modulus", value, "a positive number, or a pair of them")
+    mistakes += [
+        Mistake("poisson_ratio", literal(value), "a number in [0, 0.5], or a pair of them")
+        for value in poisson
+        if not 0.0 <= plain_number(value) <= 0.5
+    ]
+    if not 0.0 <= plain_number(similar) < math.inf:
+        mistakes.append(Mistake("similar", literal(similar), "a number ≥ 0"))
+    beta = 0.0 if mistakes else Moduli(pair_of_numbers(young), pair_of_numbers(poisson)).mismatch
+    if abs(beta) > plain_number(similar):
+        found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
+        allowed = f"|β| ≤ {plain_number(similar):g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
+        mistakes.append(Mistake("young_modulus, poisson_ratio", found, allowed))
+    return list(dict.fromkeys(mistakes))  # one value stands for both bodies
+
+
+def wrong_load(depth: object, normal_force: object) -> list[Mistake]:
+    """A load that is not given once."""
+    load = {"depth": depth, "normal_force": normal_force}
+    given = {name: value for name, value in load.items() if value is not None}
+    if len(given) != 1:
+        return [Mistake("depth, normal_force", "both" if given else "neither", "one of the two")]
+    ((name, value),) = given.items()
+    return wrong_size(name, value, "a positive number")
+
+
+def wrong_lengths(lengths: Mapping[str, object], profile: str | None) -> list[Mistake]:
+    """Lengths that are none, or that the profile does not have; it is None if it is a mistake itself."""
+    mistakes: list[Mistake] = []
+    needed = PROFILE_SHAPES[profile] if profile else ()
+    for name, value in lengths.items():
+        if name in SHAPE_COLUMNS and name not in needed:
+            if value is not None and profile:
+                found = f"{literal(value)}, which the profile does not have ({profile})"
+                allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+                mistakes.append(Mistake(name, found, allowed))
+            continue
+        zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
+        allowed = "a length ≥ 0" if zero else "a positive length"
+        allowed += " (this profile needs it)" * (name in needed)
+        mistakes += wrong_size(name, value, allowed, zero=zero)
+    return mistakes
+
+
+def in_own_values(mistake: Mistake, lengths: Mapping[str, object]) -> Mistake:
+    """A mistake in non-dimensional parameters with the lengths that they come from."""
+    own = [literal(lengths[name]) for name in mistake.key.split(", ") if name in lengths]
+    return replace(mistake, found=f"{', '.join(own)}, non-dimensional {mistake.found}") if own else mistake
