@@ -126,6 +126,14 @@ def test_info_says_what_an_archive_is(study, tmp_path):
         assert words in result.output
 
 
+def test_a_reader_that_has_enough_is_no_mistake():
+    command = [sys.executable, "-m", "swtstudy", "list"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
+
+
 def test_merge_writes_one_archive(study, tmp_path):
     call("run", study, "--results", tmp_path)
     result = call("merge", tmp_path / "small.nc", tmp_path / "small.nc", "-o", tmp_path / "merged.nc")
