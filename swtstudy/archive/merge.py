@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line
+from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.read import ArchiveError, open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
@@ -19,7 +20,6 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.plan import unique_points
 from swtstudy.runner.records import COMPUTED, MISSING, Records, join, look_up
 from swtstudy.study.definition import Study
-from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import to_toml
 
 
@@ -52,7 +52,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         A ValueError, if points of the grid are in none of them, unless it may be `sparse`.
     """
     datasets = [open_results(path) for path in paths]
-    parts = [records_of(dataset) for dataset in datasets]
+    parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
@@ -135,7 +135,7 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Stu
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
     if "figure" in datasets[0].attrs:
-        layout = FigureLayout.from_json(datasets[0].attrs["figure"])
+        layout = read_figure(datasets[0].attrs["figure"])
         if {name for _, name in layout.roles()} == set(grid.dims):
             figure = layout
     text = to_toml(" + ".join(titles), rtol, grid, figure)

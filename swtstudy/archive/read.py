@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class ArchiveError(ValueError):
-    """A file that is not an archive of a study."""
+    """A file that is not an archive of a study, or a damaged one."""
 
 
 def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:
@@ -32,7 +32,8 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     FileNotFoundError
         If there is no such file.
     ArchiveError
-        A ValueError, if the file is not an archive of swtstudy.
+        A ValueError, if the file is not a sound archive of swtstudy: it names the file, and what in it
+        cannot be as it is.
 
     Examples
     --------
@@ -61,18 +62,22 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
 
 
 def read_archive(path: Path) -> xr.Dataset:
-    """The Dataset in an archive file, loaded; raises as `open_results` does."""
+    """The Dataset in an archive file, loaded and found sound; raises as `open_results` does."""
     import xarray as xr
+
+    from swtstudy.archive.check import lacking, mistakes
 
     try:
         with xr.open_dataset(path, engine="netcdf4") as dataset:
             loaded = dataset.load()
     except (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError) as error:
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
-    lacking = [name for name in ("s", "status", "run") if name not in loaded]
-    lacking += [name for name in ("study", "runs", "rtol") if name not in loaded.attrs]
-    if lacking:
-        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(lacking)})")
+    absent = lacking(loaded)
+    if absent:
+        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(absent)})")
+    found = mistakes(loaded, str(path))
+    if found:
+        raise ArchiveError("\n".join(map(str, found)))
     for variable in loaded.variables.values():
         variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
     return loaded
