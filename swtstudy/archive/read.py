@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray as xr
 
+#: What xarray and netCDF4 raise for files that are not what they expect.
+_UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
+
 
 class ArchiveError(ValueError):
     """A file that is not an archive of a study, or a damaged one."""
@@ -63,15 +66,9 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
 
 def read_archive(path: Path) -> xr.Dataset:
     """The Dataset in an archive file, loaded and found sound; raises as `open_results` does."""
-    import xarray as xr
-
     from swtstudy.archive.check import lacking, mistakes
 
-    try:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:
-            loaded = dataset.load()
-    except (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError) as error:
-        raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
+    loaded = _load(path)
     absent = lacking(loaded)
     if absent:
         raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(absent)})")
@@ -80,4 +77,26 @@ def read_archive(path: Path) -> xr.Dataset:
         raise ArchiveError("\n".join(map(str, found)))
     for variable in loaded.variables.values():
         variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
+    return loaded
+
+
+def _load(path: Path) -> xr.Dataset:
+    import xarray as xr
+
+    from swtstudy.archive.check_sums import damaged, unreadable
+
+    wrong: list[str] = []
+    try:
+        try:
+            with xr.open_dataset(path, engine="netcdf4") as dataset:
+                loaded = dataset.load()
+            wrong += damaged(path, loaded)
+        except _UNREADABLE:
+            wrong += unreadable(path)
+            if not wrong:
+                raise
+    except _UNREADABLE as error:
+        raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
+    if wrong:
+        raise ArchiveError(f"{path}: a damaged archive: {', '.join(wrong)} not as written (check sum)")
     return loaded
