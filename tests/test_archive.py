@@ -1,5 +1,7 @@
 import re
 import struct
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,6 +15,7 @@ from click.testing import CliRunner
 import swtstudy
 from swtstudy import Study, open_results, run
 from swtstudy.archive.files import check_writable, replacing, save
+from swtstudy.archive.lock import LockedError
 from swtstudy.archive.merge import merge
 from swtstudy.archive.read import ArchiveError
 from swtstudy.cli import main
@@ -93,6 +96,25 @@ def test_other_files_are_refused(tmp_path, content):
     path.write_bytes(content)
     with pytest.raises(ValueError, match="not a readable netCDF archive"):
         open_results(path)
+
+
+def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_path):
+    path = tmp_path / "small.nc"
+    run(small, path, solver=stand_in.smooth)
+    (tmp_path / "small.toml").write_text(small_text)
+    code = f"import netCDF4; file = netCDF4.Dataset({str(path)!r}, 'a'); print('open', flush=True); input()"
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as writer:
+        assert writer.stdout.readline() == b"open\n"
+        with pytest.raises(LockedError, match=f"^{path} is locked: another program has it open for writing$"):
+            open_results(path)
+        for arguments in (["info", path], ["run", tmp_path / "small.toml", "--results", tmp_path]):
+            result = CliRunner().invoke(main, [*map(str, arguments)])
+            assert result.exit_code == 2
+            assert result.stderr == f"Error: {path} is locked: another program has it open for writing\n"
+        writer.communicate(b"\n")
+    assert open_results(path).s.shape == small.grid.shape
 
 
 def test_other_netcdf_files_are_refused(tmp_path):

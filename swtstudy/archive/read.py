@@ -34,6 +34,8 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     ------
     FileNotFoundError
         If there is no such file.
+    LockedError
+        An OSError, if another program has it open for writing.
     ArchiveError
         A ValueError, if the file is not a sound archive of swtstudy: it names the file, and what in it
         cannot be as it is.
@@ -84,6 +86,7 @@ def _load(path: Path) -> xr.Dataset:
     import xarray as xr
 
     from swtstudy.archive.check_sums import damaged, unreadable
+    from swtstudy.archive.lock import LockedError, is_locked
 
     wrong: list[str] = []
     try:
@@ -96,6 +99,8 @@ def _load(path: Path) -> xr.Dataset:
             if not wrong:
                 raise
     except _UNREADABLE as error:
+        if is_locked(path):
+            raise LockedError(f"{path} is locked: another program has it open for writing") from None
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
     if wrong:
         raise ArchiveError(f"{path}: a damaged archive: {', '.join(wrong)} not as written (check sum)")
