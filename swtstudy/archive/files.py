@@ -27,8 +27,9 @@ def check_writable(path: str | PathLike[str]) -> None:
         raise IsADirectoryError(f"{path} is a folder, not a file")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path.parent):
-            pass
+        handle, name = _temporary(path, path.parent)
+        os.close(handle)
+        os.unlink(name)
     except OSError as error:
         raise type(error)(f"cannot write into the folder {path.parent}: {error.strerror}") from error
 
@@ -43,7 +44,7 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     half a file.
     """
     path = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder or path.parent)
+    handle, name = _temporary(path, folder or path.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -73,6 +74,10 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     with replacing(path, beside) as temporary:
         dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
         write_check_sums(temporary, dataset)
+
+
+def _temporary(path: Path, folder: Path) -> tuple[int, str]:
+    return tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder)
 
 
 def _umask() -> int:

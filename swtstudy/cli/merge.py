@@ -23,10 +23,12 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.files import check_writable, save
     from swtstudy.archive.lock import locked
     from swtstudy.archive.merge import merge as merge_archives
+    from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
     from swtstudy.runner.records import MISSING
 
     target = Path(output)
+    check_archive_path(target)
     check_writable(target)
     with locked(parts_folder(target)):
         dataset = merge_archives([Path(archive) for archive in archives], sparse)
