@@ -37,6 +37,17 @@ def test_plain_xarray_reads_it(small, tmp_path):
         assert dataset.s.sel(phase=np.pi, normal_amplitude=0.25, method="nearest").item() > 0
 
 
+def test_an_archive_opens_while_xarray_has_it_open(small, tmp_path):
+    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    code = (
+        "import sys, xarray as xr, swtstudy\nlazy = xr.open_dataset(sys.argv[1])\n"
+        "print(swtstudy.open_results(sys.argv[1]).identical(lazy.load()))"
+    )
+    command = [sys.executable, "-c", code, str(tmp_path / "small.nc")]
+    # In a process of its own: netCDF4 crashes where files are opened and closed in the wrong order.
+    assert subprocess.run(command, capture_output=True, text=True).stdout == "True\n"
+
+
 def test_provenance(small, tmp_path):
     attributes = run(small, tmp_path / "small.nc", solver=stand_in.smooth).attrs
     assert attributes["study"] == small.text

@@ -8,11 +8,11 @@ one with those of other values.
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import netCDF4
     import xarray as xr
 
 _GROUP = "check_sums"
@@ -33,29 +33,25 @@ def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
         )
 
 
-def damaged(path: Path, dataset: xr.Dataset) -> Iterator[str]:
+def damaged(file: netCDF4.Dataset, dataset: xr.Dataset) -> list[str]:
     """Names of the variables read from a file that do not agree with their check sums in it, if there are."""
-    import netCDF4
+    group = file.groups.get(_GROUP)
+    written = {} if group is None else {name: group.getncattr(name) for name in group.ncattrs()}
+    return [
+        str(name)
+        for name, each in dataset.variables.items()
+        if name in written and not has_its_own(each) and written[str(name)] != _check_sum(each)
+    ]
 
-    with netCDF4.Dataset(path) as file:
-        group = file.groups.get(_GROUP)
-        written = {} if group is None else {name: group.getncattr(name) for name in group.ncattrs()}
-    for name, each in dataset.variables.items():
-        if name in written and not has_its_own(each) and written[str(name)] != _check_sum(each):
-            yield str(name)
 
-
-def unreadable(path: Path) -> list[str]:
+def unreadable(file: netCDF4.Dataset) -> list[str]:
     """Names of the variables in a file that cannot be read, such as for a wrong check sum."""
-    import netCDF4
-
     names = []
-    with netCDF4.Dataset(path) as file:
-        for name, variable in file.variables.items():
-            try:
-                variable[...]
-            except (OSError, RuntimeError, ValueError):
-                names.append(name)
+    for name, variable in file.variables.items():
+        try:
+            variable[...]
+        except (OSError, RuntimeError, ValueError):
+            names.append(name)
     return names
 
 

@@ -83,21 +83,22 @@ def read_archive(path: Path) -> xr.Dataset:
 
 
 def _load(path: Path) -> xr.Dataset:
+    import netCDF4
     import xarray as xr
 
     from swtstudy.archive.check_sums import damaged, unreadable
     from swtstudy.archive.lock import LockedError, is_locked
 
-    wrong: list[str] = []
     try:
-        try:
-            with xr.open_dataset(path, engine="netcdf4") as dataset:
-                loaded = dataset.load()
-            wrong += damaged(path, loaded)
-        except _UNREADABLE:
-            wrong += unreadable(path)
-            if not wrong:
-                raise
+        # Opened once: netCDF4 may crash where a file that is open elsewhere in the process is opened again.
+        with netCDF4.Dataset(path.absolute()) as file:
+            try:
+                loaded = xr.open_dataset(xr.backends.NetCDF4DataStore(file)).load()
+                wrong = damaged(file, loaded)
+            except _UNREADABLE:
+                wrong = unreadable(file)
+                if not wrong:
+                    raise
     except _UNREADABLE as error:
         if is_locked(path):
             raise LockedError(f"{path} is locked: another program has it open for writing") from None
