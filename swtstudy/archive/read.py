@@ -89,9 +89,11 @@ def _load(path: Path) -> xr.Dataset:
     from swtstudy.archive.check_sums import damaged, unreadable
     from swtstudy.archive.lock import LockedError, is_locked
 
+    if is_locked(path):
+        raise LockedError(f"{path} is locked: another program has it open for writing")
     try:
-        # Opened once: netCDF4 may crash where a file that is open elsewhere in the process is opened again.
-        with netCDF4.Dataset(path.absolute()) as file:
+        # From memory: xarray and netCDF4 crash where a file is opened again that is open in this process.
+        with netCDF4.Dataset(path.name, memory=path.read_bytes()) as file:
             try:
                 loaded = xr.open_dataset(xr.backends.NetCDF4DataStore(file)).load()
                 wrong = damaged(file, loaded)
@@ -100,8 +102,6 @@ def _load(path: Path) -> xr.Dataset:
                 if not wrong:
                     raise
     except _UNREADABLE as error:
-        if is_locked(path):
-            raise LockedError(f"{path} is locked: another program has it open for writing") from None
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
     if wrong:
         raise ArchiveError(f"{path}: a damaged archive: {', '.join(wrong)} not as written (check sum)")
