@@ -1,8 +1,10 @@
+import itertools
 import re
 import struct
 import subprocess
 import sys
 from collections.abc import Iterator
+from fractions import Fraction
 from pathlib import Path
 
 import netCDF4
@@ -19,6 +21,7 @@ from swtstudy.archive.lock import LockedError
 from swtstudy.archive.merge import merge
 from swtstudy.archive.read import ArchiveError
 from swtstudy.cli import main
+from swtstudy.mechanics.points import Points, Solution
 from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.records import FAILED, MISSING
 
@@ -35,6 +38,71 @@ def test_plain_xarray_reads_it(small, tmp_path):
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     with xr.open_dataset(tmp_path / "small.nc") as dataset:
         assert dataset.s.sel(phase=np.pi, normal_amplitude=0.25, method="nearest").item() > 0
+
+
+#: What stands beside the numbers of an archive, and makes sense of them.
+UNITS = {
+    "s": "1",
+    "s_error": "1",
+    "s_surface": "1",
+    "critical_x": "1",
+    "critical_angle": "degree",
+    "run": "1",
+    "phase": "rad",
+    "normal_amplitude": "1",
+    "frequency_ratio": "1",
+    "friction": "1",
+}
+
+
+def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
+    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    with netCDF4.Dataset(tmp_path / "small.nc") as file:
+        assert {name: file[name].units for name in UNITS} == UNITS
+        regime, status = file["regime"], file["status"]
+        assert regime.flag_meanings == "stick partial_slip gross_slip lift_off not_finite"
+        assert list(regime.flag_values) == [0, 1, 2, 3, 4]
+        assert status.flag_meanings == "computed failed missing"
+        assert list(status.flag_values) == [0, 1, 2]
+        assert status.failures == "[]"
+        assert file["s"].ancillary_variables == "s_error regime s_surface status run"
+        assert file["frequency_ratio"].fractions == "1"
+        assert file["normal_amplitude"].symbol == r"\delta_A/\delta_0"
+        assert "in units of a_H" in file["critical_x"].long_name
+        assert "against the x axis" in file["critical_angle"].long_name
+
+
+def test_every_number_of_the_solver_comes_back_from_the_file(tmp_path):
+    text = (
+        'title = "t"\nrtol = 1e-3\n[fixed]\npoisson_ratio = 0.2\n[axes]\nfriction = [0.7, 0.1]\n'
+        'frequency_ratio = ["3/2", "1/2"]\nphase = [0.3, 0.1]\n'
+    )
+    run(Study.from_text(text), tmp_path / "t.nc", solver=told_apart, workers=1)
+    found = open_results(tmp_path / "t.nc")
+    assert found.s.dims == ("friction", "frequency_ratio", "phase")
+    assert found.friction.values.tolist() == [0.7, 0.1]
+    assert found.frequency_ratio.values.tolist() == [1.5, 0.5]
+    assert found.phase.values.tolist() == [0.3, 0.1]
+    assert found.poisson_ratio.item() == 0.2
+    for (i, friction), (j, ratio), (k, phase) in itertools.product(
+        enumerate([0.7, 0.1]), enumerate([Fraction(3, 2), Fraction(1, 2)]), enumerate([0.3, 0.1])
+    ):
+        point = found.isel(friction=i, frequency_ratio=j, phase=k)
+        number = friction + 10 * ratio.numerator + 100 * ratio.denominator + phase
+        assert point.s.item() == pytest.approx(number, rel=1e-10)
+        assert point.s_error.item() == pytest.approx(1e-3 * number, rel=1e-10)
+        assert point.s_surface.item() == pytest.approx(1.5 * number, rel=1e-10)
+        assert point.critical_x.item() == pytest.approx(-number, rel=1e-10)
+        assert point.critical_angle.item() == pytest.approx(-80 * phase, rel=1e-10)
+        assert point.regime.item() == ratio.denominator
+        assert (point.status.item(), point.run.item()) == (0, 0)
+
+
+def told_apart(points: Points, rtol: float) -> Solution:
+    """Numbers that are different for every point and every variable."""
+    number = points.friction + 10 * points.p + 100 * points.q + points.phase
+    regime = points.q.astype(np.int8)
+    return Solution(number, rtol * number, -number, -80 * points.phase, regime, 1.5 * number)
 
 
 def test_an_archive_opens_while_xarray_has_it_open(small, tmp_path):

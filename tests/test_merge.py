@@ -123,3 +123,17 @@ def test_records_come_back_from_an_archive(small, tmp_path):
     np.testing.assert_allclose(found.solution.s, alone.s, rtol=1e-10)
     np.testing.assert_array_equal(found.solution.critical_x, alone.critical_x)
     np.testing.assert_array_equal(found.solution.critical_angle, alone.critical_angle)
+
+
+def test_axes_that_differ_by_rounding_are_one(tmp_path):
+    one = made(tmp_path, "one", [0.2, 0.3], [0, 1])
+    other = made(tmp_path, "other", [0.1 + 0.2, 0.2 * (1 + 1e-13), 0.1], [0, 1])
+    merged = merge([one, other])
+    assert merged.friction.values.tolist() == [0.1, 0.2, 0.3]  # as the first has them, in order
+    assert merged.phase.values.tolist() == [0.0, 1.0]
+
+
+def test_axes_that_differ_by_more_are_two(tmp_path):
+    one = made(tmp_path, "one", [0.2], [0, 1])
+    other = made(tmp_path, "other", [0.2 * (1 + 1e-11)], [0, 1])
+    assert merge([one, other]).friction.values.tolist() == [0.2, 0.2 * (1 + 1e-11)]
