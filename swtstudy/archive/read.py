@@ -70,19 +70,26 @@ def read_archive(path: Path) -> xr.Dataset:
     """The Dataset in an archive file, loaded and found sound; raises as `open_results` does."""
     from swtstudy.archive.check import lacking, mistakes
 
-    loaded = _load(path)
+    loaded = load_file(path)
     absent = lacking(loaded)
     if absent:
         raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(absent)})")
     found = mistakes(loaded, str(path))
     if found:
         raise ArchiveError("\n".join(map(str, found)))
-    for variable in loaded.variables.values():
-        variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
     return loaded
 
 
-def _load(path: Path) -> xr.Dataset:
+def load_file(path: Path) -> xr.Dataset:
+    """The Dataset in a file that `swtstudy.archive.files.save` wrote, loaded, if its check sums agree.
+
+    Raises
+    ------
+    LockedError
+        An OSError, if another program has it open for writing.
+    ArchiveError
+        If it cannot be read or is damaged.
+    """
     import netCDF4
     import xarray as xr
 
@@ -104,5 +111,7 @@ def _load(path: Path) -> xr.Dataset:
     except _UNREADABLE as error:
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
     if wrong:
-        raise ArchiveError(f"{path}: a damaged archive: {', '.join(wrong)} not as written (check sum)")
+        raise ArchiveError(f"{path}: a damaged file: {', '.join(wrong)} not as written (check sum)")
+    for variable in loaded.variables.values():
+        variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
     return loaded
