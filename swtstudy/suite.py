@@ -42,13 +42,17 @@ def run_suite(
     StudyError
         A ValueError with every mistake in every study, before anything is computed.
     """
+    from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
     from swtstudy.study.shipped import shipped_folder
 
     folder = shipped_folder() if folder is None else folder
-    studies = {Path(path).stem: study for path, study in read_studies([str(folder)]).items()}
-    targets = {name: Path(results) / f"{name}.nc" for name in studies}
-    return {name: run_and_draw(study, targets[name], formats, **options) for name, study in studies.items()}
+    studies = read_studies([str(folder)])
+    targets = archive_paths(studies, results)
+    return {
+        Path(path).stem: run_and_draw(study, targets[path], formats, **options)
+        for path, study in studies.items()
+    }
 
 
 def run_and_draw(study: Study, path: Path, formats: Iterable[str], **options: Any) -> xr.Dataset:

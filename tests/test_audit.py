@@ -73,6 +73,16 @@ def test_other_files_are_not_taken_for_an_audit(tmp_path):
         audit_study("figure3", tmp_path / "audit.nc")
 
 
+def test_a_damaged_audit_is_named(tmp_path):
+    path = tmp_path / "audit.nc"
+    save(made_up_audit(), path)
+    content = path.read_bytes()
+    assert b"paraboloid" in content
+    path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
+    with pytest.raises(ValueError, match=f"^{path}: a damaged file: profile not as written"):
+        open_audit(path)
+
+
 def test_report():
     text = report(made_up_audit(on_line=3, off_line=1))
     assert "| on the surface, off the line | 1 | 4.0% | 0.45 |" in text

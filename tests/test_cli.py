@@ -163,11 +163,34 @@ def test_info_says_what_an_archive_is(study, tmp_path):
         assert words in result.output
 
 
+def test_a_reader_that_has_enough_is_no_mistake():
+    command = [sys.executable, "-m", "swtstudy", "list"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
+
+
 def test_merge_writes_one_archive(study, tmp_path):
     call("run", study, "--results", tmp_path)
     result = call("merge", tmp_path / "small.nc", tmp_path / "small.nc", "-o", tmp_path / "merged.nc")
     assert result.exit_code == 0, result.output
     assert swtstudy.open_results(tmp_path / "merged.nc").s.size == 18
+
+
+def test_merge_leaves_gaps_only_when_told(tmp_path):
+    for name, axis in (("one", "friction = [0.1, 0.2]"), ("two", "phase = [1, 2, 3]")):
+        (tmp_path / f"{name}.toml").write_text(f'title = "t"\nrtol = 1e-2\naxes.{axis}\n')
+        assert call("run", tmp_path / f"{name}.toml", "--results", tmp_path).exit_code == 0
+    arguments = ("merge", tmp_path / "one.nc", tmp_path / "two.nc", "-o", tmp_path / "merged.nc")
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert "7 of 12 points in none of them" in result.stderr
+    assert "--sparse" in result.stderr
+    assert not (tmp_path / "merged.nc").exists()
+    result = call(*arguments, "--sparse")
+    assert result.exit_code == 0, result.output
+    assert "12 points, 7 of them missing" in result.output
 
 
 def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):

@@ -7,7 +7,7 @@ import xarray as xr
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.files import save
-from swtstudy.archive.merge import ConflictError, merge
+from swtstudy.archive.merge import ConflictError, GapsError, merge
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.runner import records
 
@@ -42,19 +42,48 @@ def test_two_halves_are_the_whole(tmp_path):
 def test_what_neither_has_is_missing_and_a_fixed_value_becomes_an_axis(tmp_path):
     one = made(tmp_path, "one", [0.1], [0, 1], '[fixed]\nfrequency_ratio = "1/2"\n')
     other = made(tmp_path, "other", [0.2], [0, 1], "[fixed]\nfrequency_ratio = 1\n")
-    merged = merge([one, other])
+    with pytest.raises(
+        GapsError, match=r"one\.nc, .*other\.nc has 4 of 8 points in none of them, such as .*"
+    ):
+        merge([one, other])
+    merged = merge([one, other], sparse=True)
     assert merged.sizes == {"friction": 2, "phase": 2, "frequency_ratio": 2}
     assert int((merged.status == records.MISSING).sum()) == 4
     assert int(np.isnan(merged.s).sum()) == 4
+    assert "one.nc, other.nc, 4 of 8 points in none of them" in merged.attrs["history"].splitlines()[0]
+    # What is missing already is no new gap.
+    save(merged, tmp_path / "merged.nc")
+    assert int((merge([tmp_path / "merged.nc", one]).status == records.MISSING).sum()) == 4
 
 
-def test_conflicts_are_refused(tmp_path):
-    one = made(tmp_path, "one", [0.1, 0.2], [0, 1])
+def test_what_symmetry_gives_is_no_gap(tmp_path):
+    one = made(tmp_path, "one", [0.1], [0, 1])
+    other = made(tmp_path, "other", [0.2], [0, 1 + np.pi])  # half a turn of phase mirrors x alone
+    merged = merge([one, other])
+    assert merged.s.shape == (2, 3)
+    assert np.isfinite(merged.s).all()
+
+
+@pytest.mark.parametrize("apart", [1.01, 0.99, 1 + 2.01e-3, 1 - 2.01e-3])
+@pytest.mark.parametrize("order", [1, -1])
+def test_conflicts_are_refused(tmp_path, apart, order):
+    one, other = made(tmp_path, "one", [0.1, 0.2], [0, 1]), tmp_path / "other.nc"
+    dataset = open_results(one)  # with errors of 1e-3 of s
+    dataset["s"] = dataset.s * apart
+    save(dataset, other)
+    match = r"values [\d.]+ in .*{}\.nc and [\d.]+ in .*{}\.nc at profile=paraboloid.*; 3 more"
+    with pytest.raises(ConflictError, match=match.format(*["one", "other"][::order])):
+        merge([one, other][::order])
+
+
+@pytest.mark.parametrize("apart", [1 + 1.99e-3, 1 - 1.99e-3])
+def test_values_within_both_errors_are_one(tmp_path, apart):
+    one, other = made(tmp_path, "one", [0.1, 0.2], [0, 1]), tmp_path / "other.nc"
     dataset = open_results(one)
-    dataset["s"] = dataset.s * 1.01
-    save(dataset, tmp_path / "other.nc")
-    with pytest.raises(ConflictError, match=r"conflicting values .* at profile=paraboloid.*; 3 more"):
-        merge([one, tmp_path / "other.nc"])
+    dataset["s"] = dataset.s * apart
+    save(dataset, other)
+    for order in ([one, other], [other, one]):
+        assert merge(order).s.shape == (2, 2)
 
 
 def test_the_more_accurate_of_two_consistent_values_is_kept(tmp_path):
@@ -79,7 +108,7 @@ def test_other_solver_versions_are_refused(tmp_path, monkeypatch):
     dataset = open_results(one)
     dataset.attrs["runs"] = dataset.attrs["runs"].replace('"solver_version": "', '"solver_version": "0.')
     save(dataset, tmp_path / "other.nc")
-    with pytest.raises(ConflictError, match="different solver versions"):
+    with pytest.raises(ConflictError, match=r"different solver versions .* in .*one\.nc"):
         merge([one, tmp_path / "other.nc"])
 
 
@@ -94,3 +123,17 @@ def test_records_come_back_from_an_archive(small, tmp_path):
     np.testing.assert_allclose(found.solution.s, alone.s, rtol=1e-10)
     np.testing.assert_array_equal(found.solution.critical_x, alone.critical_x)
     np.testing.assert_array_equal(found.solution.critical_angle, alone.critical_angle)
+
+
+def test_axes_that_differ_by_rounding_are_one(tmp_path):
+    one = made(tmp_path, "one", [0.2, 0.3], [0, 1])
+    other = made(tmp_path, "other", [0.1 + 0.2, 0.2 * (1 + 1e-13), 0.1], [0, 1])
+    merged = merge([one, other])
+    assert merged.friction.values.tolist() == [0.1, 0.2, 0.3]  # as the first has them, in order
+    assert merged.phase.values.tolist() == [0.0, 1.0]
+
+
+def test_axes_that_differ_by_more_are_two(tmp_path):
+    one = made(tmp_path, "one", [0.2], [0, 1])
+    other = made(tmp_path, "other", [0.2 * (1 + 1e-11)], [0, 1])
+    assert merge([one, other]).friction.values.tolist() == [0.2, 0.2 * (1 + 1e-11)]

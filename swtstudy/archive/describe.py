@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.figures.words import value_words
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.records import COMPUTED, STATES
 
 #: Values of an axis, or failed points, that are listed one by one.
@@ -25,8 +26,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
         yield f"  history        {line}"
     for name in map(str, dataset.s.dims):
         yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}"
-    for name in map(str, dataset.coords):
-        if not dataset[name].ndim:
+    for name in PARAMETERS:
+        if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
@@ -36,15 +37,15 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
     words = (f"{n} {meaning}" for n, meaning in zip(counts, meanings, strict=False) if n)
     yield f"  regimes        {', '.join(words)}"
-    runs = json.loads(attributes["runs"])
+    runs = read_runs(attributes["runs"])
     counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
     for number, run in enumerate(runs):
         yield (
-            f"  run {number}          {counted[number]} points, rtol {run['rtol']:g}, "
-            f"solver version {run['solver_version']}, {run['seconds']:.1f} s of computing, "
-            f"started {run['started']}"
+            f"  run {number}          {counted[number]} points, rtol {run.rtol:g}, "
+            f"solver version {run.solver_version}, {run.seconds:.1f} s of computing, "
+            f"started {run.started}"
         )
-    failures = json.loads(dataset.status.attrs["failures"])
+    failures = read_failures(dataset.status.attrs["failures"])
     for failure in failures[:_LISTED]:
         yield f"  failed         {failure['point']}: {failure['message']}"
     if len(failures) > _LISTED:

@@ -27,8 +27,9 @@ def check_writable(path: str | PathLike[str]) -> None:
         raise IsADirectoryError(f"{path} is a folder, not a file")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path.parent):
-            pass
+        handle, name = _temporary(path, path.parent)
+        os.close(handle)
+        os.unlink(name)
     except OSError as error:
         raise type(error)(f"cannot write into the folder {path.parent}: {error.strerror}") from error
 
@@ -43,7 +44,7 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     half a file.
     """
     path = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder or path.parent)
+    handle, name = _temporary(path, folder or path.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -60,15 +61,23 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
     """Write a Dataset as compressed netCDF-4 with checksums, atomically; see `replacing` for `beside`."""
-    # CF forbids a fill value for coordinates, which xarray would give them.
-    encoding: dict[Hashable, dict[str, Any]] = {name: {"_FillValue": None} for name in dataset.coords}
-    encoding |= {
-        name: {"zlib": True, "complevel": 4, "shuffle": True, "fletcher32": True}
-        for name, variable in dataset.data_vars.items()
-        if variable.ndim
+    from swtstudy.archive.check_sums import has_its_own, write_check_sums
+
+    encoding: dict[Hashable, dict[str, Any]] = {
+        name: {"fletcher32": True} if has_its_own(each) else {} for name, each in dataset.variables.items()
     }
+    for name in dataset.coords:
+        encoding[name]["_FillValue"] = None  # CF forbids one for coordinates, which xarray would give them
+    for name, variable in dataset.data_vars.items():
+        if variable.ndim:
+            encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
     with replacing(path, beside) as temporary:
         dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        write_check_sums(temporary, dataset)
+
+
+def _temporary(path: Path, folder: Path) -> tuple[int, str]:
+    return tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder)
 
 
 def _umask() -> int:

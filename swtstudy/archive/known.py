@@ -21,9 +21,8 @@ def known_records(path: Path) -> Records:
     found = []
     if path.exists():
         try:
-            found.append(records_of(read_archive(path)))
+            found.append(records_of(read_archive(path), path))
         except ArchiveError as error:
-            message = str(error).removeprefix(f"{path}: ")
-            raise ArchiveError(f"{path}: {message}; move it away to start anew") from None
+            raise ArchiveError(f"{error}; move it away to start anew") from None
     found += [read_parts(parts_folder(path)), read_parts(kept_folder(path))]
     return join(found)

@@ -15,7 +15,7 @@ except ImportError:  # Windows: without this lock the last of two runs wins, sti
 
 
 class LockedError(OSError):
-    """Another run is writing the same archive."""
+    """An archive that someone else is writing."""
 
 
 @contextmanager
@@ -41,6 +41,20 @@ def locked(folder: Path) -> Iterator[None]:
             path.unlink()
             folder.rmdir()
         os.close(handle)
+
+
+def is_locked(path: Path) -> bool:
+    """Whether a program has a file open for writing, by the lock that HDF5 keeps on it."""
+    if fcntl is None:
+        return False
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False  # not even readable
+    return False
 
 
 def _acquire(path: Path) -> int:

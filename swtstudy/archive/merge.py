@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line
+from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.read import ArchiveError, open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
@@ -18,7 +20,6 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.plan import unique_points
 from swtstudy.runner.records import COMPUTED, MISSING, Records, join, look_up
 from swtstudy.study.definition import Study
-from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import to_toml
 
 
@@ -26,35 +27,73 @@ class ConflictError(ValueError):
     """Archives that contradict each other."""
 
 
-def merge(paths: Sequence[Path]) -> xr.Dataset:
+class GapsError(ValueError):
+    """Archives that do not fill the grid of all their values."""
+
+
+def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     """One Dataset with all that is in several archives.
 
-    Its grid spans the values of all of them; what none of them has is NaN with the status "missing".
+    Its grid spans the values of all of them.
+
+    Parameters
+    ----------
+    paths
+        The archives.
+    sparse
+        Whether that grid may have points that are in none of them: NaN with the status "missing".
 
     Raises
     ------
     ConflictError
         A ValueError, if they come from different versions of the solver, or have values of one point that
         differ by more than their estimated errors.
+    GapsError
+        A ValueError, if points of the grid are in none of them, unless it may be `sparse`.
     """
     datasets = [open_results(path) for path in paths]
-    records = join(records_of(dataset) for dataset in datasets)
-    versions = sorted({records.runs[run].solver_version for run in np.unique(records.run) if run >= 0})
-    if len(versions) > 1:
-        raise ConflictError(f"results of different solver versions cannot be merged: {', '.join(versions)}")
-    _refuse_conflicts(records)
+    parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
+    records = join(parts)
+    sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    _refuse_other_versions(paths, parts)
+    _refuse_conflicts(paths, records, sources)
     grid = _union([grid_of(dataset) for dataset in datasets])
     points = unique_points(grid)
+    made = f"merged from {', '.join(path.name for path in paths)}"
+    absent = look_up(points.table, records, np.ones(len(records), bool)) < 0
+    if absent.any():
+        gaps = f"{int(absent[points.index].sum())} of {grid.size} points"
+        if not sparse:
+            example = describe_point(points.table[np.flatnonzero(absent)[0]])
+            raise GapsError(
+                f"the grid of all values in {_listed(paths)} has {gaps} in none of them, such as {example}; "
+                "--sparse (sparse=True in Python) leaves these missing"
+            )
+        made += f", {gaps} in none of them"
     found = look_up(points.table, records, records.status != MISSING)
     merged = Records.missing(points.table)
     merged = merged.put(np.flatnonzero(found >= 0), records.take(found[found >= 0]))
-    study = _study(datasets, grid)
-    history = [history_line(f"merged from {', '.join(path.name for path in paths)}")]
+    study = _study(paths, datasets, grid)
+    history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
 
 
-def _refuse_conflicts(records: Records) -> None:
+def _listed(paths: Sequence[Path]) -> str:
+    return ", ".join(map(str, paths))
+
+
+def _refuse_other_versions(paths: Sequence[Path], parts: list[Records]) -> None:
+    versions: dict[str, Path] = {}
+    for path, part in zip(paths, parts, strict=True):
+        for run in part.trimmed().runs:
+            versions.setdefault(run.solver_version, path)
+    if len(versions) > 1:
+        words = ", ".join(f"{version} in {path}" for version, path in sorted(versions.items()))
+        raise ConflictError(f"results of different solver versions cannot be merged: {words}")
+
+
+def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray) -> None:
     computed = np.flatnonzero(records.status == COMPUTED)
     first, group = group_rows(records.table[computed])
     one, other = computed[first[group]], computed
@@ -65,10 +104,12 @@ def _refuse_conflicts(records: Records) -> None:
         apart = ~equal & ~(np.abs(records.solution.s[one] - records.solution.s[other]) <= error)
     if apart.any():
         index = int(np.flatnonzero(apart)[0])
-        a, b = records.solution.s[one[index]], records.solution.s[other[index]]
+        a, b = (
+            f"{records.solution.s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other)
+        )
         more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
         point = describe_point(records.table[one[index]])
-        raise ConflictError(f"conflicting values {a:.8g} and {b:.8g} at {point}{more}")
+        raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
 
 
 def _union(grids: list[Grid]) -> Grid:
@@ -88,17 +129,17 @@ def _distinct(values: list[Value]) -> tuple[Value, ...]:
     return tuple(sorted(keyed.values()))
 
 
-def _study(datasets: list[xr.Dataset], grid: Grid) -> Study:
+def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:
     """The study that the merged archive is the result of; with the figure of the first, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
     if "figure" in datasets[0].attrs:
-        layout = FigureLayout.from_json(datasets[0].attrs["figure"])
+        layout = read_figure(datasets[0].attrs["figure"])
         if {name for _, name in layout.roles()} == set(grid.dims):
             figure = layout
     text = to_toml(" + ".join(titles), rtol, grid, figure)
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:
-        raise ArchiveError(f"these archives do not make one study:\n{error}") from None
+        raise ArchiveError(f"{_listed(paths)}: these archives do not make one study:\n{error}") from None

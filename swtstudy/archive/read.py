@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray as xr
 
+#: What xarray and netCDF4 raise for files that are not what they expect.
+_UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
+
 
 class ArchiveError(ValueError):
-    """A file that is not an archive of a study."""
+    """A file that is not an archive of a study, or a damaged one."""
 
 
 def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:
@@ -31,8 +34,11 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     ------
     FileNotFoundError
         If there is no such file.
+    LockedError
+        An OSError, if another program has it open for writing.
     ArchiveError
-        A ValueError, if the file is not an archive of swtstudy.
+        A ValueError, if the file is not a sound archive of swtstudy: it names the file, and what in it
+        cannot be as it is.
 
     Examples
     --------
@@ -61,18 +67,51 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
 
 
 def read_archive(path: Path) -> xr.Dataset:
-    """The Dataset in an archive file, loaded; raises as `open_results` does."""
+    """The Dataset in an archive file, loaded and found sound; raises as `open_results` does."""
+    from swtstudy.archive.check import lacking, mistakes
+
+    loaded = load_file(path)
+    absent = lacking(loaded)
+    if absent:
+        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(absent)})")
+    found = mistakes(loaded, str(path))
+    if found:
+        raise ArchiveError("\n".join(map(str, found)))
+    return loaded
+
+
+def load_file(path: Path) -> xr.Dataset:
+    """The Dataset in a file that `swtstudy.archive.files.save` wrote, loaded, if its check sums agree.
+
+    Raises
+    ------
+    LockedError
+        An OSError, if another program has it open for writing.
+    ArchiveError
+        If it cannot be read or is damaged.
+    """
+    import netCDF4
     import xarray as xr
 
+    from swtstudy.archive.check_sums import damaged, unreadable
+    from swtstudy.archive.lock import LockedError, is_locked
+
+    if is_locked(path):
+        raise LockedError(f"{path} is locked: another program has it open for writing")
     try:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:
-            loaded = dataset.load()
-    except (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError) as error:
+        # From memory: xarray and netCDF4 crash where a file is opened again that is open in this process.
+        with netCDF4.Dataset(path.name, memory=path.read_bytes()) as file:
+            try:
+                loaded = xr.open_dataset(xr.backends.NetCDF4DataStore(file)).load()
+                wrong = damaged(file, loaded)
+            except _UNREADABLE:
+                wrong = unreadable(file)
+                if not wrong:
+                    raise
+    except _UNREADABLE as error:
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
-    lacking = [name for name in ("s", "status", "run") if name not in loaded]
-    lacking += [name for name in ("study", "runs", "rtol") if name not in loaded.attrs]
-    if lacking:
-        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(lacking)})")
+    if wrong:
+        raise ArchiveError(f"{path}: a damaged file: {', '.join(wrong)} not as written (check sum)")
     for variable in loaded.variables.values():
         variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
     return loaded

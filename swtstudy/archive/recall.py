@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Iterator
 from dataclasses import fields
 
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.read import ArchiveError
-from swtstudy.grid.grid import Grid
+from swtstudy.grid.grid import Grid, shapes_needed
 from swtstudy.grid.values import Value, read_value
 from swtstudy.labelled import arrays_of
 from swtstudy.mechanics.points import Solution
-from swtstudy.parameters import PARAMETERS
+from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.parameters import PARAMETERS, Parameter
 from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import STATES, Records, Run
+from swtstudy.runner.records import Records
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -23,54 +25,70 @@ def grid_of(dataset: xr.Dataset) -> Grid:
 
     Raises
     ------
-    ArchiveError
-        If they are not those of a grid.
+    StudyError
+        With every coordinate that is not one of a study.
     """
-    fixed: dict[str, Value] = {}
-    axes: dict[str, tuple[Value, ...]] = {}
-    try:
-        for name in map(str, dataset.s.dims):
-            axes[name] = tuple(read_value(PARAMETERS[name], value) for value in dataset[name].values.tolist())
-        for name, parameter in PARAMETERS.items():
-            if name in dataset.coords and name not in axes:
-                fixed[name] = read_value(parameter, dataset[name].item())
-    except (KeyError, ValueError) as error:
-        raise ArchiveError(f"its coordinates are not those of a study ({error})") from None
-    return Grid(fixed, axes)
+    values: dict[str, tuple[Value, ...]] = {}
+    mistakes: list[Mistake] = []
+    dims = [str(name) for name in dataset.s.dims]
+    for name in dims:
+        if name not in PARAMETERS or name not in dataset.coords:
+            mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
+    for name, parameter in PARAMETERS.items():
+        if name not in dataset.coords:
+            continue
+        coordinate = dataset[name]
+        if coordinate.dims != ((name,) if name in dims else ()):
+            mistakes.append(Mistake(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value"))
+            continue
+        values[name] = tuple(_values(parameter, np.atleast_1d(coordinate.values).tolist(), mistakes))
+    profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
+    required = [name for name, parameter in PARAMETERS.items() if parameter.default is not None]
+    for name in (*required, *shapes_needed(profiles)):
+        if name not in values and name not in dims:
+            mistakes.append(Mistake(name, "nothing", PARAMETERS[name].allowed))
+    if mistakes:
+        raise StudyError(mistakes)
+    fixed = {name: value[0] for name, value in values.items() if name not in dims}
+    return Grid(fixed, {name: values[name] for name in dims})
 
 
-def records_of(dataset: xr.Dataset) -> Records:
-    """The results in an archive, by canonical point.
+def _values(parameter: Parameter, raw: list[object], mistakes: list[Mistake]) -> Iterator[Value]:
+    """Values of a coordinate; the first that is none is a mistake."""
+    for value in raw:
+        try:
+            yield read_value(parameter, value)
+        except ValueError as error:
+            mistakes.append(Mistake(parameter.name, f"{literal(value)} ({error})", parameter.allowed))
+            return
+
+
+def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
+    """The results in an archive, by canonical point; `source` names it in messages.
 
     Raises
     ------
     ArchiveError
-        If something that belongs to an archive is not there.
+        If a variable that belongs to an archive is not there.
     """
     lacking = [item.name for item in fields(Solution) if item.name not in dataset]
     if lacking:
-        raise ArchiveError(f"an archive of another version of swtstudy, without {', '.join(lacking)}")
+        raise ArchiveError(
+            f"{source}: an archive of another version of swtstudy, without {', '.join(lacking)}"
+        )
     points = unique_points(grid_of(dataset))
     at = np.zeros(len(points.table), np.int64)
     at[points.index] = np.arange(len(points.index))
-    try:
-        flat = {
-            item.name: dataset[item.name].transpose(*dataset.s.dims).values.reshape(-1)[at]
-            for item in fields(Solution)
-        }
-        # Mirroring a second time gives the canonical point back.
-        solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
-        status, run = (
-            dataset[name].transpose(*dataset.s.dims).values.reshape(-1)[at] for name in ("status", "run")
-        )
-        runs = tuple(Run(**each) for each in json.loads(dataset.attrs["runs"]))
-        failures = json.loads(dataset.status.attrs["failures"])
-        messages = {tuple(failure["row"]): failure["message"] for failure in failures}
-    except (KeyError, ValueError, TypeError, IndexError) as error:
-        raise ArchiveError(f"not a complete archive of swtstudy ({error!r})") from None
-    if not (np.isin(status, range(len(STATES))).all() and np.isin(run, range(-1, len(runs))).all()):
-        raise ArchiveError("a damaged archive: it has a status or a run that there is not")
-    records = Records(points.table, solution, status.astype(np.int8), run.astype(np.int32), runs)
+    flat = {
+        name: dataset[name].transpose(*dataset.s.dims).values.reshape(-1)[at]
+        for name in (*(item.name for item in fields(Solution)), "status", "run")
+    }
+    status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
+    # Mirroring a second time gives the canonical point back.
+    solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
+    records = Records(points.table, solution, status, run, read_runs(dataset.attrs["runs"]))
+    failures = read_failures(dataset.status.attrs["failures"])
+    messages = {tuple(failure["row"]): failure["message"] for failure in failures}
     if messages:
         for index, row in enumerate(points.table.tolist()):
             if tuple(row) in messages:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -74,15 +75,11 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     Raises
     ------
     ValueError
-        If the file holds no audit.
+        If the file holds no audit, or is damaged.
     """
-    import xarray as xr
+    from swtstudy.archive.read import load_file
 
-    try:
-        with xr.open_dataset(path, engine="netcdf4") as opened:
-            dataset = opened.load()
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: not a readable netCDF file ({error})") from None
+    dataset = load_file(Path(path))
     if not {*COLUMNS} <= {*dataset.coords} or not {*_MEANINGS, "regime", "verdict"} <= {*dataset.data_vars}:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
     return dataset

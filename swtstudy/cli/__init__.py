@@ -48,6 +48,8 @@ class _Commands(click.Group):
         _log_to_terminal()
         try:
             return super().invoke(context)
+        except BrokenPipeError:
+            raise  # whoever read our output has enough, such as `head -1`: click ends without a word
         except (ValueError, OSError, MemoryError) as error:
             for line in (str(error) or type(error).__name__).splitlines():
                 click.echo(f"Error: {line}", err=True)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
 from swtstudy.cli.completion import study_completion
@@ -23,11 +21,12 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     looked for. What is there already is not audited again.
     """
     from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.archive.names import archive_paths
     from swtstudy.audit import AUDIT_PREFIX
     from swtstudy.study.several import read_studies
 
     defined = read_studies(studies)
-    targets = {source: Path(results) / f"{AUDIT_PREFIX}{Path(source).stem}.nc" for source in defined}
+    targets = archive_paths(defined, results, AUDIT_PREFIX)
     for target in targets.values():
         check_writable(target)
 

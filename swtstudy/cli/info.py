@@ -19,14 +19,11 @@ def info(archive: str) -> None:
     """
     from swtstudy.archive.describe import describe
     from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
-    from swtstudy.archive.read import ArchiveError, open_results
+    from swtstudy.archive.read import open_results
 
     dataset = open_results(archive)
-    try:
-        for line in describe(dataset):
-            click.echo(line)
-    except (KeyError, TypeError, AttributeError, IndexError) as error:
-        raise ArchiveError(f"{archive}: not a complete archive of swtstudy ({error!r})") from None
+    for line in describe(dataset):
+        click.echo(line)
     saved = points_saved(parts_folder(Path(archive)))
     if saved:
         click.echo(f"  unfinished     {saved} distinct points are saved by a run that has not ended")

@@ -13,21 +13,25 @@ from swtstudy.cli.examples import examples
 @click.command(epilog=examples("swtstudy merge results/a.nc results/b.nc -o results/both.nc"))
 @click.argument("archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion)
 @click.option("--output", "-o", required=True, help="Where the merged archive goes.")
-def merge(archives: tuple[str, ...], output: str) -> None:
+@click.option("--sparse", is_flag=True, help="Leave points missing that are in none of the archives.")
+def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     """Merge each ARCHIVE into one.
 
-    Values that contradict each other are refused.
+    Its grid has the values of all of them along every axis. Points of it that are in none of the archives
+    are refused without --sparse, values that contradict each other always.
     """
     from swtstudy.archive.files import check_writable, save
     from swtstudy.archive.lock import locked
     from swtstudy.archive.merge import merge as merge_archives
+    from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
     from swtstudy.runner.records import MISSING
 
     target = Path(output)
+    check_archive_path(target)
     check_writable(target)
     with locked(parts_folder(target)):
-        dataset = merge_archives([Path(archive) for archive in archives])
+        dataset = merge_archives([Path(archive) for archive in archives], sparse)
         save(dataset, target)
     missing = int((dataset.status == MISSING).sum())
     click.echo(f"{target}: {dataset.s.size} points, {missing} of them missing")

@@ -23,11 +23,13 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
     A few points are computed to see how long they take, and nothing is written.
     """
+    from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
 
-    for source, study in read_studies(studies).items():
-        target = Path(results) / f"{Path(source).stem}.nc"
-        for line in describe(study, target, workers):
+    defined = read_studies(studies)
+    targets = archive_paths(defined, results)
+    for source, study in defined.items():
+        for line in describe(study, targets[source], workers):
             click.echo(line)
 
 

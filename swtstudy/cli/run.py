@@ -66,13 +66,14 @@ def run(
     extended. The exit code is 3 if points failed.
     """
     from swtstudy.archive.files import check_writable
+    from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
     from swtstudy.study.shipped import shipped_folder
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
     defined = read_studies([*studies, str(shipped_folder())] if suite else studies)
-    targets = {source: Path(results) / f"{Path(source).stem}.nc" for source in defined}
+    targets = archive_paths(defined, results)
     for target in targets.values():
         check_writable(target)
 

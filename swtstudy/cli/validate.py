@@ -12,9 +12,12 @@ from swtstudy.cli.examples import examples
 @click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything."""
+    from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
 
-    for source, study in read_studies(studies).items():
+    defined = read_studies(studies)
+    archive_paths(defined, "")
+    for source, study in defined.items():
         sizes = " × ".join(
             f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
         )

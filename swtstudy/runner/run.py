@@ -79,7 +79,7 @@ def run(
     Raises
     ------
     StudyError
-        A ValueError, if `study` is none.
+        A ValueError, if `study` is none, or no archive can have that path.
     OSError
         If the archive cannot be written, found out before anything is computed, or if another run is
         writing it (`LockedError`).
@@ -89,10 +89,12 @@ def run(
         A KeyboardInterrupt, on Ctrl-C.
     """
     from swtstudy.archive.lock import locked
+    from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
 
     require_study(study)
     path = Path(path)
+    check_archive_path(path)
     check_writable(path)
     with locked(parts_folder(path)):
         return _run_locked(study, path, workers, client, retry_failed, solver)

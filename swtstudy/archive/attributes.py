@@ -1,0 +1,82 @@
+"""What the attributes of an archive say; texts that do not say it raise a ValueError with the reason."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import MISSING, asdict, fields
+from typing import Any, TypedDict
+
+from swtstudy.mistakes import literal, plain_number
+from swtstudy.runner.records import Run
+from swtstudy.study.figure import FigureLayout, reference, wrong_roles
+
+
+class Failure(TypedDict):
+    """A failed point: its canonical row, its description, and why it failed."""
+
+    row: list[float]
+    point: str
+    message: str
+
+
+def read_runs(text: object) -> tuple[Run, ...]:
+    """The runs that made the values."""
+    return tuple(_run(raw) for raw in _json(text, list))
+
+
+def read_failures(text: object) -> list[Failure]:
+    """The points that failed."""
+    failures = _json(text, list)
+    for failure in failures:
+        if not isinstance(failure, dict) or failure.keys() != Failure.__annotations__.keys():
+            raise ValueError(f"no failure: {literal(failure)}")
+        row, words = failure["row"], (failure["point"], failure["message"])
+        good = isinstance(row, list) and all(math.isfinite(plain_number(number)) for number in row)
+        if not good or not all(isinstance(word, str) for word in words):
+            raise ValueError(f"no failure: {literal(failure)}")
+    return failures
+
+
+def read_figure(text: object) -> FigureLayout:
+    """The layout of the figure."""
+    raw = _json(text, dict)
+    try:
+        layout = FigureLayout.from_json(str(text))
+    except (KeyError, TypeError):
+        raise ValueError(f"no layout of a figure: {literal(raw)}") from None
+    texts = [layout.x, layout.kind, *layout.y]
+    texts += [word for word in (layout.hue, layout.panels, layout.title, layout.vertical) if word is not None]
+    if not all(isinstance(word, str) for word in texts) or not isinstance(layout.regimes, bool):
+        raise ValueError(f"no layout of a figure: {literal(asdict(layout))}")
+    for key, found, allowed in wrong_roles(layout):
+        raise ValueError(f"{key[1:]}: found {found}; allowed: {allowed}")
+    for y in layout.y:
+        reference(y)
+    return layout
+
+
+def _json(text: object, kind: type) -> Any:
+    if not isinstance(text, str):
+        raise ValueError("no text")
+    try:
+        raw = json.loads(text)
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    except ValueError as error:
+        raise ValueError(f"no JSON: {error}") from None
+    if not isinstance(raw, kind):
+        raise ValueError("no list" if kind is list else "no table")
+    return raw
+
+
+def _run(raw: object) -> Run:
+    names = {item.name for item in fields(Run)}
+    if not isinstance(raw, dict) or not raw.keys() <= names:
+        raise ValueError(f"no run: {literal(raw)}")
+    for item in fields(Run):
+        value = raw.get(item.name, item.default)
+        good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf
+        if not good:
+            raise ValueError(f"{item.name} of a run: {'nothing' if value is MISSING else literal(value)}")
+    return Run(**raw)

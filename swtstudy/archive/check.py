@@ -1,0 +1,127 @@
+"""Whether what was read from a file is a sound archive of a study."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import fields
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.accuracy import ALLOWED_RTOL, is_rtol
+from swtstudy.archive.attributes import read_failures, read_figure, read_runs
+from swtstudy.archive.recall import grid_of
+from swtstudy.labelled import ATTRIBUTES
+from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.parameters import PARAMETERS
+from swtstudy.runner.records import COMPUTED, STATES
+
+#: What every archive has: variables, and attributes that are texts or numbers.
+_VARIABLES = ("s", "s_error", "regime", "status", "run")
+_TEXTS = ("title", "source", "history", "versions", "study", "runs")
+_NUMBERS = ("rtol", "wall_time_seconds")
+
+
+def lacking(dataset: xr.Dataset) -> list[str]:
+    """What an archive has and this has not."""
+    names = [name for name in _VARIABLES if name not in dataset.data_vars]
+    names += [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]
+    own = {"regime": ("flag_meanings",), "status": ("flag_meanings", "failures")}
+    return names + [
+        f"attribute {attribute} of {name}"
+        for name, attributes in own.items()
+        for attribute in attributes
+        if name in dataset and attribute not in dataset[name].attrs
+    ]
+
+
+def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
+    """Everything in an archive that lacks nothing that cannot be as it is."""
+    found = [*_attributes(dataset), *_shapes(dataset)]
+    # Values are looked at where they and what they refer to can be told.
+    return [Mistake(*parts, source) for parts in found or [*_coordinates(dataset), *_values(dataset)]]
+
+
+def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    attributes = dataset.attrs
+    for name in _TEXTS:
+        if not isinstance(attributes[name], str):
+            yield f"attribute {name}", _words(attributes[name]), "a text"
+    if not is_rtol(attributes["rtol"]):
+        yield "attribute rtol", _words(attributes["rtol"]), ALLOWED_RTOL
+    if not 0.0 <= plain_number(attributes["wall_time_seconds"]) < math.inf:
+        yield "attribute wall_time_seconds", _words(attributes["wall_time_seconds"]), "a number of seconds"
+    if isinstance(attributes["runs"], str):
+        yield from _unread("runs", attributes["runs"], read_runs)
+    if "figure" in attributes:
+        yield from _unread("figure", attributes["figure"], read_figure)
+    yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)
+    for name, words in (("regime", REGIMES), ("status", STATES)):
+        meanings = dataset[name].attrs["flag_meanings"]
+        # An archive may be older than the last of them.
+        if not isinstance(meanings, str) or tuple(meanings.split()) != words[: len(meanings.split())]:
+            yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
+    expected = {name: parameter.units for name, parameter in PARAMETERS.items()}
+    expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
+    for name, units in expected.items():
+        found = dataset[name].attrs.get("units", units) if name in dataset else units
+        if str(found) != units:
+            yield f"attribute units of {name}", _words(found), _words(units)
+
+
+def _unread(name: str, text: object, read: Callable[[object], object]) -> Iterator[tuple[str, str, str]]:
+    try:
+        read(text)
+    except ValueError as error:
+        yield f"attribute {name}", f"{_words(text)} ({error})", "JSON as swtstudy writes it"
+
+
+def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    names = ["status", "run", *(item.name for item in fields(Solution) if item.name in dataset)]
+    for name in names:
+        variable = dataset[name]
+        if {*variable.dims} != {*dataset.s.dims}:
+            yield name, f"dimensions {variable.dims}", f"those of s, {dataset.s.dims}"
+        if variable.dtype.kind not in "fiu":
+            yield name, f"values of type {variable.dtype}", "numbers"
+
+
+def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    try:
+        grid_of(dataset)
+    except StudyError as error:
+        yield from ((mistake.key, mistake.found, mistake.allowed) for mistake in error.mistakes)
+
+
+def _values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    """Values that nothing computes, such as from a damaged file."""
+    s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
+    computed = status == COMPUTED
+    unbounded = regime == REGIMES.index("not_finite")
+    runs = len(read_runs(dataset.attrs["runs"]))
+    for name, wrong, allowed in (
+        ("status", ~np.isin(status, range(len(STATES))), f"0 to {len(STATES) - 1}"),
+        ("run", ~np.isin(run, range(-1, runs)), f"-1 to {runs - 1}"),
+        ("regime", ~np.isin(regime, range(len(REGIMES))), f"0 to {len(REGIMES) - 1}"),
+        ("s", computed & ~unbounded & ~(np.isfinite(s) & (s >= 0.0)), "a finite number, 0 or more"),
+        ("s", computed & unbounded & (s < 0.0), "0 or more"),
+        ("s_error", computed & (s_error < 0.0), "0 or more"),
+    ):
+        if wrong.any():
+            yield name, _first(dataset, name, wrong), allowed
+
+
+def _words(value: object) -> str:
+    return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)
+
+
+def _first(dataset: xr.Dataset, name: str, wrong: NDArray[np.bool_]) -> str:
+    """The first of the wrong values, where it is, and how many there are."""
+    index = dict(zip(dataset.s.dims, np.unravel_index(int(wrong.argmax()), wrong.shape), strict=True))
+    place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
+    where = f" at {place}" if place else ""
+    more = f" and {int(wrong.sum()) - 1} more" if wrong.sum() > 1 else ""
+    return f"{dataset[name].isel(index).item()}{where}{more}"

@@ -1,0 +1,74 @@
+"""Names that an archive can have; found out before anything is computed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from os import PathLike
+from pathlib import Path
+
+from swtstudy.mistakes import Mistake, StudyError
+
+#: Bytes that the longest name made from ``name.nc`` has more: ``.name-12345678.png`` of an unfinished figure.
+_ADDED = 11
+
+#: Bytes in a name where the file system does not tell.
+_LONGEST_NAME = 255
+
+
+def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: str = "") -> dict[str, Path]:
+    """Where the archives of study files go, by study file.
+
+    Raises
+    ------
+    StudyError
+        With every path that no archive can have.
+    """
+    paths = {study: Path(folder) / f"{prefix}{Path(study).stem}.nc" for study in studies}
+    mistakes = [mistake for path in paths.values() for mistake in _mistakes(path)]
+    existing = _existing(Path(folder))
+    if not existing.is_dir():
+        mistakes.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
+    if mistakes:
+        raise StudyError(mistakes)
+    return paths
+
+
+def check_archive_path(path: Path) -> None:
+    """Raise a StudyError, a ValueError, for a path that no archive can have."""
+    mistakes = _mistakes(path)
+    if mistakes:
+        raise StudyError(mistakes)
+
+
+def _mistakes(path: Path) -> list[Mistake]:
+    whole = path.absolute()
+    found = []
+    try:
+        str(whole).encode()
+    except UnicodeEncodeError:
+        found.append(("bytes that are no UTF-8", "a path in UTF-8"))
+    # netCDF takes it for a slash; where it is one, no part has it.
+    if any("\\" in part for part in whole.parts[1:]):
+        found.append(("a backslash", "a path without"))
+    if "\0" in str(whole):
+        found.append(("a null character", "a path without"))
+    if not found:
+        longest = _longest_name(_existing(path.parent)) - _ADDED
+        length = len(os.fsencode(path.name))
+        if length > longest:
+            found.append((f"a name of {length} bytes", f"at most {longest}"))
+    return [Mistake("", *parts, str(path)) for parts in found]
+
+
+def _existing(folder: Path) -> Path:
+    """The folder, or the nearest above it that is there."""
+    absolute = folder.absolute()
+    return next(each for each in (absolute, *absolute.parents) if each.exists())
+
+
+def _longest_name(folder: Path) -> int:
+    try:
+        return os.pathconf(folder, "PC_NAME_MAX")
+    except (AttributeError, OSError, ValueError):
+        return _LONGEST_NAME
