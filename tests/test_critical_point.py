@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from swtstudy.labelled import ATTRIBUTES
+from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.statements import critical_point
 from swtstudy.statements.stick_zone import stick_radius
 from tests.made_up import made_up, made_up_audit

@@ -18,8 +18,9 @@ from swtstudy.archive import parts as archive_parts
 from swtstudy.archive.lock import LockedError, locked
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.cli import main
-from swtstudy.runner import records, work
+from swtstudy.records import records
 from swtstudy.runner import run as run_module
+from swtstudy.runner import work
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.

@@ -1,16 +1,19 @@
 import io
 import os
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 import stand_in
 
+import swtstudy
 from swtstudy import Study, StudyError, run
-from swtstudy.runner.chunk import Chunk, Result
+from swtstudy.grid.unique import unique_points
+from swtstudy.records.result import Result
+from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.engines import LOST_WORKER, Here, LocalWorkers
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
-from swtstudy.runner.plan import unique_points
 from swtstudy.runner.progress import Progress
 
 WIDE = """
@@ -104,6 +107,16 @@ def test_one_failure_is_one_point(solver):
     assert np.flatnonzero(result.failed).tolist() == [2]
     assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
     assert list(result.messages) == [2]
+
+
+def test_rooms_import_only_what_lies_before_them():
+    rooms = ("grid", "study", "records", "archive", "runner")
+    package = Path(swtstudy.__file__).parent
+    for number, room in enumerate(rooms):
+        for file in (package / room).rglob("*.py"):
+            text = file.read_text(encoding="utf-8")
+            for later in rooms[number + 1 :]:
+                assert f"swtstudy.{later}" not in text, (file, later)
 
 
 class Terminal(io.StringIO):

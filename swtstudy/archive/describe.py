@@ -10,7 +10,7 @@ import xarray as xr
 
 from swtstudy.figures.words import value_words
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.runner.records import COMPUTED, STATES
+from swtstudy.records.records import COMPUTED, STATES
 
 #: Values of an axis, or failed points, that are listed one by one.
 _LISTED = 8

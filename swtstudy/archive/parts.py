@@ -20,7 +20,7 @@ import numpy as np
 from swtstudy.archive.files import replacing
 from swtstudy.grid.canonical import COLUMNS, PROFILES, group_rows
 from swtstudy.mechanics.points import Solution
-from swtstudy.runner.records import Records, Run, join
+from swtstudy.records.records import Records, Run, join
 
 _log = logging.getLogger(__name__)
 

@@ -10,12 +10,12 @@ import xarray as xr
 
 from swtstudy.archive.read import ArchiveError
 from swtstudy.grid.grid import Grid
+from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, read_value
-from swtstudy.labelled import arrays_of
 from swtstudy.mechanics.points import Solution
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import STATES, Records, Run
+from swtstudy.records.labelled import arrays_of
+from swtstudy.records.records import STATES, Records, Run
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:

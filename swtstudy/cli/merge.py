@@ -22,7 +22,7 @@ def merge(archives: tuple[str, ...], output: str) -> None:
     from swtstudy.archive.lock import locked
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.parts import parts_folder
-    from swtstudy.runner.records import MISSING
+    from swtstudy.records.records import MISSING
 
     target = Path(output)
     check_writable(target)

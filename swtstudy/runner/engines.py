@@ -9,7 +9,8 @@ from concurrent.futures.process import BrokenProcessPool
 from types import TracebackType
 from typing import Any, Protocol
 
-from swtstudy.runner.chunk import Chunk, Result, Solver, given_up, solve_chunk
+from swtstudy.records.result import Result
+from swtstudy.runner.chunk import Chunk, Solver, given_up, solve_chunk
 from swtstudy.runner.workers import kill_workers, start_workers
 
 #: Takes every result as soon as it is there.

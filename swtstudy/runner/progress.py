@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable
 from typing import TextIO
 
+from swtstudy.grid.cost import duration
+
 _log = logging.getLogger(__name__)
 
 _WIDTH = 30
@@ -86,21 +88,3 @@ def words(done: int, total: int, seconds: float) -> str:
     rate = done / seconds if seconds > 0 else 0.0
     left = duration((total - done) / rate) + " left" if rate and done < total else duration(seconds)
     return f"{done} of {total} points ({100 * done / total:.0f} %), {rate:.3g}/s, {left}"
-
-
-def duration(seconds: float) -> str:
-    """Seconds as people say them.
-
-    Examples
-    --------
-    >>> duration(0.5), duration(75), duration(7500)
-    ('0.5 s', '1 min 15 s', '2 h 5 min')
-    """
-    if seconds < 10:
-        return f"{seconds:.1f} s"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"

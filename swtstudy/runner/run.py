@@ -10,13 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import check_writable
+from swtstudy.grid.cost import SECONDS_PER_WEIGHT, weights
 from swtstudy.mechanics.version import SOLVER_VERSION
-from swtstudy.runner.chunk import Result, Solver, solve_points
+from swtstudy.records.records import MISSING, Records, Run
+from swtstudy.records.result import Result
+from swtstudy.runner.chunk import Solver, solve_points
+from swtstudy.runner.cutting import chunks
 from swtstudy.runner.engines import Engine, Here, LocalWorkers
-from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
-from swtstudy.runner.plan import chunks, weights
+from swtstudy.runner.pace import Pace
 from swtstudy.runner.progress import Progress
-from swtstudy.runner.records import MISSING, Records, Run
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
 

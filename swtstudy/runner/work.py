@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import group_rows
+from swtstudy.grid.unique import UniquePoints, unique_points
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.version import SOLVER_VERSION
-from swtstudy.runner.plan import UniquePoints, unique_points
-from swtstudy.runner.records import MISSING, Records, look_up
+from swtstudy.records.records import MISSING, Records, look_up
 from swtstudy.study.definition import Study
 
 
