@@ -19,8 +19,8 @@ from swtstudy.archive.lock import LockedError, locked
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.cli import main
 from swtstudy.records import records
+from swtstudy.runner import collector, work
 from swtstudy.runner import run as run_module
-from swtstudy.runner import work
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -170,9 +170,8 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.mechanics.version.SOLVER_VERSION", "next")
-    for module in (run_module, work):
-        if hasattr(module, "SOLVER_VERSION"):
-            monkeypatch.setattr(module, "SOLVER_VERSION", "next")
+    for module in (run_module, collector, work):
+        monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
     assert counting.points == 6

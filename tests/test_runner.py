@@ -12,9 +12,10 @@ from swtstudy import Study, StudyError, run
 from swtstudy.grid.unique import unique_points
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import Chunk
-from swtstudy.runner.engines import LOST_WORKER, Here, LocalWorkers
+from swtstudy.runner.engine import LOST_WORKER, solve
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
-from swtstudy.runner.progress import Progress
+from swtstudy.runner.progress import ProgressBar
+from swtstudy.runner.workers import LocalPool
 
 WIDE = """
 title = "Enough for workers"
@@ -77,9 +78,9 @@ def single_chunks(study):
 def test_a_lost_worker_is_replaced(wide, tmp_path):
     table, chunks = single_chunks(wide)
     done = []
-    with LocalWorkers(2) as engine:
+    with LocalPool(2) as pool:
         solver = partial(stand_in.kill_once, str(tmp_path / "killed"))
-        engine.solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows))
+        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
     assert (tmp_path / "killed").exists()
     assert sorted(done) == list(range(len(table)))
 
@@ -89,8 +90,8 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing():
     table = unique_points(study.grid).table
     chunk = Chunk.of(table, [np.arange(5), np.arange(5, 10)])
     results = []
-    with LocalWorkers(1) as engine:
-        engine.solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append)
+    with LocalPool(1) as pool:
+        solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append, pool)
     assert sorted(row for result in results for row in result.rows) == list(range(10))
     failed = [result for result in results if result.failed.any()]
     assert [result.rows.tolist() for result in failed] == [[2]]
@@ -102,7 +103,7 @@ def test_one_failure_is_one_point(solver):
     study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
     table = unique_points(study.grid).table
     results = []
-    Here().solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
+    solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
     (result,) = results
     assert np.flatnonzero(result.failed).tolist() == [2]
     assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
@@ -140,7 +141,7 @@ def test_the_name_of_a_study_is_no_study(tmp_path):
 
 def test_a_terminal_shows_points_rate_and_time_left():
     terminal = Terminal()
-    progress = Progress(10, terminal, Clock())
+    progress = ProgressBar(10, terminal, Clock())
     progress.add(4)
     progress.close()
     assert "4 of 10 points (40 %), 0.8/s, 7.5 s left" in terminal.getvalue()
@@ -149,7 +150,7 @@ def test_a_terminal_shows_points_rate_and_time_left():
 def test_a_log_has_a_line_now_and_then(caplog):
     caplog.set_level("INFO", logger="swtstudy")
     file = io.StringIO()
-    progress = Progress(100, file, Clock())
+    progress = ProgressBar(100, file, Clock())
     for _ in range(100):
         progress.add(1)
     assert file.getvalue() == ""
