@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -259,28 +260,67 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypat
     assert counting.points == 0
 
 
-def test_two_ctrl_c_end_a_run_cleanly(tmp_path):
+@pytest.mark.parametrize("signals", [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM,)])
+def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
     path = tmp_path / "line.nc"
-    code = (
-        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy.cli import main\n"
-        "from swtstudy.runner import run\nrun.run.__kwdefaults__['solver'] = stand_in.slow\n"
-        "main(['run', sys.argv[2], '--results', sys.argv[3]])"
-    )
-    (tmp_path / "line.toml").write_text(LONG)
-    command = [sys.executable, "-c", code, os.path.dirname(__file__), str(tmp_path / "line.toml")]
-    with subprocess.Popen([*command, str(tmp_path)], stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 60
-        while not points_saved(parts_folder(path)) and time.monotonic() < deadline:
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
+    with subprocess.Popen(command_of(tmp_path, LONG), stderr=subprocess.PIPE, text=True) as process:
+        wait_for(lambda: points_saved(parts_folder(path)))
+        children = workers_of(process.pid)
+        for each in signals:
+            process.send_signal(each)
+            time.sleep(0.05)
         try:
             _, words = process.communicate(timeout=60)
         finally:
             process.kill()
-    assert "of 3000 distinct points are saved" in words
-    assert "Traceback" not in words
+    assert re.fullmatch(r"stopped; \d+ of 3000 distinct points are saved beside .*; the same .*\n", words)
+    assert process.returncode == 130
+    assert children
+    wait_for(lambda: not any(map(_alive, children)))
+
+
+@pytest.mark.parametrize(
+    ("largest", "words"),
+    [
+        (20_000, r"File too large; ([1-9]\d*) of 400 distinct points"),  # enough for small parts
+        (40_000, r"cannot write the archive \(.*\); (400) of 400 distinct points"),  # and for all parts
+    ],
+)
+def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, largest, words):
+    path = tmp_path / "line.nc"
+    limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({largest}, {largest}))\n"
+    done = subprocess.run(command_of(tmp_path, LINE, limit), timeout=60, capture_output=True, text=True)
+    assert done.returncode == 2
+    said = re.fullmatch(f"Error: {words} are saved beside .*; once that is mended .*\n", done.stderr)
+    assert said
+    assert points_saved(parts_folder(path)) == int(said[1])
+    counting = stand_in.Counting()
+    run(Study.from_text(LINE), path, solver=counting, workers=1)
+    assert counting.points == 400 - int(said[1])
+
+
+def command_of(folder, text, before=""):
+    """`swtstudy run` of a study in a folder with the slow stand-in, as a process of its own."""
+    (folder / "line.toml").write_text(text)
+    code = (
+        f"{before}import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\n"
+        "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
+        "run.run.__kwdefaults__['solver'] = stand_in.slow\n"
+        "main(['run', sys.argv[2], '--results', sys.argv[3]])"
+    )
+    return [sys.executable, "-c", code, os.path.dirname(__file__), str(folder / "line.toml"), str(folder)]
+
+
+def workers_of(process: int) -> list[int]:
+    with open(f"/proc/{process}/task/{process}/children") as file:
+        return [int(word) for word in file.read().split()]
+
+
+def wait_for(condition) -> None:
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
 
 
 def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(tmp_path):

@@ -1,5 +1,7 @@
 import io
 import os
+import subprocess
+import sys
 from functools import partial
 from pathlib import Path
 
@@ -156,6 +158,52 @@ def test_a_log_has_a_line_now_and_then(caplog):
     assert file.getvalue() == ""
     assert 10 <= len(caplog.messages) <= 20
     assert caplog.messages[-1].startswith("100 of 100 points")
+
+
+class Gone(Terminal):
+    """A terminal that is closed after the first words."""
+
+    def write(self, text: str) -> int:
+        if self.getvalue():
+            raise OSError(5, "Input/output error")
+        return super().write(text)
+
+
+def closed() -> io.StringIO:
+    stream = io.StringIO()
+    stream.close()
+    return stream
+
+
+@pytest.mark.parametrize("stream", [None, closed(), Gone()])
+def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, stream):
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setattr("sys.stdout", stream)
+    monkeypatch.setattr("swtstudy.runner.progress._BAR_SECONDS", 0.0)
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    assert np.isfinite(dataset.s).all()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
+@pytest.mark.parametrize("closing", ["2>&-", ">&-", "<&- >&- 2>&-"])
+def test_the_command_does_without_closed_streams(tmp_path, closing):
+    (tmp_path / "one.toml").write_text('title = "t"\nrtol = 1e-2\n')
+    command = f'exec "{sys.executable}" -m swtstudy run one.toml {closing}'
+    assert subprocess.run(command, shell=True, cwd=tmp_path, timeout=60).returncode == 0
+    assert np.isfinite(swtstudy.open_results(tmp_path / "results" / "one.nc").s)
+
+
+def test_a_script_without_a_guard_is_run_once(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
+        "print('begun', flush=True)\n"
+        f"dataset = run(Study.from_text({WIDE!r}), 'wide.nc', solver=stand_in.slow)\n"
+        "print(int(dataset.s.notnull().sum()))\n"
+    )
+    command = [sys.executable, str(script), os.path.dirname(__file__)]
+    done = subprocess.run(command, cwd=tmp_path, timeout=60, capture_output=True, text=True)
+    assert (done.stdout, done.stderr, done.returncode) == ("begun\n160\n", "", 0)
 
 
 def test_a_short_run_is_quiet_in_a_log(small, tmp_path, caplog, capfd):
