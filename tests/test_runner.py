@@ -2,6 +2,7 @@ import io
 import os
 import subprocess
 import sys
+import types
 from functools import partial
 from pathlib import Path
 
@@ -13,8 +14,9 @@ import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.grid.unique import unique_points
 from swtstudy.records.result import Result
+from swtstudy.runner import engine
 from swtstudy.runner.chunk import Chunk
-from swtstudy.runner.engine import LOST_WORKER, solve
+from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
 from swtstudy.runner.progress import ProgressBar
 from swtstudy.runner.workers import LocalPool
@@ -85,6 +87,28 @@ def test_a_lost_worker_is_replaced(wide, tmp_path):
         solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
     assert (tmp_path / "killed").exists()
     assert sorted(done) == list(range(len(table)))
+
+
+def test_only_what_was_in_hand_is_tried_alone(wide, tmp_path, monkeypatch):
+    alone, on_its_own = [], engine._Waves._alone
+    monkeypatch.setattr(
+        engine._Waves, "_alone", lambda waves, chunk: (alone.append(chunk), on_its_own(waves, chunk))
+    )
+    table, chunks = single_chunks(wide)
+    done = []
+    # In the second wave, of 16 chunks.
+    solver = partial(stand_in.kill_once_at, 0.4, str(tmp_path / "killed"))
+    with LocalPool(2) as pool:
+        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
+    assert sorted(done) == list(range(len(table)))
+    assert 1 <= len(alone) <= 2 * 2
+
+
+def test_a_solver_that_workers_cannot_import_is_said(wide, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "made_here", types.ModuleType("made_here"))
+    exec("def solver(points, rtol): pass", vars(sys.modules["made_here"]))
+    with pytest.raises(WorkerError, match=r"a worker cannot .*made_here.*; 0 of 160 distinct points"):
+        run(wide, tmp_path / "wide.nc", solver=sys.modules["made_here"].solver)
 
 
 def test_a_point_that_kills_its_worker_is_alone_in_failing():
