@@ -166,7 +166,7 @@ def part_of(folder: Path) -> Path:
     run(Study.from_text(SMALL), folder / "small.nc", solver=stand_in.smooth)
     parts = parts_folder(folder / "small.nc")
     parts.mkdir()
-    PartsWriter(parts, read_parts(parts)).add(known_records(folder / "small.nc"))
+    PartsWriter(parts).add(known_records(folder / "small.nc"))
     (folder / "small.nc").unlink()
     (part,) = parts.glob("*.npz")
     return part

@@ -212,6 +212,27 @@ def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
     assert "will be computed again" in caplog.text
 
 
+def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monkeypatch):
+    path = tmp_path / "line.nc"
+    for _ in range(3):
+        with pytest.raises(Stopped):
+            run(line, path, solver=stand_in.Interrupting(96), workers=1)
+    saved, first = points_saved(parts_folder(path)), min(parts_folder(path).glob("*.npz"))
+    read = archive_parts.Path.read_bytes
+
+    def unreadable(part):
+        if part == first:
+            raise OSError(5, "Input/output error")
+        return read(part)
+
+    monkeypatch.setattr(archive_parts.Path, "read_bytes", unreadable)
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(0), workers=1)
+    assert 0 < points_saved(parts_folder(path)) < saved
+    monkeypatch.undo()
+    assert points_saved(parts_folder(path)) == saved
+
+
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
     monkeypatch.setattr("swtstudy.archive.parts._GATHERED", 3)
     path = tmp_path / "line.nc"

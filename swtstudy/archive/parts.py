@@ -51,24 +51,23 @@ def kept_folder(path: Path) -> Path:
 
 
 class PartsWriter:
-    """Writes records as parts into a folder that it has for itself.
+    """Writes records as parts into a folder that it has for itself; what is there becomes one part.
 
     Parameters
     ----------
     folder
         Folder of the parts.
-    present
-        What is in its parts already; written anew as one part.
     """
 
-    def __init__(self, folder: Path, present: Records) -> None:
+    def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._number = _next_number(folder)
         self._small: list[tuple[Path, Records]] = []
-        old = _paths(folder)
-        if len(old) > 1:
-            self._write(present)
-            _remove(old)
+        # A part that cannot be read now may be readable later: it stays until the archive has its points.
+        present = {path: part for path in _paths(folder) if (part := _read(path)) is not None}
+        if len(present) > 1:
+            self._write(join(present.values()))
+            _remove(present)
 
     def add(self, records: Records) -> None:
         """Write one more part; when this returns, it is safe."""

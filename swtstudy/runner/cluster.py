@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import threading
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
 from typing import TYPE_CHECKING, Any
 
+from distributed.comm import CommClosedError
 from distributed.scheduler import KilledWorker
 
 from swtstudy.runner.engine import WorkerError
@@ -45,7 +47,7 @@ class ClusterPool:
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self._ended.set()
-        if kind is not None and issubclass(kind, CancelledError):
+        if kind is not None and issubclass(kind, CancelledError | CommClosedError):
             raise WorkerError("the dask scheduler is gone") from None
         self._executor.shutdown(wait=False)
 
@@ -68,7 +70,7 @@ class ClusterPool:
         while not self._ended.wait(_LOOK_SECONDS):
             try:
                 there = bool(self._client.nthreads())
-            except Exception:  # the scheduler is gone, which the engine finds out
+            except (Exception, asyncio.CancelledError):  # the scheduler is gone, which the engine finds out
                 return
             if not there and not said:
                 _log.warning("the cluster has no workers; waiting for some")

@@ -173,12 +173,11 @@ def _compute(
 ) -> Records:
     """The records with all that was missing."""
     from swtstudy.archive.archive import versions
-    from swtstudy.archive.parts import PartsWriter, parts_folder, read_parts
+    from swtstudy.archive.parts import PartsWriter, parts_folder
 
     if not work.todo:
         return work.records
-    folder = parts_folder(path)
-    writer = PartsWriter(folder, read_parts(folder))
+    writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
     collector = Collector(work.records, Run(SOLVER_VERSION, study.rtol, study.text, versions(), now), writer)
     todo = chunks(work.points.table, work.missing, collector.pace.chunk_weight)
