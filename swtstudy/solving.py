@@ -49,10 +49,11 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     ('phase', 'normal_amplitude')
     """
     from swtstudy import __version__
-    from swtstudy.labelled import arrays_of, label
+    from swtstudy.grid.blocks import block_ends
+    from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
-    from swtstudy.runner.chunk import joined, solution_at
-    from swtstudy.runner.plan import block_ends, unique_points
+    from swtstudy.records.labelled import arrays_of, label
+    from swtstudy.records.solutions import joined, solution_at
 
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}

@@ -23,7 +23,7 @@ from swtstudy.archive.read import ArchiveError
 from swtstudy.cli import main
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.records import FAILED, MISSING
+from swtstudy.records.records import FAILED, MISSING
 
 
 def test_a_round_trip_keeps_values_and_names(small, tmp_path):

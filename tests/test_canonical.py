@@ -3,10 +3,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import COLUMNS, LOAD_COLUMNS, describe_point, group_rows
+from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
+from swtstudy.grid.unique import loads, unique_points
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.plan import block_ends, chunks, loads, unique_points, weights
+from swtstudy.runner.cutting import chunks
 
 
 def grid_of(fixed=None, **axes):
@@ -108,7 +111,7 @@ def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
 
 
 def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monkeypatch):
-    monkeypatch.setattr("swtstudy.runner.plan._BLOCK_SIZE", 256)
+    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 256)
     phases = [i / 10 for i in range(5)]
     axes = {"phase": phases, "friction": [i / 25 for i in range(1, 26)], "frequency_ratio": [1, "1/4"]}
     table = unique_points(grid_of(**axes)).table

@@ -10,7 +10,7 @@ import swtstudy
 import swtstudy.parameters
 from swtstudy.archive.files import save
 from swtstudy.cli import main
-from swtstudy.runner.records import MISSING
+from swtstudy.records.records import MISSING
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
 

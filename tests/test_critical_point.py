@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from made_up import made_up, made_up_audit
 
-from swtstudy.labelled import ATTRIBUTES
+from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.statements import critical_point
 from swtstudy.statements.stick_zone import stick_radius
 

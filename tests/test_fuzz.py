@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import multiprocessing
+import random
 import tempfile
 import tomllib
 from pathlib import Path
@@ -15,6 +16,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.known import known_records
+from swtstudy.archive.parts import PartsWriter, parts_folder, read_parts
 from swtstudy.cli import main
 from swtstudy.study.definition import _study_from
 
@@ -156,3 +159,47 @@ def test_mangled_archives(changes):
     process.join()
     # Killed by a signal: what no Python code can prevent.
     assert process.exitcode <= 0
+
+
+def part_of(folder: Path) -> Path:
+    """A run of four points, all saved, whose archive is not there yet; its only part."""
+    run(Study.from_text(SMALL), folder / "small.nc", solver=stand_in.smooth)
+    parts = parts_folder(folder / "small.nc")
+    parts.mkdir()
+    PartsWriter(parts).add(known_records(folder / "small.nc"))
+    (folder / "small.nc").unlink()
+    (part,) = parts.glob("*.npz")
+    return part
+
+
+def test_a_flipped_bit_anywhere_in_a_part_leaves_it_out(tmp_path):
+    part = part_of(tmp_path)
+    whole = part.read_bytes()
+    assert len(read_parts(part.parent)) == 4
+    dice = random.Random(1)
+    for position in range(len(whole)):
+        content = bytearray(whole)
+        content[position] ^= 1 << dice.randrange(8)
+        part.write_bytes(content)
+        assert len(read_parts(part.parent)) == 0, position
+    for length in range(0, len(whole), 97):
+        part.write_bytes(whole[:length])
+        assert len(read_parts(part.parent)) == 0, length
+
+
+def test_a_damaged_part_is_said_once_and_computed_again(tmp_path, caplog):
+    part = part_of(tmp_path)
+    content = bytearray(part.read_bytes())
+    content[content.rindex(b"PK\x01\x02") + 8] |= 1  # "encrypted"
+    part.write_bytes(content)
+    (tmp_path / "small.toml").write_text(SMALL)
+    planned = CliRunner().invoke(main, ["plan", str(tmp_path / "small.toml"), "--results", str(tmp_path)])
+    assert planned.exit_code == 0
+    informed = CliRunner().invoke(main, ["info", str(tmp_path / "small.nc")])
+    assert isinstance(informed.exception, SystemExit)  # there is nothing else
+    counting = stand_in.Counting()
+    run(Study.from_text(SMALL), tmp_path / "small.nc", solver=counting)
+    assert counting.points == 4
+    assert [message for message in caplog.messages if "left out" in message] == [
+        f"{part}: left out, its points will be computed again (damaged)"
+    ]

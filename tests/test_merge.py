@@ -9,7 +9,7 @@ from swtstudy import Study, open_results, run
 from swtstudy.archive.files import save
 from swtstudy.archive.merge import ConflictError, GapsError, merge
 from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.runner import records
+from swtstudy.records import records
 
 FIGURE = '[figure]\nx = "phase"\nhue = "friction"\n'
 

@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -18,7 +19,8 @@ from swtstudy.archive import parts as archive_parts
 from swtstudy.archive.lock import LockedError, locked
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.cli import main
-from swtstudy.runner import records, work
+from swtstudy.records import records
+from swtstudy.runner import collector, work
 from swtstudy.runner import run as run_module
 from swtstudy.runner.run import Stopped
 
@@ -169,9 +171,8 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.version.SOLVER_VERSION", "next")
-    for module in (run_module, work):
-        if hasattr(module, "SOLVER_VERSION"):
-            monkeypatch.setattr(module, "SOLVER_VERSION", "next")
+    for module in (run_module, collector, work):
+        monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
     assert counting.points == 6
@@ -209,6 +210,27 @@ def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
     dataset = run(line, path, solver=stand_in.smooth, workers=1)
     assert np.isfinite(dataset.s).all()
     assert "will be computed again" in caplog.text
+
+
+def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monkeypatch):
+    path = tmp_path / "line.nc"
+    for _ in range(3):
+        with pytest.raises(Stopped):
+            run(line, path, solver=stand_in.Interrupting(96), workers=1)
+    saved, first = points_saved(parts_folder(path)), min(parts_folder(path).glob("*.npz"))
+    read = archive_parts.Path.read_bytes
+
+    def unreadable(part):
+        if part == first:
+            raise OSError(5, "Input/output error")
+        return read(part)
+
+    monkeypatch.setattr(archive_parts.Path, "read_bytes", unreadable)
+    with pytest.raises(Stopped):
+        run(line, path, solver=stand_in.Interrupting(0), workers=1)
+    assert 0 < points_saved(parts_folder(path)) < saved
+    monkeypatch.undo()
+    assert points_saved(parts_folder(path)) == saved
 
 
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
@@ -259,28 +281,67 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypat
     assert counting.points == 0
 
 
-def test_two_ctrl_c_end_a_run_cleanly(tmp_path):
+@pytest.mark.parametrize("signals", [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM,)])
+def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
     path = tmp_path / "line.nc"
-    code = (
-        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy.cli import main\n"
-        "from swtstudy.runner import run\nrun.run.__kwdefaults__['solver'] = stand_in.slow\n"
-        "main(['run', sys.argv[2], '--results', sys.argv[3]])"
-    )
-    (tmp_path / "line.toml").write_text(LONG)
-    command = [sys.executable, "-c", code, os.path.dirname(__file__), str(tmp_path / "line.toml")]
-    with subprocess.Popen([*command, str(tmp_path)], stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 60
-        while not points_saved(parts_folder(path)) and time.monotonic() < deadline:
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
+    with subprocess.Popen(command_of(tmp_path, LONG), stderr=subprocess.PIPE, text=True) as process:
+        wait_for(lambda: points_saved(parts_folder(path)))
+        children = workers_of(process.pid)
+        for each in signals:
+            process.send_signal(each)
+            time.sleep(0.05)
         try:
             _, words = process.communicate(timeout=60)
         finally:
             process.kill()
-    assert "of 3000 distinct points are saved" in words
-    assert "Traceback" not in words
+    assert re.fullmatch(r"stopped; \d+ of 3000 distinct points are saved beside .*; the same .*\n", words)
+    assert process.returncode == 130
+    assert children
+    wait_for(lambda: not any(map(_alive, children)))
+
+
+@pytest.mark.parametrize(
+    ("largest", "words"),
+    [
+        (20_000, r"File too large; ([1-9]\d*) of 400 distinct points"),  # enough for small parts
+        (40_000, r"cannot write the archive \(.*\); (400) of 400 distinct points"),  # and for all parts
+    ],
+)
+def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, largest, words):
+    path = tmp_path / "line.nc"
+    limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({largest}, {largest}))\n"
+    done = subprocess.run(command_of(tmp_path, LINE, limit), timeout=60, capture_output=True, text=True)
+    assert done.returncode == 2
+    said = re.fullmatch(f"Error: {words} are saved beside .*; once that is mended .*\n", done.stderr)
+    assert said
+    assert points_saved(parts_folder(path)) == int(said[1])
+    counting = stand_in.Counting()
+    run(Study.from_text(LINE), path, solver=counting, workers=1)
+    assert counting.points == 400 - int(said[1])
+
+
+def command_of(folder, text, before=""):
+    """`swtstudy run` of a study in a folder with the slow stand-in, as a process of its own."""
+    (folder / "line.toml").write_text(text)
+    code = (
+        f"{before}import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\n"
+        "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
+        "run.run.__kwdefaults__['solver'] = stand_in.slow\n"
+        "main(['run', sys.argv[2], '--results', sys.argv[3]])"
+    )
+    return [sys.executable, "-c", code, os.path.dirname(__file__), str(folder / "line.toml"), str(folder)]
+
+
+def workers_of(process: int) -> list[int]:
+    with open(f"/proc/{process}/task/{process}/children") as file:
+        return [int(word) for word in file.read().split()]
+
+
+def wait_for(condition) -> None:
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
 
 
 def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(tmp_path):

@@ -1,17 +1,25 @@
 import io
 import os
+import subprocess
+import sys
+import types
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
 import stand_in
 
+import swtstudy
 from swtstudy import Study, StudyError, run
-from swtstudy.runner.chunk import Chunk, Result
-from swtstudy.runner.engines import LOST_WORKER, Here, LocalWorkers
+from swtstudy.grid.unique import unique_points
+from swtstudy.records.result import Result
+from swtstudy.runner import engine
+from swtstudy.runner.chunk import Chunk
+from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
-from swtstudy.runner.plan import unique_points
-from swtstudy.runner.progress import Progress
+from swtstudy.runner.progress import ProgressBar
+from swtstudy.runner.workers import LocalPool
 
 WIDE = """
 title = "Enough for workers"
@@ -74,11 +82,33 @@ def single_chunks(study):
 def test_a_lost_worker_is_replaced(wide, tmp_path):
     table, chunks = single_chunks(wide)
     done = []
-    with LocalWorkers(2) as engine:
+    with LocalPool(2) as pool:
         solver = partial(stand_in.kill_once, str(tmp_path / "killed"))
-        engine.solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows))
+        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
     assert (tmp_path / "killed").exists()
     assert sorted(done) == list(range(len(table)))
+
+
+def test_only_what_was_in_hand_is_tried_alone(wide, tmp_path, monkeypatch):
+    alone, on_its_own = [], engine._Waves._alone
+    monkeypatch.setattr(
+        engine._Waves, "_alone", lambda waves, chunk: (alone.append(chunk), on_its_own(waves, chunk))
+    )
+    table, chunks = single_chunks(wide)
+    done = []
+    # In the second wave, of 16 chunks.
+    solver = partial(stand_in.kill_once_at, 0.4, str(tmp_path / "killed"))
+    with LocalPool(2) as pool:
+        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
+    assert sorted(done) == list(range(len(table)))
+    assert 1 <= len(alone) <= 2 * 2
+
+
+def test_a_solver_that_workers_cannot_import_is_said(wide, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "made_here", types.ModuleType("made_here"))
+    exec("def solver(points, rtol): pass", vars(sys.modules["made_here"]))
+    with pytest.raises(WorkerError, match=r"a worker cannot .*made_here.*; 0 of 160 distinct points"):
+        run(wide, tmp_path / "wide.nc", solver=sys.modules["made_here"].solver)
 
 
 def test_a_point_that_kills_its_worker_is_alone_in_failing():
@@ -86,8 +116,8 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing():
     table = unique_points(study.grid).table
     chunk = Chunk.of(table, [np.arange(5), np.arange(5, 10)])
     results = []
-    with LocalWorkers(1) as engine:
-        engine.solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append)
+    with LocalPool(1) as pool:
+        solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append, pool)
     assert sorted(row for result in results for row in result.rows) == list(range(10))
     failed = [result for result in results if result.failed.any()]
     assert [result.rows.tolist() for result in failed] == [[2]]
@@ -99,11 +129,21 @@ def test_one_failure_is_one_point(solver):
     study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
     table = unique_points(study.grid).table
     results = []
-    Here().solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
+    solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
     (result,) = results
     assert np.flatnonzero(result.failed).tolist() == [2]
     assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
     assert list(result.messages) == [2]
+
+
+def test_rooms_import_only_what_lies_before_them():
+    rooms = ("grid", "study", "records", "archive", "runner")
+    package = Path(swtstudy.__file__).parent
+    for number, room in enumerate(rooms):
+        for file in (package / room).rglob("*.py"):
+            text = file.read_text(encoding="utf-8")
+            for later in rooms[number + 1 :]:
+                assert f"swtstudy.{later}" not in text, (file, later)
 
 
 class Terminal(io.StringIO):
@@ -127,7 +167,7 @@ def test_the_name_of_a_study_is_no_study(tmp_path):
 
 def test_a_terminal_shows_points_rate_and_time_left():
     terminal = Terminal()
-    progress = Progress(10, terminal, Clock())
+    progress = ProgressBar(10, terminal, Clock())
     progress.add(4)
     progress.close()
     assert "4 of 10 points (40 %), 0.8/s, 7.5 s left" in terminal.getvalue()
@@ -136,12 +176,58 @@ def test_a_terminal_shows_points_rate_and_time_left():
 def test_a_log_has_a_line_now_and_then(caplog):
     caplog.set_level("INFO", logger="swtstudy")
     file = io.StringIO()
-    progress = Progress(100, file, Clock())
+    progress = ProgressBar(100, file, Clock())
     for _ in range(100):
         progress.add(1)
     assert file.getvalue() == ""
     assert 10 <= len(caplog.messages) <= 20
     assert caplog.messages[-1].startswith("100 of 100 points")
+
+
+class Gone(Terminal):
+    """A terminal that is closed after the first words."""
+
+    def write(self, text: str) -> int:
+        if self.getvalue():
+            raise OSError(5, "Input/output error")
+        return super().write(text)
+
+
+def closed() -> io.StringIO:
+    stream = io.StringIO()
+    stream.close()
+    return stream
+
+
+@pytest.mark.parametrize("stream", [None, closed(), Gone()])
+def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, stream):
+    monkeypatch.setattr("sys.stderr", stream)
+    monkeypatch.setattr("sys.stdout", stream)
+    monkeypatch.setattr("swtstudy.runner.progress._BAR_SECONDS", 0.0)
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    assert np.isfinite(dataset.s).all()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
+@pytest.mark.parametrize("closing", ["2>&-", ">&-", "<&- >&- 2>&-"])
+def test_the_command_does_without_closed_streams(tmp_path, closing):
+    (tmp_path / "one.toml").write_text('title = "t"\nrtol = 1e-2\n')
+    command = f'exec "{sys.executable}" -m swtstudy run one.toml {closing}'
+    assert subprocess.run(command, shell=True, cwd=tmp_path, timeout=60).returncode == 0
+    assert np.isfinite(swtstudy.open_results(tmp_path / "results" / "one.nc").s)
+
+
+def test_a_script_without_a_guard_is_run_once(tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
+        "print('begun', flush=True)\n"
+        f"dataset = run(Study.from_text({WIDE!r}), 'wide.nc', solver=stand_in.slow)\n"
+        "print(int(dataset.s.notnull().sum()))\n"
+    )
+    command = [sys.executable, str(script), os.path.dirname(__file__)]
+    done = subprocess.run(command, cwd=tmp_path, timeout=60, capture_output=True, text=True)
+    assert (done.stdout, done.stderr, done.returncode) == ("begun\n160\n", "", 0)
 
 
 def test_a_short_run_is_quiet_in_a_log(small, tmp_path, caplog, capfd):

@@ -6,7 +6,7 @@ import pytest
 from swtstudy import Study, StudyError
 from swtstudy.audit.audit import sample_rows
 from swtstudy.grid.grid import Grid
-from swtstudy.runner.plan import unique_points
+from swtstudy.grid.unique import unique_points
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import to_toml
 

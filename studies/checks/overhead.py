@@ -25,9 +25,9 @@ import numpy as np
 from cheap import asleep, spinning
 
 from swtstudy import Study, run
-from swtstudy.runner import run as runner
+from swtstudy.runner import collector
 from swtstudy.runner.chunk import Solver
-from swtstudy.runner.progress import Progress
+from swtstudy.runner.progress import ProgressBar
 
 WORKERS = 2
 
@@ -53,7 +53,7 @@ def cpu_of(process: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-class Watched(Progress):
+class Watched(ProgressBar):
     """Notes points, wall time, and the CPU time of parent and workers at the first and last delivery."""
 
     notes: list[tuple[float, ...]] = []  # noqa: RUF012
@@ -90,7 +90,7 @@ def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     quick = arguments.parse_args().quick
-    runner.Progress = Watched
+    collector.ProgressBar = Watched
     print(f"load of the {os.cpu_count()} cores before: {os.getloadavg()[0]:.1f}")
     print(f"a solver that sleeps {1e3 * SLEEP:g} ms a point:")
     with tempfile.TemporaryDirectory() as folder:

@@ -14,10 +14,10 @@ import xarray as xr
 
 import swtstudy
 from swtstudy.grid.canonical import describe_point
-from swtstudy.labelled import arrays_of, label
-from swtstudy.runner.chunk import solution_at
-from swtstudy.runner.plan import UniquePoints
-from swtstudy.runner.records import FAILED, Records
+from swtstudy.grid.unique import UniquePoints
+from swtstudy.records.labelled import arrays_of, label
+from swtstudy.records.records import FAILED, Records
+from swtstudy.records.solutions import solution_at
 from swtstudy.study.definition import Study
 
 #: Packages whose versions can matter for the numbers or the file.

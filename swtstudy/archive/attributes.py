@@ -8,7 +8,7 @@ from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
 from swtstudy.mistakes import literal, plain_number
-from swtstudy.runner.records import Run
+from swtstudy.records.records import Run
 from swtstudy.study.figure import FigureLayout, reference, wrong_roles
 
 

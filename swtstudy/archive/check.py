@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from swtstudy.accuracy import ALLOWED_RTOL, is_rtol
 from swtstudy.archive.attributes import read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
-from swtstudy.labelled import ATTRIBUTES
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.records import COMPUTED, STATES
+from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.records.records import COMPUTED, STATES
 
 #: What every archive has: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")

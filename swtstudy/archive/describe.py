@@ -11,7 +11,7 @@ from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.figures.words import value_words
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.records import COMPUTED, STATES
+from swtstudy.records.records import COMPUTED, STATES
 
 #: Values of an axis, or failed points, that are listed one by one.
 _LISTED = 8

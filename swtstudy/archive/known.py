@@ -7,7 +7,7 @@ from pathlib import Path
 from swtstudy.archive.parts import kept_folder, parts_folder, read_parts
 from swtstudy.archive.read import ArchiveError, read_archive
 from swtstudy.archive.recall import records_of
-from swtstudy.runner.records import Records, join
+from swtstudy.records.records import Records, join
 
 
 def known_records(path: Path) -> Records:

@@ -15,10 +15,10 @@ from swtstudy.archive.read import ArchiveError, open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
 from swtstudy.grid.grid import Grid
+from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import COMPUTED, MISSING, Records, join, look_up
+from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 

@@ -10,8 +10,8 @@ import xarray as xr
 from swtstudy.archive.archive import build, history_line
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import parts_folder, read_parts
-from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import Records, look_up
+from swtstudy.grid.unique import unique_points
+from swtstudy.records.records import Records, look_up
 from swtstudy.study.definition import Study
 
 

@@ -1,5 +1,8 @@
 """The parts of an archive in the making: every finished chunk is a file, written atomically.
 
+A part is an npz file with a check sum at its end: whatever has happened to it since it was written, it is
+either what was written or left out.
+
 They lie in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. What is known
 there of points that the latest study does not have lies as a part in another one, ``figure3.nc.kept``: a
 study that has them finds them.
@@ -7,9 +10,11 @@ study that has them finds them.
 
 from __future__ import annotations
 
+import functools
+import hashlib
+import io
 import json
 import logging
-import zipfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, fields
@@ -20,11 +25,13 @@ import numpy as np
 from swtstudy.archive.files import replacing
 from swtstudy.grid.canonical import COLUMNS, PROFILES, group_rows
 from swtstudy.mechanics.points import Solution
-from swtstudy.runner.records import Records, Run, join
+from swtstudy.records.records import Records, Run, join
 
 _log = logging.getLogger(__name__)
 
 _ARRAYS = tuple(item.name for item in fields(Solution))
+
+_CHECK_SUM_SIZE = hashlib.sha256().digest_size
 
 #: Parts are gathered into one when there are this many: a long run leaves no thousands of files.
 _GATHERED = 32
@@ -44,24 +51,23 @@ def kept_folder(path: Path) -> Path:
 
 
 class PartsWriter:
-    """Writes records as parts into a folder that it has for itself.
+    """Writes records as parts into a folder that it has for itself; what is there becomes one part.
 
     Parameters
     ----------
     folder
         Folder of the parts.
-    present
-        What is in its parts already; written anew as one part.
     """
 
-    def __init__(self, folder: Path, present: Records) -> None:
+    def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._number = _next_number(folder)
         self._small: list[tuple[Path, Records]] = []
-        old = _paths(folder)
-        if len(old) > 1:
-            self._write(present)
-            _remove(old)
+        # A part that cannot be read now may be readable later: it stays until the archive has its points.
+        present = {path: part for path in _paths(folder) if (part := _read(path)) is not None}
+        if len(present) > 1:
+            self._write(join(present.values()))
+            _remove(present)
 
     def add(self, records: Records) -> None:
         """Write one more part; when this returns, it is safe."""
@@ -127,7 +133,7 @@ def _next_number(folder: Path) -> int:
 
 
 def _paths(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.glob("*.npz") if path.stem.isdigit())
+    return sorted(path for path in folder.glob("*.npz") if path.stem.isdecimal())
 
 
 def _remove(paths: Iterable[Path]) -> None:
@@ -142,35 +148,55 @@ def _write(folder: Path, number: int, records: Records) -> Path:
         "runs": [asdict(run) for run in records.runs],
         "messages": records.messages,
     }
+    content = io.BytesIO()
+    np.savez(
+        content,
+        meta=np.array(json.dumps(meta)),
+        table=records.table,
+        status=records.status,
+        run=records.run,
+        **{name: getattr(records.solution, name) for name in _ARRAYS},
+    )
     with replacing(path) as temporary, open(temporary, "wb") as file:
-        np.savez(
-            file,
-            meta=np.array(json.dumps(meta)),
-            table=records.table,
-            status=records.status,
-            run=records.run,
-            **{name: getattr(records.solution, name) for name in _ARRAYS},
-        )
+        file.write(content.getbuffer())
+        file.write(_check_sum(content.getbuffer()))
     return path
 
 
 def _read(path: Path) -> Records | None:
     try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as part:
-            meta = json.loads(part["meta"].item())
-            if meta["layout"] != _LAYOUT:
-                raise ValueError("made by another version of swtstudy")
-            records = Records(
-                part["table"],
-                Solution(**{name: part[name] for name in _ARRAYS}),
-                part["status"],
-                part["run"],
-                tuple(Run(**run) for run in meta["runs"]),
-                {int(index): message for index, message in meta["messages"].items()},
-            )
+        return _records_from(path.read_bytes())
     except FileNotFoundError:
         raise
-    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
-        _log.warning("%s: left out, its points will be computed again (%s)", path, error)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        _say_left_out(path, str(error))
         return None
-    return records
+
+
+def _records_from(content: bytes) -> Records:
+    # A reader of zip files believes what is in them: lengths, flags and offsets are not under their own sums.
+    written, check_sum = content[:-_CHECK_SUM_SIZE], content[-_CHECK_SUM_SIZE:]
+    if _check_sum(written) != check_sum:
+        raise ValueError("damaged")
+    with np.load(io.BytesIO(written), allow_pickle=False) as part:
+        meta = json.loads(part["meta"].item())
+        if meta["layout"] != _LAYOUT:
+            raise ValueError("made by another version of swtstudy")
+        return Records(
+            part["table"],
+            Solution(**{name: part[name] for name in _ARRAYS}),
+            part["status"],
+            part["run"],
+            tuple(Run(**run) for run in meta["runs"]),
+            {int(index): message for index, message in meta["messages"].items()},
+        )
+
+
+def _check_sum(content: bytes | memoryview) -> bytes:
+    return hashlib.sha256(content).digest()
+
+
+@functools.cache
+def _say_left_out(path: Path, reason: str) -> None:
+    """Say it once, however often the part is read."""
+    _log.warning("%s: left out, its points will be computed again (%s)", path, reason)

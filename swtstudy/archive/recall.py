@@ -10,14 +10,15 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.read import ArchiveError
-from swtstudy.grid.grid import Grid, shapes_needed
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.shapes import shapes_needed
+from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, read_value
-from swtstudy.labelled import arrays_of
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS, Parameter
-from swtstudy.runner.plan import unique_points
-from swtstudy.runner.records import Records
+from swtstudy.records.labelled import arrays_of
+from swtstudy.records.records import Records
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:

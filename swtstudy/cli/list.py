@@ -13,7 +13,7 @@ def list_studies() -> None:
 
     They come with the package; each name can be the STUDY of other commands.
     """
-    from swtstudy.runner.plan import LARGEST_GRID
+    from swtstudy.grid.unique import LARGEST_GRID
     from swtstudy.study.definition import Study
     from swtstudy.study.shipped import shipped_folder, shipped_studies
 

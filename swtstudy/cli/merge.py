@@ -25,7 +25,7 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
-    from swtstudy.runner.records import MISSING
+    from swtstudy.records.records import MISSING
 
     target = Path(output)
     check_archive_path(target)

@@ -35,11 +35,11 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """What a run would do, in lines."""
+    from swtstudy.grid.cost import duration
+    from swtstudy.grid.unique import loads
     from swtstudy.runner.chunk import solve_points
     from swtstudy.runner.estimate import estimate
     from swtstudy.runner.pace import CHUNK_SECONDS
-    from swtstudy.runner.plan import loads
-    from swtstudy.runner.progress import duration
     from swtstudy.runner.work import assess
 
     work = assess(study, target)

@@ -22,7 +22,7 @@ def plot(archive: str, output: str | None, style: str | None) -> None:
     from swtstudy.archive.read import open_results
     from swtstudy.figures.draw import draw
     from swtstudy.figures.save import save_figure
-    from swtstudy.runner.records import MISSING
+    from swtstudy.records.records import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import logging
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -63,7 +68,16 @@ def run(
     STUDY is a TOML file, a folder of them, or the name of a study of the paper (see swtstudy list).
 
     What is there already is not computed again: a run that was stopped goes on, a study that has grown is
-    extended. The exit code is 3 if points failed.
+    extended.
+
+    \b
+    Exit codes: 0  all is there
+                2  one line says what is wrong: input, disk or cluster
+                3  points failed
+              130  stopped, by Ctrl-C or SIGTERM
+
+    After 2 and 130 what was computed is saved, and the same command goes on
+    from there.
     """
     from swtstudy.archive.files import check_writable
     from swtstudy.archive.names import archive_paths
@@ -79,19 +93,33 @@ def run(
 
     client = _connect(scheduler) if scheduler else None
     failed = False
-    for source, study in defined.items():
-        target = targets[source]
-        before = _written(target)
-        dataset = run_and_draw(
-            study, target, formats, workers=workers, client=client, retry_failed=retry_failed
-        )
-        seconds = dataset.attrs["wall_time_seconds"]
-        effort = "all there already" if _written(target) == before else f"in {seconds:.1f} s"
-        failed |= _summarize(dataset, target, effort)
-        for ending in formats if study.figure is not None else ():
-            click.echo(str(target.with_suffix(f".{ending}")))
+    with _terminable():
+        for source, study in defined.items():
+            target = targets[source]
+            before = _written(target)
+            dataset = run_and_draw(
+                study, target, formats, workers=workers, client=client, retry_failed=retry_failed
+            )
+            seconds = dataset.attrs["wall_time_seconds"]
+            effort = "all there already" if _written(target) == before else f"in {seconds:.1f} s"
+            failed |= _summarize(dataset, target, effort)
+            for ending in formats if study.figure is not None else ():
+                click.echo(str(target.with_suffix(f".{ending}")))
     if failed:
         sys.exit(POINTS_FAILED)
+
+
+@contextmanager
+def _terminable() -> Iterator[None]:
+    """SIGTERM, which batch systems send before they kill, stops a run as Ctrl-C does."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _connect(address: str) -> Client:
@@ -105,6 +133,9 @@ def _connect(address: str) -> Client:
         client = Client(address, timeout=CONNECT_SECONDS)
     except (OSError, ValueError) as error:
         raise OSError(f"no dask scheduler at {address} ({error})") from None
+    for name in ("distributed", "distributed.client"):
+        # A lost connection is one line of ours; distributed has a traceback for it.
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     click.echo(f"dashboard: {client.dashboard_link}", err=True)
     return client
 

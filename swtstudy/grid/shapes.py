@@ -40,7 +40,7 @@ def check_shapes_given(
         sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
     else:
         profiles, sound = [str(PARAMETERS["profile"].default)], True
-    needed = _shapes_needed(profiles)
+    needed = shapes_needed(profiles)
     for name in needed:
         if name not in fixed and name not in axes:
             owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
@@ -53,7 +53,7 @@ def check_shapes_given(
         report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
 
 
-def _shapes_needed(profiles: list[str]) -> tuple[str, ...]:
+def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
     """The shape parameters that at least one of the profiles has."""
     return tuple(n for n in SHAPE_COLUMNS if any(n in PROFILE_SHAPES.get(p, ()) for p in profiles))
 

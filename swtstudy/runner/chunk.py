@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES, FloatArray, IntArray, Points, Solution
+from swtstudy.records.result import Result
+from swtstudy.records.solutions import blank, joined
 
 #: What solves a batch of points with a relative accuracy.
 Solver = Callable[[Points, float], Solution]
@@ -57,37 +58,6 @@ class Chunk:
             start += length
 
 
-@dataclass(frozen=True)
-class Result:
-    """What came of a chunk.
-
-    Attributes
-    ----------
-    rows
-        As in the chunk.
-    solution
-        NaN for points that failed.
-    failed
-        Shape (n,).
-    messages
-        Why a point failed, by its position in `rows`.
-    seconds
-        Time that the worker took.
-    solver_version
-        Of the mechanics on the worker.
-    """
-
-    rows: IntArray
-    solution: Solution
-    failed: NDArray[np.bool_]
-    messages: dict[int, str]
-    seconds: float
-    solver_version: str
-
-    def __len__(self) -> int:
-        return len(self.rows)
-
-
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     """Solve a chunk, whatever happens to single points of it; runs in a worker."""
     from swtstudy.version import SOLVER_VERSION
@@ -132,24 +102,6 @@ def solve_points(points: Points, rtol: float) -> Solution:
     from swtstudy import mechanics
 
     return mechanics.solve_points(points, rtol)
-
-
-def blank(size: int) -> Solution:
-    """A solution without values."""
-    s, s_error, critical_x, critical_angle, s_surface = np.full((5, size), np.nan)
-    regime = np.full(size, REGIMES.index("not_finite"), np.int8)
-    return Solution(s, s_error, critical_x, critical_angle, regime, s_surface)
-
-
-def solution_at(solution: Solution, rows: NDArray) -> Solution:
-    """The solution at the given rows."""
-    return Solution(**{item.name: getattr(solution, item.name)[rows] for item in fields(Solution)})
-
-
-def joined(solutions: list[Solution]) -> Solution:
-    """Solutions one after the other as one."""
-    names = [item.name for item in fields(Solution)]
-    return Solution(**{name: np.concatenate([getattr(part, name) for part in solutions]) for name in names})
 
 
 def _checked(table: FloatArray, rtol: float, solver: Solver) -> Solution:

@@ -1,22 +1,32 @@
-"""The engine for a dask.distributed cluster (extra "distributed")."""
+"""The workers of a dask.distributed cluster (extra "distributed")."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+import asyncio
+import logging
+import threading
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future
+from typing import TYPE_CHECKING, Any
 
-from swtstudy.runner.chunk import Chunk, Solver, given_up, solve_chunk
-from swtstudy.runner.engines import LOST_WORKER, Deliver
+from distributed.comm import CommClosedError
+from distributed.scheduler import KilledWorker
+
+from swtstudy.runner.engine import WorkerError
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Client
 
-#: Chunks on their way for every thread of the cluster: enough that none waits, few to lose.
-_AHEAD = 3
+_log = logging.getLogger(__name__)
+
+#: How often it is looked whether the cluster has workers: soon enough to be read by who has just started it.
+_LOOK_SECONDS = 5.0
 
 
-class Cluster:
-    """Solves on the workers of a dask.distributed cluster, also if they come and go.
+class ClusterPool:
+    """The workers of a cluster, as they come and go, inside a with block; see `Pool`.
+
+    dask itself gives out again what a lost worker had in hand; only what outlived several workers is lost.
 
     Parameters
     ----------
@@ -24,49 +34,44 @@ class Cluster:
         Connected to the cluster; remains open.
     """
 
+    lost = KilledWorker
+
     def __init__(self, client: Client) -> None:
         self._client = client
+        self._ended = threading.Event()
 
-    def __enter__(self) -> Cluster:
+    def __enter__(self) -> ClusterPool:
+        self._executor = self._client.get_executor(pure=False)
+        threading.Thread(target=self._watch, daemon=True).start()
         return self
 
-    def __exit__(self, *_: object) -> None:
-        pass
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        self._ended.set()
+        if kind is not None and issubclass(kind, CancelledError | CommClosedError):
+            raise WorkerError("the dask scheduler is gone") from None
+        self._executor.shutdown(wait=False)
 
-    def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver) -> None:
-        """See `Engine`; dask gives out again what a lost worker had in hand."""
-        from distributed import as_completed
-        from distributed.scheduler import KilledWorker
+    def size(self) -> int:
+        """See `Pool`."""
+        return max(1, sum(self._client.nthreads().values()))
 
-        waiting = iter(chunks)
-        pending: dict[Future, Chunk] = {}
-        completed = as_completed()
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """See `Pool`."""
+        return self._executor.submit(function, *arguments)
 
-        def submit(chunk: Chunk) -> None:
-            future = self._client.submit(solve_chunk, chunk, rtol, solver, pure=False)
-            pending[future] = chunk
-            completed.add(future)
+    def renew(self) -> None:
+        """See `Pool`."""
+        self._executor.shutdown(wait=False)
+        self._executor = self._client.get_executor(pure=False)
 
-        def top_up() -> None:
-            while len(pending) < _AHEAD * max(1, sum(self._client.nthreads().values())):
-                chunk = next(waiting, None)
-                if chunk is None:
-                    return
-                submit(chunk)
-
-        try:
-            top_up()
-            for future in completed:
-                chunk = pending.pop(future)
-                try:
-                    deliver(future.result())
-                except KilledWorker:
-                    # It outlived several workers: one of its points may be what kills them.
-                    if len(chunk) == 1:
-                        deliver(given_up(chunk, LOST_WORKER))
-                    else:
-                        for part in chunk.split():
-                            submit(part)
-                top_up()
-        finally:
-            self._client.cancel(list(pending))
+    def _watch(self) -> None:
+        """Say when there are no workers: dask waits for them without a word."""
+        said = False
+        while not self._ended.wait(_LOOK_SECONDS):
+            try:
+                there = bool(self._client.nthreads())
+            except (Exception, asyncio.CancelledError):  # the scheduler is gone, which the engine finds out
+                return
+            if not there and not said:
+                _log.warning("the cluster has no workers; waiting for some")
+            said = not there

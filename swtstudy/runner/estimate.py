@@ -7,10 +7,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import group_rows
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.runner.chunk import Chunk, Result, Solver, solve_chunk
-from swtstudy.runner.plan import block_ends
+from swtstudy.records.result import Result
+from swtstudy.runner.chunk import Chunk, Solver, solve_chunk
 
 #: Kinds of points (profile and frequency ratio) that are timed, one block of each.
 _TIMED_KINDS = 4

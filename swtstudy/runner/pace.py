@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from swtstudy.runner.chunk import Result
+from swtstudy.grid.cost import SECONDS_PER_WEIGHT
+from swtstudy.records.result import Result
 
 #: Seconds of work in a chunk: long against what it costs to send one, short enough to lose.
 CHUNK_SECONDS = 0.7
 
 #: More than this in one chunk would make a part of the archive that takes long to write.
 _LARGEST_WEIGHT = 10_000
-
-#: Rough cost of a point by its weight in `plan.weights`, before any has been timed.
-SECONDS_PER_WEIGHT = 4e-3
 
 #: The first chunks are this part of the later ones: they are there to be timed, and to be saved soon.
 _FIRST_PART = 0.2

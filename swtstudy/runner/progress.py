@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable
 from typing import TextIO
 
+from swtstudy.grid.cost import duration
+
 _log = logging.getLogger(__name__)
 
 _WIDTH = 30
@@ -16,7 +18,7 @@ _WIDTH = 30
 _LINE_SECONDS, _BAR_SECONDS = 30.0, 0.1
 
 
-class Progress:
+class ProgressBar:
     """Counts points, and shows their rate and the time left.
 
     Parameters
@@ -24,7 +26,8 @@ class Progress:
     total
         Points to be computed.
     stream
-        Where the bar goes if it is a terminal; otherwise a line goes to the log every half minute.
+        Where the bar goes if it is a terminal; otherwise a line goes to the log every half minute. None, as
+        `sys.stderr` of a process without one, is no terminal.
     clock
         Seconds, increasing.
     """
@@ -34,8 +37,7 @@ class Progress:
     ) -> None:
         self.total = total
         self.done = 0
-        self._stream = sys.stderr if stream is None else stream
-        self._terminal = self._stream.isatty()
+        self._terminal = _terminal(sys.stderr if stream is None else stream)
         self._clock = clock
         self._begin = self._shown = clock()
 
@@ -43,23 +45,39 @@ class Progress:
         """Count more points as done."""
         self.done += points
         now = self._clock()
-        if now - self._shown < (_BAR_SECONDS if self._terminal else _LINE_SECONDS) and self.done < self.total:
+        every = _LINE_SECONDS if self._terminal is None else _BAR_SECONDS
+        if now - self._shown < every and self.done < self.total:
             return
-        if self._terminal:
-            self._stream.write(f"\r{bar(self.done, self.total)}  {self._words(now)}\x1b[K")
-            self._stream.flush()
+        if self._terminal is not None:
+            self._write(f"\r{bar(self.done, self.total)}  {self._words(now)}\x1b[K")
         elif now - self._begin >= _LINE_SECONDS:
             _log.info(self._words(now))
         self._shown = now
 
     def close(self) -> None:
         """End the line of the bar."""
-        if self._terminal and self.done:
-            self._stream.write("\n")
-            self._stream.flush()
+        if self.done:
+            self._write("\n")
+
+    def _write(self, text: str) -> None:
+        if self._terminal is None:
+            return
+        try:
+            self._terminal.write(text)
+            self._terminal.flush()
+        except (OSError, ValueError):
+            self._terminal = None  # closed meanwhile: no reason to stop computing
 
     def _words(self, now: float) -> str:
         return words(self.done, self.total, now - self._begin)
+
+
+def _terminal(stream: TextIO | None) -> TextIO | None:
+    """The stream, if it is a terminal; one that is not there, or closed, is none."""
+    try:
+        return stream if stream is not None and stream.isatty() else None
+    except ValueError:
+        return None
 
 
 def bar(done: int, total: int) -> str:
@@ -86,21 +104,3 @@ def words(done: int, total: int, seconds: float) -> str:
     rate = done / seconds if seconds > 0 else 0.0
     left = duration((total - done) / rate) + " left" if rate and done < total else duration(seconds)
     return f"{done} of {total} points ({100 * done / total:.0f} %), {rate:.3g}/s, {left}"
-
-
-def duration(seconds: float) -> str:
-    """Seconds as people say them.
-
-    Examples
-    --------
-    >>> duration(0.5), duration(75), duration(7500)
-    ('0.5 s', '1 min 15 s', '2 h 5 min')
-    """
-    if seconds < 10:
-        return f"{seconds:.1f} s"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"

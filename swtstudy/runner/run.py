@@ -4,27 +4,28 @@ from __future__ import annotations
 
 import logging
 import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from datetime import UTC, datetime
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.archive.files import check_writable
-from swtstudy.runner.chunk import Result, Solver, solve_points
-from swtstudy.runner.engines import Engine, Here, LocalWorkers
-from swtstudy.runner.pace import SECONDS_PER_WEIGHT, Pace
-from swtstudy.runner.plan import chunks, weights
-from swtstudy.runner.progress import Progress
-from swtstudy.runner.records import MISSING, Records, Run
+from swtstudy.grid.cost import SECONDS_PER_WEIGHT, weights
+from swtstudy.records.records import Records, Run
+from swtstudy.runner.chunk import Solver, solve_points
+from swtstudy.runner.collector import Collector
+from swtstudy.runner.cutting import chunks
+from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.work import Work, assess
+from swtstudy.runner.workers import LocalPool
 from swtstudy.study.definition import Study, require_study
 from swtstudy.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
-
-    from swtstudy.archive.parts import PartsWriter
 
 _log = logging.getLogger(__name__)
 
@@ -34,10 +35,6 @@ _SMALL_SECONDS = 1.0
 
 class Stopped(KeyboardInterrupt):
     """A run that was stopped by Ctrl-C; the message says what is saved and how to go on."""
-
-
-class SolverMismatchError(RuntimeError):
-    """Workers that have another version of the solver than this process."""
 
 
 def run(
@@ -82,130 +79,137 @@ def run(
         A ValueError, if `study` is none, or no archive can have that path.
     OSError
         If the archive cannot be written, found out before anything is computed, or if another run is
-        writing it (`LockedError`).
+        writing it (`LockedError`); on a full disk.
+    WorkerError
+        An OSError, if the scheduler of a cluster is gone, or its workers have another version of the solver
+        or none.
     ArchiveError
         A ValueError, if there is a file that is not an archive.
     Stopped
         A KeyboardInterrupt, on Ctrl-C.
+
+    What is computed by then is saved in all these cases.
     """
+    from swtstudy.archive.archive import build
     from swtstudy.archive.lock import locked
     from swtstudy.archive.names import check_archive_path
-    from swtstudy.archive.parts import parts_folder
+    from swtstudy.archive.parts import clear_unfinished, parts_folder
 
     require_study(study)
     path = Path(path)
     check_archive_path(path)
     check_writable(path)
     with locked(parts_folder(path)):
-        return _run_locked(study, path, workers, client, retry_failed, solver)
+        clear_unfinished(parts_folder(path))
+        begin = time.perf_counter()
+        work = assess(study, path, retry_failed)
+        finished = _finished(work, study, path)
+        if finished is not None:
+            return finished
+        _tell(work)
+        what = f"{work.todo} of {len(work.records)} distinct points computed"
+        with _said_what_is_saved(work, path):
+            records = _compute(work, study, path, _pool(work, workers, client), solver)
+            history, seconds = _history(what, path), time.perf_counter() - begin
+            return _leave(build(study, work.points, records.trimmed(), history, seconds), work.dropped, path)
 
 
-def _run_locked(
-    study: Study, path: Path, workers: int, client: Client | None, retry_failed: bool, solver: Solver
-) -> xr.Dataset:
-    from swtstudy.archive.archive import build, history_line, versions
-    from swtstudy.archive.files import save
-    from swtstudy.archive.parts import (
-        PartsWriter,
-        clear_parts,
-        clear_unfinished,
-        keeping,
-        kept_folder,
-        parts_folder,
-        read_parts,
-    )
+def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
+    """The archive, if it is just that of the study and nothing is left to do."""
+    from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
     from swtstudy.archive.read import read_archive
 
-    begin = time.perf_counter()
-    folder, kept = parts_folder(path), kept_folder(path)
-    clear_unfinished(folder)
-    work = assess(study, path, retry_failed)
-    records, todo = work.records, int(work.missing.sum())
-    old = read_archive(path) if path.exists() else None
-    present = read_parts(folder)
-    if todo == 0 and old is not None and old.attrs["study"] == study.text and not len(present):
-        clear_parts(folder)  # what could not be read
-        return old
-    _tell(work, todo)
-    if todo:
-        writer = PartsWriter(folder, present)
-        now = datetime.now(UTC).isoformat(timespec="seconds")
-        this = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
-        engine = _engine(work, workers, client)
-        records = _compute(records, this, engine, solver, writer, path)
-    history = history_line(f"{todo} of {len(records)} distinct points computed")
-    if old is not None:
-        history += "\n" + old.attrs["history"]
-    dataset = build(study, work.points, records.trimmed(), history, time.perf_counter() - begin)
-    try:
-        with keeping(kept, work.dropped):
-            save(dataset, path, beside=folder)
-    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter on a full disk
-        raise _interrupted(OSError(f"cannot write the archive ({error})"), records, path) from error
-    clear_parts(folder)
-    if len(work.dropped):
-        _log.info("%d points are not in this study: %s keeps them", len(work.dropped), kept)
-    return read_archive(path)
+    if work.todo or not path.exists() or len(read_parts(parts_folder(path))):
+        return None
+    archive = read_archive(path)
+    if archive.attrs["study"] != study.text:
+        return None
+    clear_parts(parts_folder(path))  # what could not be read
+    return archive
 
 
-def _tell(work: Work, todo: int) -> None:
+def _tell(work: Work) -> None:
     if work.outdated:
         _log.warning("%d points come from another version of the solver: computed anew", work.outdated)
     if work.coarse:
         _log.info("%d points are less accurate than the study asks for: computed anew", work.coarse)
-    if 0 < todo < len(work.records):
-        _log.info("%d of %d distinct points are there already", len(work.records) - todo, len(work.records))
+    if 0 < work.todo < len(work.records):
+        there = len(work.records) - work.todo
+        _log.info("%d of %d distinct points are there already", there, len(work.records))
 
 
-def _engine(work: Work, workers: int, client: Client | None) -> Engine:
+@contextmanager
+def _said_what_is_saved(work: Work, path: Path) -> Iterator[None]:
+    """However the block is stopped, its error says what is saved, and how to go on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise Stopped(f"stopped; {_saved(work, path)}; the same command goes on from there") from None
+    except OSError as error:
+        kind = WorkerError if isinstance(error, WorkerError) else OSError
+        reason = error.strerror or str(error)
+        mended = "once that is mended the same command goes on from there"
+        raise kind(f"{reason}; {_saved(work, path)}; {mended}") from error
+
+
+def _saved(work: Work, path: Path) -> str:
+    # What a run computes is filled in in place.
+    saved = len(work.records) - work.todo
+    return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
+
+
+def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextManager[Pool | None]:
+    """The workers for a run; none where this process alone is faster."""
     if client is not None:
-        from swtstudy.runner.cluster import Cluster
+        from swtstudy.runner.cluster import ClusterPool
 
-        return Cluster(client)
+        return ClusterPool(client)
     seconds = weights(work.points.table[work.missing]).sum() * SECONDS_PER_WEIGHT
-    return Here() if workers < 2 or seconds < _SMALL_SECONDS else LocalWorkers(workers)
+    if workers < 2 or seconds < _SMALL_SECONDS:
+        return nullcontext()
+    return LocalPool(workers)
 
 
 def _compute(
-    records: Records, this: Run, engine: Engine, solver: Solver, writer: PartsWriter, path: Path
+    work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
 ) -> Records:
-    """The records with all that was missing; every result is a part as soon as it is delivered."""
-    missing = records.status == MISSING
-    weight = weights(records.table)
-    progress, pace = Progress(int(missing.sum())), Pace()
+    """The records with all that was missing."""
+    from swtstudy.archive.archive import versions
+    from swtstudy.archive.parts import PartsWriter, parts_folder
 
-    def deliver(result: Result) -> None:
-        nonlocal records
-        if result.solver_version != SOLVER_VERSION:
-            raise SolverMismatchError(
-                f"a worker has version {result.solver_version} of the solver, this machine {SOLVER_VERSION}"
-            )
-        part = Records.of(result, records.table[result.rows], this)
-        writer.add(part)
-        records = records.put(result.rows, part)
-        pace.update(result, int(weight[result.rows].sum()))
-        progress.add(len(result))
+    if not work.todo:
+        return work.records
+    writer = PartsWriter(parts_folder(path))
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    collector = Collector(work.records, Run(SOLVER_VERSION, study.rtol, study.text, versions(), now), writer)
+    todo = chunks(work.points.table, work.missing, collector.pace.chunk_weight)
+    with collector, workers as pool:
+        solve(todo, study.rtol, solver, collector.add, pool)
+    return collector.records
 
+
+def _history(what: str, path: Path) -> str:
+    """What was done, and before that what the archive that is there says of itself."""
+    from swtstudy.archive.archive import history_line
+    from swtstudy.archive.read import read_archive
+
+    before = [read_archive(path).attrs["history"]] if path.exists() else []
+    return "\n".join([history_line(what), *before])
+
+
+def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
+    """Write the archive, which takes the place of the parts, and keep what is not in it."""
+    from swtstudy.archive.files import save
+    from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
+    from swtstudy.archive.read import read_archive
+
+    folder, kept = parts_folder(path), kept_folder(path)
     try:
-        with engine:
-            engine.solve(chunks(records.table, missing, pace.chunk_weight), this.rtol, solver, deliver)
-    except KeyboardInterrupt:
-        raise Stopped(f"stopped; {_saved(records, path)}; the same command goes on from there") from None
-    except OSError as error:
-        raise _interrupted(error, records, path) from error
-    finally:
-        progress.close()
-    return records
-
-
-def _interrupted(error: OSError, records: Records, path: Path) -> OSError:
-    """Such as a full disk, or a scheduler that is gone: what is saved, and how to go on."""
-    reason = error.strerror or str(error)
-    return OSError(
-        f"{reason}; {_saved(records, path)}; once that is mended the same command goes on from there"
-    )
-
-
-def _saved(records: Records, path: Path) -> str:
-    saved = int((records.status != MISSING).sum())
-    return f"{saved} of {len(records)} distinct points are saved beside {path}"
+        with keeping(kept, dropped):
+            save(dataset, path, beside=folder)
+    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter on a full disk
+        raise OSError(f"cannot write the archive ({error})") from error
+    clear_parts(folder)
+    if len(dropped):
+        _log.info("%d points are not in this study: %s keeps them", len(dropped), kept)
+    return read_archive(path)

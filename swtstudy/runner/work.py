@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import group_rows
+from swtstudy.grid.unique import UniquePoints, unique_points
 from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.runner.plan import UniquePoints, unique_points
-from swtstudy.runner.records import MISSING, Records, look_up
+from swtstudy.records.records import MISSING, Records, look_up
 from swtstudy.study.definition import Study
 from swtstudy.version import SOLVER_VERSION
 
@@ -27,7 +27,7 @@ class Work:
     known
         All records at the place of the archive.
     records
-        The records of the points that can be used, "missing" for the others.
+        The records of the points that can be used, "missing" for the others; a run fills them in place.
     dropped
         The records at that place of points that the study does not have.
     outdated, coarse
@@ -45,6 +45,11 @@ class Work:
     def missing(self) -> NDArray[np.bool_]:
         """Which points are to be computed."""
         return self.records.status == MISSING
+
+    @property
+    def todo(self) -> int:
+        """Number of points that are to be computed."""
+        return int(self.missing.sum())
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:

@@ -8,12 +8,53 @@ import signal
 import sys
 import threading
 import types
-from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from typing import Any
 
 #: Two workers with two BLAS threads each would fight for two cores.
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+class LocalPool:
+    """Worker processes of this machine, inside a with block; the `Pool` of a run without a cluster.
+
+    Parameters
+    ----------
+    count
+        Number of worker processes.
+    """
+
+    lost = BrokenProcessPool
+
+    def __init__(self, count: int) -> None:
+        self._count = count
+
+    def __enter__(self) -> LocalPool:
+        self._executor = start_workers(self._count)
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None:
+            # What they have in hand is lost anyway, and a second Ctrl-C must not find us waiting for it.
+            kill_workers(self._executor)
+        # Workers end while the archive is written.
+        self._executor.shutdown(wait=False, cancel_futures=True)
+
+    def size(self) -> int:
+        """See `Pool`."""
+        return self._count
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """See `Pool`."""
+        return self._executor.submit(function, *arguments)
+
+    def renew(self) -> None:
+        """See `Pool`; one lost worker breaks the executor for all."""
+        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor = start_workers(self._count)
 
 
 def start_workers(count: int) -> ProcessPoolExecutor:
@@ -54,7 +95,11 @@ def _warm_up() -> None:
 
 @contextmanager
 def _clean_start() -> Iterator[None]:
-    """One thread each, and without the calling script: a spawned process would import it once more."""
+    """One thread each, and without the calling script.
+
+    Spawned and forkserver processes import the script that calls, before any initializer can run: without
+    ``if __name__ == "__main__"`` that script would start its run once more in every worker.
+    """
     before = {name: os.environ.get(name) for name in THREAD_VARIABLES}
     main = sys.modules["__main__"]
     os.environ.update(dict.fromkeys(THREAD_VARIABLES, "1"))

@@ -47,8 +47,7 @@ def _size(study: Study) -> str:
 
 def _cost(study: Study) -> str:
     """From the number of points and the lengths of their cycles alone; symmetry can only make it less."""
-    from swtstudy.runner.pace import SECONDS_PER_WEIGHT
-    from swtstudy.runner.progress import duration
+    from swtstudy.grid.cost import SECONDS_PER_WEIGHT, duration
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
     weight = sum(p + q for p, q in ratios) / len(ratios)

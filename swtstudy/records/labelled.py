@@ -13,7 +13,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.parameters import PARAMETERS
-from swtstudy.runner.records import STATES
+from swtstudy.records.records import STATES
 
 #: Attributes of the data variables, after the CF conventions.
 ATTRIBUTES: dict[str, dict[str, Any]] = {

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
-from swtstudy.runner.chunk import Result, blank, joined, solution_at
+from swtstudy.records.result import Result
+from swtstudy.records.solutions import blank, joined, solution_at
 
 #: States of a point, in the order of their flag values.
 STATES = ("computed", "failed", "missing")

@@ -1,0 +1,36 @@
+"""What points cost to compute, and such times in words."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.grid.canonical import COLUMNS
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+_P, _Q = COLUMNS.index("p"), COLUMNS.index("q")
+
+#: Rough cost of a point by its weight, before any has been timed.
+SECONDS_PER_WEIGHT = 4e-3
+
+
+def weights(table: FloatArray) -> IntArray:
+    """Rough relative cost of points: long cycles cost more."""
+    return (table[:, _P] + table[:, _Q]).astype(np.int64)
+
+
+def duration(seconds: float) -> str:
+    """Seconds as people say them.
+
+    Examples
+    --------
+    >>> duration(0.5), duration(75), duration(7500)
+    ('0.5 s', '1 min 15 s', '2 h 5 min')
+    """
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"

@@ -1,0 +1,66 @@
+"""The distinct canonical points behind a grid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.grid import Grid
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+#: Columns that make the load.
+_LOAD = slice(COLUMNS.index("p"), COLUMNS.index("phase") + 1)
+
+#: More grid points than this need more memory than most machines have (about 0.3 kB each).
+LARGEST_GRID = 50_000_000
+
+#: Grid points that are made canonical at once.
+_SLAB = 100_000
+
+
+@dataclass(frozen=True)
+class UniquePoints:
+    """The distinct canonical points behind a grid.
+
+    Attributes
+    ----------
+    table
+        Shape (m, len(COLUMNS)), sorted by profile and frequency ratio, then by load.
+    index
+        Shape (grid.size,): row of `table` for every grid point.
+    mirrored
+        Shape (grid.size,): True where x is mirrored with respect to that row.
+    """
+
+    table: FloatArray
+    index: IntArray
+    mirrored: NDArray[np.bool_]
+
+
+def unique_points(grid: Grid) -> UniquePoints:
+    """The distinct canonical points of a grid, in the order in which they are best computed.
+
+    Raises
+    ------
+    ValueError
+        If it has more than `LARGEST_GRID` points.
+    """
+    if grid.size > LARGEST_GRID:
+        found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
+        raise ValueError(f"{found}; swtstudy audit samples them")
+    rows = np.empty((grid.size, len(COLUMNS)))
+    mirrored = np.empty(grid.size, bool)
+    # In slabs: the working memory for a point is several times that of its row.
+    for start in range(0, grid.size, _SLAB):
+        stop = min(start + _SLAB, grid.size)
+        rows[start:stop], mirrored[start:stop] = grid.canonical(start, stop)
+    first, index = group_rows(rows)
+    return UniquePoints(rows[first], index, mirrored)
+
+
+def loads(table: FloatArray) -> int:
+    """Number of distinct loads, each of which needs one contact solution."""
+    return len(group_rows(table[:, _LOAD])[0])

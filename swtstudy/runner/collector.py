@@ -1,0 +1,63 @@
+"""Taking results: each is safe in a part of the archive before it counts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from swtstudy.grid.cost import weights
+from swtstudy.records.records import MISSING, Records, Run
+from swtstudy.records.result import Result
+from swtstudy.runner.engine import WorkerError
+from swtstudy.runner.pace import Pace
+from swtstudy.runner.progress import ProgressBar
+from swtstudy.version import SOLVER_VERSION
+
+if TYPE_CHECKING:
+    from swtstudy.archive.parts import PartsWriter
+
+
+class Collector:
+    """Fills the results of a run into records; its progress is shown inside a with block.
+
+    Parameters
+    ----------
+    records
+        Of all points of the run; filled in place.
+    run
+        What makes the results.
+    writer
+        Writes them as parts.
+    """
+
+    def __init__(self, records: Records, run: Run, writer: PartsWriter) -> None:
+        self.records = records
+        self.pace = Pace()
+        self._run = run
+        self._writer = writer
+        self._weights = weights(records.table)
+        self._bar = ProgressBar(int((records.status == MISSING).sum()))
+
+    def __enter__(self) -> Collector:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.close()
+
+    def add(self, result: Result) -> None:
+        """Take one more result.
+
+        Raises
+        ------
+        WorkerError
+            If it comes from another version of the solver.
+        OSError
+            If it cannot be saved.
+        """
+        if result.solver_version != SOLVER_VERSION:
+            found = f"a worker has version {result.solver_version} of the solver"
+            raise WorkerError(f"{found}, this machine {SOLVER_VERSION}")
+        part = Records.of(result, self.records.table[result.rows], self._run)
+        self._writer.add(part)
+        self.records = self.records.put(result.rows, part)
+        self.pace.update(result, int(self._weights[result.rows].sum()))
+        self._bar.add(len(result))

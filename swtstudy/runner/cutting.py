@@ -1,0 +1,44 @@
+"""Cutting what is to be computed into chunks of whole blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.blocks import block_ends
+from swtstudy.grid.cost import weights
+from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.runner.chunk import Chunk
+
+
+def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
+    """Chunks of the wanted points of a table: whole blocks, about `size()` in weight when cut.
+
+    Parameters
+    ----------
+    table
+        Canonical rows in the order of `unique_points`.
+    wanted
+        Shape (len(table),): the points to be solved.
+    size
+        Asked anew for every chunk.
+    """
+    weight = weights(table)
+    blocks: list[IntArray] = []
+    heaviness = 0
+    begin = 0
+    for end in block_ends(table).tolist():
+        rows = begin + np.flatnonzero(wanted[begin:end])
+        begin = end
+        if not len(rows):
+            continue
+        block_weight = int(weight[rows].sum())
+        if blocks and heaviness + block_weight > size():
+            yield Chunk.of(table, blocks)
+            blocks, heaviness = [], 0
+        blocks.append(rows)
+        heaviness += block_weight
+    if blocks:
+        yield Chunk.of(table, blocks)
