@@ -147,6 +147,14 @@ def test_waves_too_short_to_follow_are_left_out_of_fields_too():
     np.testing.assert_allclose(wavy.sigma_xx, smooth.sigma_xx, rtol=1e-9)
 
 
+def test_nonlocal_values_of_one_point():
+    """All parameters single values: the same numbers as along an axis, without its dimension."""
+    one = swtstudy.nonlocal_swt(0.05)
+    assert one.s_volume.dims == ("critical_distance",)
+    for name, values in swtstudy.nonlocal_swt(0.05, friction=[0.3]).squeeze("friction").items():
+        np.testing.assert_array_equal(one[name], values)
+
+
 def test_nonlocal_values_tend_to_s():
     dataset = swtstudy.nonlocal_swt([1e-8, 0.05], friction=[0.4])
     assert dataset.s_volume.dims == ("friction", "critical_distance")

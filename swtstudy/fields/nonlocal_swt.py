@@ -49,7 +49,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     volume = np.full((*shape, distance.size), np.nan)
     point, line = (np.full((*shape, distance.size, len(DIRECTIONS)), np.nan) for _ in range(2))
     # Where s is not finite there is no critical point.
-    for index in zip(*np.nonzero(np.isfinite(dataset.critical_x.values)), strict=True):
+    for index in map(tuple, np.argwhere(np.isfinite(dataset.critical_x.values))):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         values = {name: one[name].item() for name in PARAMETERS if name in one.coords}
         volume[index], point[index], line[index] = _of_point(values, float(one.critical_x), distance)
