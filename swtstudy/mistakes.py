@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from numbers import Real
+from typing import TypeGuard
 
 
 @dataclass(frozen=True)
@@ -61,10 +62,16 @@ def literal(value: object, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+def is_number(value: object) -> TypeGuard[Real]:
+    """Whether a value is a real number, and neither a truth value nor a time."""
+    # NumPy's bool is no Real, Python's is; and so is NumPy's timedelta64, told here without its import.
+    is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
+    return isinstance(value, Real) and not isinstance(value, bool) and not is_time
+
+
 def plain_number(value: object) -> float:
     """A plain number as a float; NaN, which no range holds, for all else."""
-    # NumPy's bool is no Real, Python's is.
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if not is_number(value):
         return math.nan
     try:
         return float(value)

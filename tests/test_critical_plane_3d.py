@@ -66,6 +66,10 @@ def test_never_less_than_the_search_in_the_plane_of_sliding():
     ("changes", "words"),
     [
         ({"stress": [[0] * 6, [np.nan] * 6]}, "stress: found 6 components that are not finite"),
+        (
+            {"stress": np.ma.array(np.eye(2, 6) * 9.0, mask=np.eye(2, 6))},
+            "stress: found 2 components that are not finite or masked; allowed: finite numbers",
+        ),
         ({"stress": np.zeros((2, 5))}, r"stress: found the shape \(2, 5\); allowed: \(..., time, 6\)"),
         ({"stress": np.zeros(6)}, r"the shape \(6,\)"),
         ({"stress": np.zeros((0, 6))}, r"the shape \(0, 6\)"),
@@ -74,6 +78,7 @@ def test_never_less_than_the_search_in_the_plane_of_sliding():
         ({"poisson_ratio": None}, "poisson_ratio: found None"),
         ({"youngs_modulus": 0}, "youngs_modulus: found 0; allowed: a positive number"),
         ({"youngs_modulus": np.nan}, "youngs_modulus: found nan"),
+        ({"youngs_modulus": np.timedelta64(1, "s")}, "youngs_modulus: found"),
     ],
 )
 def test_mistakes_are_named(changes, words):

@@ -1,5 +1,7 @@
 """Labelled fields of one parameter point against s and against one another."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,6 +14,7 @@ from swtstudy.mechanics.body_maximum import body_maximum
 from swtstudy.mechanics.instants import Nodes
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.surface_stress import SurfaceLine, stresses
+from swtstudy.mistakes import StudyError
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():
@@ -125,9 +128,63 @@ def test_slip_map():
         )
 
 
+NO_NUMBERS = {
+    "complex": 1j,
+    "text": "1/2",
+    "truth value": True,
+    "nothing": None,
+    "ragged": [[1.0], [1.0, 2.0]],
+    "time": np.timedelta64(1, "s"),
+    "times": np.array([1, 2], dtype="timedelta64[s]"),
+    "a time among numbers": [Fraction(1, 2), np.timedelta64(1, "s")],
+}
+PUBLIC = {
+    "x": lambda value: swtstudy.stress_field(value, 0.0, 0.0, time=0.0),
+    "y": lambda value: swtstudy.swt_field(0.0, value, 0.0),
+    "time": lambda value: swtstudy.stress_field(0.0, 0.0, 0.0, time=[value]),
+    "r": swtstudy.slip_map,
+    "critical_distance": swtstudy.nonlocal_swt,
+    "stress": lambda value: swtstudy.swt_of_history(value, 0.3),
+    "phase": lambda value: swtstudy.inspect_point(phase=f"{value}!" if isinstance(value, str) else value),
+}
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
+@pytest.mark.parametrize("key", PUBLIC)
+def test_what_is_no_number_is_one_mistake(key, value):
+    with pytest.raises(StudyError, match=rf"^{key}: found .*; allowed: [^\n]*$"):
+        PUBLIC[key](value)
+
+
+def test_every_wrong_position_is_named():
+    with pytest.raises(StudyError) as error:
+        swtstudy.stress_field(1j, "a", np.nan)
+    assert [mistake.key for mistake in error.value.mistakes] == ["x", "y", "z"]
+
+
+def test_fractions_and_objects_are_numbers():
+    third = Fraction(1, 3)
+    exact = swtstudy.stress_field(third, [third, 1], np.array([third], dtype=object), time=third)
+    xr.testing.assert_identical(exact, swtstudy.stress_field(1 / 3, [1 / 3, 1.0], [1 / 3], time=1 / 3))
+
+
+@pytest.mark.parametrize("field", [swtstudy.stress_field, swtstudy.swt_field])
+def test_positions_agree_in_their_coordinates(field):
+    def positions(places):
+        return xr.DataArray([0.1, 0.2], dims="point", coords={"point": places})
+
+    for other in (positions([1, 2]), positions([1, 0]), xr.DataArray([0.1] * 3, dims="point")):
+        with pytest.raises(StudyError, match="x, y, z: found DataArrays that do not fit together"):
+            field(positions([0, 1]), other, 0.1)
+    across = xr.DataArray([0.3, 0.4, 0.5], dims="other")
+    spanned = field(positions([0, 1]), across, 0.1)
+    assert spanned.sizes["point"] == 2
+    assert spanned.sizes["other"] == 3
+
+
 @pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], [0.5, -0.1], np.inf, np.ma.array([0.5], mask=[1])])
 def test_distances_of_a_slip_map_are_checked(r):
-    with pytest.raises(ValueError, match="r: allowed: a finite distance r ≥ 0 in a_H"):
+    with pytest.raises(ValueError, match=r"r: found .*; allowed: a finite distance r ≥ 0 in a_H"):
         swtstudy.slip_map(r)
 
 

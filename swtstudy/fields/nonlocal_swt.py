@@ -8,10 +8,11 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import numbers
+from swtstudy.fields.places import read_distances
 from swtstudy.mechanics.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS
 from swtstudy.solving import solve
 
@@ -41,9 +42,10 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
         s_line over these and direction: straight down, or along the critical plane into the body. Averages
         are accurate to about 5e-3, and NaN where s is.
     """
-    distance = np.atleast_1d(numbers(critical_distance))
-    if distance.ndim != 1 or not np.isfinite(distance).all() or (distance <= 0.0).any():
-        raise ValueError("critical_distance: allowed: finite numbers ℓ/a_H > 0")
+    allowed = "finite numbers ℓ/a_H > 0"
+    distance = read_distances("critical_distance", critical_distance, allowed)
+    if (distance <= 0.0).any():
+        raise StudyError([Mistake("critical_distance", literal(critical_distance), allowed)])
     dataset = solve(**parameters)
     dims, shape = dataset.s.dims, dataset.s.shape
     volume = np.full((*shape, distance.size), np.nan)

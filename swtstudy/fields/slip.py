@@ -8,7 +8,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import numbers, read_time
+from swtstudy.fields.places import read_distances, read_time
+from swtstudy.mistakes import Mistake, StudyError, literal
 
 #: In the order of the flag values.
 STATES = ("open", "stick", "forward_slip", "backward_slip")
@@ -40,9 +41,10 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     scene = read_scene(parameters)
     cycle, profile = scene.cycle, scene.profile
     instants, nodes = read_time(scene, time)
-    distances = np.atleast_1d(numbers(r))
-    if distances.ndim > 1 or distances.size == 0 or not (np.isfinite(distances) & (distances >= 0.0)).all():
-        raise ValueError("r: allowed: a finite distance r ≥ 0 in a_H or a sequence of them")
+    allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
+    distances = read_distances("r", r, allowed)
+    if (distances < 0.0).any():
+        raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
     states = cycle.states(nodes.interval[None], nodes.instant[None])

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from numbers import Rational, Real
+from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
+from swtstudy.mistakes import is_number
 from swtstudy.parameters import PROFILE_SHAPES, Parameter
 
 #: A checked value: a float, an exact frequency ratio, or the name of a profile.
@@ -57,8 +58,7 @@ def _read_profile(raw: object) -> str:
 def _read_exact(raw: object) -> Fraction | float:
     if isinstance(raw, str):
         return evaluate(raw)
-    # NumPy's bool is no Real, Python's is.
-    if isinstance(raw, bool) or not isinstance(raw, Real):
+    if not is_number(raw):
         raise ValueError("not a number")
     if isinstance(raw, Rational):
         value: Fraction | float = Fraction(int(raw.numerator), int(raw.denominator))

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.profiles import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.numbers import read_numbers
 from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.moduli import Moduli
 
@@ -164,7 +165,7 @@ class PhysicalContact:
 
         Also from non-local values, or from s_local of `swtstudy.swt_field`.
         """
-        return np.asarray(s, dtype=float) * self.swt_scale * self.moduli.swt_share(body)
+        return read_numbers("s", s, "numbers") * self.swt_scale * self.moduli.swt_share(body)
 
     def solve(self, rtol: float = 1e-4) -> xr.Dataset:
         """s and SWT of both bodies.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.numbers import read_numbers
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
@@ -55,7 +56,7 @@ class FatigueConstants:
         return np.asarray(elastic + self.strength * self.ductility * reversals ** (b + c))
 
     def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
-        """Cycles N to the initiation of a crack at a given SWT; inf where it is 0, NaN where it is NaN.
+        """Cycles N to the initiation of a crack at a given SWT.
 
         The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
@@ -67,6 +68,11 @@ class FatigueConstants:
         ----------
         swt
             SWT in the unit of stress of the constants.
+
+        Returns
+        -------
+        cycles
+            Of the shape of ``swt``; inf where that is 0, NaN where it is NaN or masked.
 
         Raises
         ------
@@ -97,10 +103,7 @@ class FatigueConstants:
 
 
 def _not_negative(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    try:
-        numbers = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise StudyError([Mistake(name, literal(values), "numbers ≥ 0")]) from None
+    numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
         raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
     return numbers

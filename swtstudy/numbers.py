@@ -1,0 +1,43 @@
+"""Arrays of numbers as a user gives them: masked values are NaN, and what is no number is a mistake."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
+
+
+def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
+    """Numbers of any shape as floats.
+
+    Parameters
+    ----------
+    key, allowed
+        Where the values come from and what is allowed there, for the message.
+    values
+        A number, also a Fraction, or nested sequences or an array of them.
+
+    Returns
+    -------
+    array
+        NaN where a value is masked.
+
+    Raises
+    ------
+    StudyError
+        If there is anything but real numbers: text, truth values, complex numbers, times, ragged sequences.
+    """
+    mistake = StudyError([Mistake(key, literal(values), allowed)])
+    try:
+        array: np.ma.MaskedArray = np.ma.asarray(values)
+    except (TypeError, ValueError):
+        raise mistake from None
+    if array.dtype.kind == "O":
+        known = np.ma.filled(array, np.nan)
+        if not all(map(is_number, known.flat)):
+            raise mistake
+        return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
+    if array.dtype.kind not in "iuf":
+        raise mistake
+    return np.asarray(np.ma.filled(array.astype(float), np.nan))
