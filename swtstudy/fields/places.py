@@ -48,7 +48,12 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
         raise StudyError([Mistake("z", found, "depths z ≥ 0 into the body")])
-    placed = xr.broadcast(*arrays)
+    try:
+        placed = xr.broadcast(*xr.align(*arrays, join="exact"))
+    except ValueError as error:
+        found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
+        allowed = "the same coordinates along the dimensions that they share"
+        raise StudyError([Mistake("x, y, z", found, allowed)]) from None
     return placed[0], placed[1], placed[2]
 
 
