@@ -1,11 +1,13 @@
 """Labelled fields of one parameter point against s and against one another."""
 
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
 import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
+from scenes import PROFILE_NAMES, random_points
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
@@ -23,10 +25,78 @@ def test_stress_field_has_the_dimensions_of_its_positions():
     assert grid.sigma_xx.shape == (2, 3, 2)
     assert grid.y.ndim == 0
     line = xr.DataArray(np.linspace(0, 1, 5), dims="point")
-    points = swtstudy.stress_field(line, 0.1, line, frequency_ratio="3/2")
+    points = swtstudy.stress_field(line, 0.1, line, time=[4.0], frequency_ratio="3/2")
     assert points.sigma_xz.dims == ("time", "point")
-    assert points.time.values[-1] < 4 * np.pi
     assert swtstudy.stress_field(0, 0, 1, time=0.3).sigma_zz.ndim == 0
+
+
+def test_each_position_has_its_own_instants():
+    place = xr.DataArray([0.9, -0.3], dims="point", coords={"point": [7, 8]})
+    own = swtstudy.stress_field(place, 0.0, [0.0, 0.2], frequency_ratio="3/2")
+    for values in (own.sigma_xz, own.time, own.contact_radius):
+        assert values.dims == ("instant", "point", "z")
+    assert (own.time.diff("instant") >= 0.0).all()
+    assert float(own.time.max()) == pytest.approx(4 * np.pi)
+    for point, z in ((7, 0.2), (8, 0.0)):
+        one = own.sel(point=point, z=z)
+        same = swtstudy.stress_field(float(one.x), 0.0, z, time=one.time.values, frequency_ratio="3/2")
+        for name in own:
+            np.testing.assert_allclose(one[name], same[name], atol=1e-8)
+    for name in ("time", "instant"):
+        with pytest.raises(StudyError, match=f"x, y, z: found a dimension named {name}"):
+            swtstudy.stress_field(xr.DataArray([0.0], dims=name), 0.0, 0.0)
+
+
+def swt_of(field, poisson_ratio=0.3):
+    """swt of the histories of a stress field."""
+    names = [f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy")]
+    stress = np.stack([np.moveaxis(field[name].values, 0, -1) for name in names], axis=-1)
+    return swtstudy.swt_of_history(stress, poisson_ratio, 1.0 - poisson_ratio**2).swt
+
+
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
+def test_the_instants_of_a_position_make_its_swt(profile):
+    batch = random_points(11, 3, profile, 3)
+    for k in range(3):
+        ratio = Fraction(int(batch.p[k]), int(batch.q[k]))
+        names = ("poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase")
+        numbers = {name: float(getattr(batch, name)[k]) for name in names}
+        shape = {name: float(values[k]) for name, values in batch.shape.items()}
+        parameters = {"profile": profile, "frequency_ratio": ratio, **numbers, **shape}
+        solved = swtstudy.solve(rtol=1e-5, **parameters)
+        field = swtstudy.stress_field(float(solved.critical_x), 0.0, 0.0, **parameters)
+        assert float(swt_of(field, numbers["poisson_ratio"])) == pytest.approx(float(solved.s), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "low"),
+    [
+        ({"frequency_ratio": "1/2", "phase": 0.3}, {64: 0.207, 512: 0.068}),
+        ({"normal_amplitude": 8 / 9, "phase": 2.6}, {64: 0.232, 512: 0.102}),
+    ],
+)
+def test_what_evenly_spread_instants_cost(parameters, low):
+    """What the docstring of stress_field says."""
+    solved = swtstudy.solve(**parameters)
+    x, s = float(solved.critical_x), float(solved.s)
+    own = swtstudy.stress_field(x, 0.0, 0.0, **parameters)
+    assert float(swt_of(own)) == pytest.approx(s, rel=1e-5)
+    period = 4 * np.pi if "frequency_ratio" in parameters else 2 * np.pi
+    for count, share in low.items():
+        even = swtstudy.stress_field(x, 0.0, 0.0, time=period * np.arange(count) / count, **parameters)
+        assert 1.0 - float(swt_of(even)) / s == pytest.approx(share, abs=2e-3)
+
+
+def test_memory_grows_with_the_instants_alone():
+    """Not with their square: 4,000 once took 2 GB at one point."""
+    peaks = []
+    for count in (10, 1000, 4000):
+        tracemalloc.start()  # at first also what the first call makes once
+        swtstudy.stress_field(0.4, 0.0, 0.1, time=np.linspace(0.0, 6.0, count), phase=0.5)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 10e6
+    assert peaks[2] - peaks[1] < 3000 * 500
 
 
 def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():

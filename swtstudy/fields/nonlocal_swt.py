@@ -7,16 +7,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import read_distances
-from swtstudy.mechanics.body import Body, closer_nodes, time_nodes
+from swtstudy.mechanics.body import Body
 from swtstudy.mechanics.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS
 from swtstudy.solving import solve
 
-_CELLS, _STEPS = 60, 10
+_CELLS = 60
 DIRECTIONS = ("depth", "critical_plane")
 _MEANINGS = {
     "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
@@ -75,8 +76,7 @@ def _of_point(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Volume mean, point and line values of one parameter point, shapes (k,), (k, 2) and (k, 2)."""
     scene = read_scene(parameters)
-    nodes = closer_nodes(scene, time_nodes(scene, _STEPS, [abs(x)]), (x, 0.0, 0.0), _CELLS, looks=2)
-    body = Body.of(scene, nodes, _CELLS)
+    body = Body.of(scene, decisive_nodes(scene, (x, 0.0, 0.0)), _CELLS)
     down = np.array([0.0, 0.0, 1.0])
     directions = down, critical_direction(body.swt(x, 0.0, 0.0).normal)
     point = np.stack([at_distance(body, x, direction, distance) for direction in directions], axis=-1)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 import numpy as np
 import xarray as xr
 
@@ -16,9 +18,6 @@ _NAMES = {
     "y": "position across the direction of sliding",
     "z": "depth",
 }
-
-#: Instants of a cycle unless others are asked for.
-DEFAULT_INSTANTS = 64
 
 
 def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
@@ -90,7 +89,7 @@ def _coordinate(name: str, values: object) -> xr.DataArray:
     return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
-def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNodes]:
+def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
     """Instants of the stationary cycle.
 
     Parameters
@@ -98,21 +97,23 @@ def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNode
     scene
         A batch of one point.
     time
-        ω1 t in rad, a number or a one-dimensional sequence; by default `DEFAULT_INSTANTS` over one common
-        period. The cycle repeats itself with the period 2πq, where ω2/ω1 = p/q.
+        ω1 t in rad, a number or a one-dimensional sequence. The cycle repeats itself with the period 2πq,
+        where ω2/ω1 = p/q.
 
     Returns
     -------
     time, nodes
         ω1 t, and the same instants of the cycle in the order of time.
     """
-    q = scene.cycle.protocol.q
-    if time is None:
-        time = 2.0 * np.pi * q * np.arange(DEFAULT_INSTANTS) / DEFAULT_INSTANTS
     allowed = "a finite number or a sequence of them, ω1 t in rad"
     array = read_numbers("time", time, allowed)
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise StudyError([Mistake("time", literal(time), allowed)])
-    nodes = nodes_at(scene, np.mod(array.ravel() / q, 2.0 * np.pi))
+    nodes = nodes_at(scene, np.mod(array.ravel() / scene.cycle.protocol.q, 2.0 * np.pi))
+    return label_time(array, ("time",) * array.ndim), nodes
+
+
+def label_time(time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+    """Instants ω1 t with their meaning."""
     attributes = {"long_name": "omega1 t, in the stationary cycle", "units": "rad", "symbol": r"\omega_1 t"}
-    return xr.DataArray(array, dims=("time",) * array.ndim, attrs=attributes), nodes
+    return xr.DataArray(time, dims=dims, attrs=attributes)

@@ -11,6 +11,8 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import read_distances, read_time
 from swtstudy.mistakes import Mistake, StudyError, literal
 
+#: Instants of a cycle unless others are asked for.
+_INSTANTS = 64
 #: In the order of the flag values.
 STATES = ("open", "stick", "forward_slip", "backward_slip")
 
@@ -23,7 +25,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     r
         Distance from the axis in a_H, a number or a one-dimensional sequence.
     time
-        ω1 t in rad, as for `swtstudy.stress_field`.
+        ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each.
 
@@ -40,6 +42,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     """
     scene = read_scene(parameters)
     cycle, profile = scene.cycle, scene.profile
+    if time is None:
+        time = 2.0 * np.pi * cycle.protocol.q * np.arange(_INSTANTS) / _INSTANTS
     instants, nodes = read_time(scene, time)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = read_distances("r", r, allowed)
