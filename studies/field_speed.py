@@ -16,6 +16,7 @@ import numpy as np
 from swtstudy.mechanics import solve_points, surface_circle
 from swtstudy.mechanics.body import Body, nodes_at, scene_of
 from swtstudy.mechanics.critical_plane_3d import highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.field import contact_states
 from swtstudy.mechanics.hemisphere import hemisphere
 from swtstudy.mechanics.points import Points
 
@@ -25,7 +26,7 @@ with warnings.catch_warnings():
 
 FRICTION, POISSON = 0.3, 0.3
 P0 = 2 / np.pi
-PLAIN_PLANES = 281
+PLAIN_PLANES, CELLS = 281, 200
 INSTANTS, GRID, LAYERS, WIDTH, DEPTH = 64, 128, 32, 6.0, 1.5
 
 
@@ -40,11 +41,13 @@ def timed(call, repeats=3):
 
 
 def table_1(instant):
-    """Table 1 at the given instants; at ψ = 0 all slopes of the memory diagram are −1, 0 or 1."""
+    """Table 1 at the given instants, and its contact states: all slopes are −1, 0 or 1 at ψ = 0."""
     values = (np.array([v]) for v in (POISSON, FRICTION, 0.75))
     ratio = np.array([1]), np.array([1])
     scene = scene_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
-    return Body.of(scene, nodes_at(scene, instant), cells=200)
+    nodes = nodes_at(scene, instant)
+    states = contact_states(scene.cycle, scene.profile, nodes.interval, nodes.instant, CELLS)
+    return Body(scene, nodes, CELLS), states
 
 
 def jumps(states, instant):
@@ -98,14 +101,14 @@ class Tamaas:
 
 def report():
     """The table, as lines of Markdown."""
-    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
+    body, states = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
     axis = (np.arange(GRID) - GRID // 2) * WIDTH / GRID
     inside = np.flatnonzero(np.abs(axis) < 1.5)
     layers = np.arange(1, LAYERS - 8, 3)
     grid = np.meshgrid(np.linspace(0.0, DEPTH, LAYERS)[layers], axis[inside], axis[inside], indexing="ij")
     z, x, y = (v.ravel() for v in grid)
     ours, our_time = timed(lambda: body.stress(x, y, z))
-    hamilton, hamilton_time = timed(lambda: by_hamilton(body.states, x, y, z), repeats=1)
+    hamilton, hamilton_time = timed(lambda: by_hamilton(states, x, y, z), repeats=1)
     values = ours.size // 6
     # Hamilton's formulas cancel next to the axis.
     off_axis = np.hypot(x, y) > 0.1
@@ -124,7 +127,7 @@ def report():
     except ImportError:
         return [*lines, "", "tamaas is not installed (extra `bench`)."]
     instant = INSTANTS // 4
-    stress, tamaas_time = timed(lambda: half_space.solve(body.states, instant))
+    stress, tamaas_time = timed(lambda: half_space.solve(states, instant))
     away = np.abs(stress[np.ix_(layers, inside, inside)].reshape(-1, 6) - ours[:, instant]).max()
     return [
         *lines,
@@ -146,7 +149,7 @@ def plain_search(stress, normals):
 def planes():
     """Time of the search over all planes on the histories of the body, as lines of Markdown."""
     rng = np.random.default_rng(0)
-    body = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
+    body, _ = table_1(2.0 * np.pi * np.arange(INSTANTS) / INSTANTS)
     x, y, z = *rng.uniform(-1.5, 1.5, (2, 2000)), rng.uniform(0.0, 0.3, 2000)
     stress = body.stress(x, y, z)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))

@@ -2,6 +2,7 @@
 
 import tracemalloc
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from scenes import PROFILE_NAMES, random_points
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
+from swtstudy.mechanics import body
 from swtstudy.mechanics.body import nodes_at, scene_of
 from swtstudy.mechanics.body_maximum import body_maximum
 from swtstudy.mechanics.instants import Nodes
@@ -87,16 +89,34 @@ def test_what_evenly_spread_instants_cost(parameters, low):
         assert 1.0 - float(swt_of(even)) / s == pytest.approx(share, abs=2e-3)
 
 
-def test_memory_grows_with_the_instants_alone():
-    """Not with their square: 4,000 once took 2 GB at one point."""
-    peaks = []
-    for count in (10, 1000, 4000):
-        tracemalloc.start()  # at first also what the first call makes once
-        swtstudy.stress_field(0.4, 0.0, 0.1, time=np.linspace(0.0, 6.0, count), phase=0.5)
-        peaks.append(tracemalloc.get_traced_memory()[1])
-        tracemalloc.stop()
-    assert peaks[1] < 10e6
-    assert peaks[2] - peaks[1] < 3000 * 500
+def largest_memory(call):
+    """Bytes that a call takes at most."""
+    tracemalloc.start()
+    call()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return peak
+
+
+def test_memory_does_not_grow_with_the_square_of_the_instants():
+    """4,000 once took 2 GB at one point, the field at 7/8 half a GB."""
+    swtstudy.stress_field(0.4, 0.0, 0.1, time=0.0)  # what is made once only
+    few, many = (
+        largest_memory(partial(swtstudy.stress_field, 0.4, 0.0, 0.1, time=np.linspace(0.0, 6.0, count)))
+        for count in (1000, 4000)
+    )
+    assert few < 10e6
+    assert many - few < 3000 * 500
+    line = np.linspace(0.1, 1.2, 6)
+    assert largest_memory(lambda: swtstudy.swt_field(line, 0.0, 0.1, frequency_ratio="7/8")) < 60e6
+
+
+def test_planes_are_searched_for_some_points_at_a_time(monkeypatch):
+    line, depth = [0.4, 0.9], np.linspace(0.0, 1.0, 100)
+    at_once = swtstudy.swt_field(line, 0.0, depth)
+    monkeypatch.setattr(body, "_VALUES", 1000)
+    assert largest_memory(partial(swtstudy.swt_field, line, 0.0, depth)) < 8e6
+    xr.testing.assert_allclose(swtstudy.swt_field(line, 0.0, depth), at_once, rtol=1e-9)
 
 
 def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():

@@ -76,7 +76,7 @@ def _of_point(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Volume mean, point and line values of one parameter point, shapes (k,), (k, 2) and (k, 2)."""
     scene = read_scene(parameters)
-    body = Body.of(scene, decisive_nodes(scene, (x, 0.0, 0.0)), _CELLS)
+    body = Body(scene, decisive_nodes(scene, (x, 0.0, 0.0)), _CELLS)
     down = np.array([0.0, 0.0, 1.0])
     directions = down, critical_direction(body.swt(x, 0.0, 0.0).normal)
     point = np.stack([at_distance(body, x, direction, distance) for direction in directions], axis=-1)

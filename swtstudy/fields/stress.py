@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from swtstudy.fields.decisive import decisive_nodes, stress_at
+from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import as_given, label_time, read_places, read_time
+from swtstudy.mechanics.body import Body
 from swtstudy.mechanics.field.punch import COMPONENTS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.swt_line import Scene
@@ -71,7 +72,8 @@ def stress_field(
         instants, history = _at_own_instants(scene, places)
     else:
         instants, nodes = read_time(scene, time)
-        history = stress_at(scene, nodes, _cells(float(places[2].min())), *(place.values for place in places))
+        body = Body(scene, nodes, _cells(float(places[2].min())))
+        history = body.stress(*(place.values for place in places))
     over = tuple(dim for dim in instants.dims if dim not in places[0].dims)
     dims = (*over, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places[0].shape, 6)
@@ -100,7 +102,7 @@ def _at_own_instants(scene: Scene, places: tuple[xr.DataArray, ...]) -> tuple[xr
     for k, (some, point) in enumerate(zip(nodes, points, strict=True)):
         every = np.minimum(np.arange(count), some.instant.size - 1)
         instant[k] = some.instant[every]
-        stress[k] = stress_at(scene, some, _cells(point[2]), *point)[every]
+        stress[k] = Body(scene, some, _cells(point[2])).stress(*point)[every]
     shape = places[0].shape
     time = np.moveaxis(scene.cycle.protocol.q * instant, -1, 0).reshape(count, *shape)
     return label_time(time, ("instant", *places[0].dims)), stress.reshape(*shape, count, 6)

@@ -45,7 +45,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     for first in range(0, distance.size, _RADII):
         some = (group >= first) & (group < first + _RADII)
         nodes = time_nodes(scene, _STEPS, distance[first : first + _RADII])
-        swt[some], normal[some] = Body.of(scene, nodes, _CELLS).swt(*flat[:, some])
+        swt[some], normal[some] = Body(scene, nodes, _CELLS).swt(*flat[:, some])
     dims, shape = places[0].dims, places[0].shape
     meaning = {"long_name": "Smith-Watson-Topper parameter over E* delta0/R", "units": "1", "symbol": "swt"}
     variables = {"s_local": (dims, swt.reshape(shape), meaning)}
