@@ -9,8 +9,10 @@ import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
 from scenes import PROFILE_NAMES, random_points
+from scipy.integrate import simpson
 
 import swtstudy
+from swtstudy.fields import swt as swt_module
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics import body
 from swtstudy.mechanics.body import nodes_at, scene_of
@@ -339,3 +341,44 @@ def test_maximum_of_the_body():
     assert np.hypot(*found.position[:2]) == pytest.approx(abs(float(solved.critical_x)), rel=5e-3)
     assert abs(found.position[1]) > 0.1
     assert found.swt > 1.005 * float(solved.s)
+
+
+CURVED = [
+    {"profile": "paraboloid", "phase": 2.0},
+    {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 2.0},
+    {"profile": "truncated_paraboloid", "flat_radius": 0.4, "phase": 2.0},
+    {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5, "phase": 2.0},
+]
+
+
+def swt_at(x, y, z, parameters):
+    """swt at points, of the shape of the coordinates."""
+    points = np.broadcast_arrays(x, y, z)
+    places = (xr.DataArray(values.ravel(), dims="point") for values in points)
+    return swtstudy.swt_field(*places, **parameters).s_local.values.reshape(points[0].shape)
+
+
+@pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
+def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
+    """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
+    monkeypatch.setattr(swt_module, "_STEPS", 10)
+    distance = 0.15
+    found = swtstudy.nonlocal_swt(distance, **parameters).squeeze("critical_distance")
+    x, angle = float(found.critical_x), np.radians(float(found.critical_angle))
+    assert abs(angle) > 0.05
+    # Simpson's rule in the root of the distance, in which swt is smooth.
+    share = np.linspace(0.0, 1.0, 9)
+    for name, right, down in (("depth", 0.0, 1.0), ("critical_plane", -np.sin(angle), np.cos(angle))):
+        values = found.sel(direction=name)
+        point = swt_at(x + 0.5 * distance * right, 0.0, 0.5 * distance * down, parameters)
+        assert float(values.s_point) == pytest.approx(float(point), rel=0.015)
+        away = 2.0 * distance * share**2
+        line = swt_at(x + away * right, 0.0, away * down, parameters)
+        assert float(values.s_line) == pytest.approx(simpson(2.0 * share * line, x=share), rel=0.015)
+    # Gauss's rule in the three coordinates of the whole half sphere, y < 0 included.
+    node, weight = (values / 2 for values in np.polynomial.legendre.leggauss(4))
+    ρ, c, φ = np.meshgrid(node + 0.5, node + 0.5, 2 * np.pi * (np.arange(5) + 0.3) / 5, indexing="ij")
+    across, s = distance * ρ, np.sqrt(1.0 - c**2)
+    swt = swt_at(x + across * s * np.cos(φ), across * s * np.sin(φ), across * c, parameters).mean(axis=2)
+    expected = 3.0 * np.einsum("rc,r,r,c", swt, (node + 0.5) ** 2, weight, weight)
+    assert float(found.s_volume) == pytest.approx(expected, rel=0.015)
