@@ -382,3 +382,38 @@ def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
     swt = swt_at(x + across * s * np.cos(φ), across * s * np.sin(φ), across * c, parameters).mean(axis=2)
     expected = 3.0 * np.einsum("rc,r,r,c", swt, (node + 0.5) ** 2, weight, weight)
     assert float(found.s_volume) == pytest.approx(expected, rel=0.015)
+
+
+MINDLIN = {"normal_amplitude": 0.0, "tangential_amplitude": 0.6, "friction": 0.4}
+#: On the way to +x and back: ω1 t, and the sense of the motion.
+MINDLIN_INSTANTS = {0.7: 1, 2.5: -1, 4.0: -1, 5.5: 1}
+
+
+def mindlin(instant, sense):
+    """Stick radius and the traction q/μ as (factor, radius) of full-slip fields (Mindlin and Deresiewicz)."""
+    largest, u = 0.6, 0.6 * np.sin(instant)
+    stick, least = np.sqrt(1.0 - 0.5 * (largest + sense * u)), np.sqrt(1.0 - largest)
+    return stick, [(sense, 1.0), (-2 * sense, stick), (sense, least)]
+
+
+@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
+def test_oscillating_sphere_is_hamiltons(instant, sense):
+    """All six components of stress_field, tangential load included, as sums of full-slip Hertzian fields."""
+    x, y, z = np.meshgrid([-1.2, 0.4, 0.9], [-0.7, 0.3], [0.1, 0.7], indexing="ij")
+    field = swtstudy.stress_field(x[:, 0, 0], y[0, :, 0], z[0, 0], time=instant, **MINDLIN)
+    expected = np.array(Hertz.stress_Cartesian(x, y, z, 0.3))
+    for factor, a in mindlin(instant, sense)[1]:
+        sliding = np.array(Hertz.stress_for_tangential_loading(x / a, y / a, z / a, 0.3))
+        expected = expected + 0.4 * factor * a * sliding
+    for name, component in zip(("xx", "yy", "zz", "yz", "xz", "xy"), expected * 2 / np.pi, strict=True):
+        np.testing.assert_allclose(field[f"sigma_{name}"], component, atol=1e-10)
+
+
+@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
+def test_slip_of_an_oscillating_sphere_is_mindlins(instant, sense):
+    stick, _ = mindlin(instant, sense)
+    states = swtstudy.slip_map([0.0, stick - 1e-6, stick + 1e-6, 1 - 1e-6, 1 + 1e-6], time=instant, **MINDLIN)
+    assert float(states.slip_radius) == pytest.approx(stick, abs=1e-9)
+    assert float(states.contact_radius) == pytest.approx(1.0)
+    slip = 2 if sense > 0 else 3
+    assert states.state.values.tolist() == [1, 1, slip, slip, 0]
