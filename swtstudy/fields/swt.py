@@ -34,8 +34,10 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     Notes
     -----
     At each point the instants are aligned with the events at its distance from the axis: otherwise swt on the
-    surface would be low by up to 20 %, in rings. Few distinct distances (a grid in polar coordinates) are
-    computed faster.
+    surface would be low by up to 20 %, in rings. Between the events they are few: where an extreme over the
+    cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the history
+    that `stress_field` has by default is exact, and slower. Few distinct distances (a grid in polar
+    coordinates) are computed faster.
     """
     scene = read_scene(parameters)
     places = read_places(x, y, z)
