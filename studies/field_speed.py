@@ -21,6 +21,7 @@ from swtstudy.mechanics.line import circle_gain
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.points import Points
+from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import scene_of
 
 with warnings.catch_warnings():
@@ -29,7 +30,7 @@ with warnings.catch_warnings():
 
 FRICTION, POISSON = 0.3, 0.3
 P0 = 2 / np.pi
-PLAIN_PLANES = 281
+PLAIN_PLANES, CELLS = 281, 200
 WIDTH, DEPTH = 6.0, 1.5
 
 
@@ -57,11 +58,13 @@ def timed(call, repeats=3):
 
 
 def table_1(instants):
-    """Table 1 at uniform instants; at ψ = 0 all slopes of the memory diagram are −1, 0 or 1."""
+    """Table 1 at uniform instants, and its contact states: all slopes are −1, 0 or 1 at ψ = 0."""
     values = (np.array([v]) for v in (POISSON, FRICTION, 0.75))
     ratio = np.array([1]), np.array([1])
     scene = scene_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
-    return Body.of(scene, nodes_at(scene, 2.0 * np.pi * np.arange(instants) / instants), cells=200)
+    nodes = nodes_at(scene, 2.0 * np.pi * np.arange(instants) / instants)
+    states = contact_states(scene.cycle, scene.coordinate, nodes.interval, nodes.instant, CELLS)
+    return Body(scene, nodes, CELLS), states
 
 
 def jumps(states, instant):
@@ -114,7 +117,7 @@ class Tamaas:
 
 def report(size):
     """The table, as lines of Markdown."""
-    body = table_1(size.instants)
+    body, states = table_1(size.instants)
     axis = (np.arange(size.grid) - size.grid // 2) * WIDTH / size.grid
     inside = np.flatnonzero(np.abs(axis) < 1.5)
     layers = np.arange(1, size.layers - 8, 3)
@@ -123,7 +126,7 @@ def report(size):
     )
     z, x, y = (v.ravel() for v in grid)
     ours, our_time = timed(lambda: body.stress(x, y, z))
-    hamilton, hamilton_time = timed(lambda: by_hamilton(body.states, x, y, z), repeats=1)
+    hamilton, hamilton_time = timed(lambda: by_hamilton(states, x, y, z), repeats=1)
     values = ours.size // 6
     # Hamilton's formulas cancel next to the axis.
     off_axis = np.hypot(x, y) > 0.1
@@ -142,7 +145,7 @@ def report(size):
     except ImportError:
         return [*lines, "", "tamaas is not installed (extra `bench`)."]
     instant = size.instants // 4
-    stress, tamaas_time = timed(lambda: half_space.solve(body.states, instant))
+    stress, tamaas_time = timed(lambda: half_space.solve(states, instant))
     away = np.abs(stress[np.ix_(layers, inside, inside)].reshape(-1, 6) - ours[:, instant]).max()
     return [
         *lines,
@@ -164,7 +167,7 @@ def plain_search(stress, normals):
 def planes(size):
     """Time of the search over all planes on the histories of the body, as lines of Markdown."""
     rng = np.random.default_rng(0)
-    body = table_1(size.instants)
+    body, _ = table_1(size.instants)
     x, y, z = *rng.uniform(-1.5, 1.5, (2, size.points)), rng.uniform(0.0, 0.3, size.points)
     stress = body.stress(x, y, z)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))

@@ -1,12 +1,20 @@
 """Labelled fields of one parameter point against s and against one another."""
 
+import tracemalloc
+from fractions import Fraction
+from functools import partial
+
 import numpy as np
 import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
+from scenes import PROFILE_NAMES, random_points
+from scipy.integrate import simpson
 
 import swtstudy
+from swtstudy.fields import swt as swt_module
 from swtstudy.fields.one_point import read_scene
+from swtstudy.mechanics.body import body
 from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.events.nodes import Nodes
@@ -14,6 +22,7 @@ from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mistakes import StudyError
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():
@@ -22,10 +31,96 @@ def test_stress_field_has_the_dimensions_of_its_positions():
     assert grid.sigma_xx.shape == (2, 3, 2)
     assert grid.y.ndim == 0
     line = xr.DataArray(np.linspace(0, 1, 5), dims="point")
-    points = swtstudy.stress_field(line, 0.1, line, frequency_ratio="3/2")
+    points = swtstudy.stress_field(line, 0.1, line, time=[4.0], frequency_ratio="3/2")
     assert points.sigma_xz.dims == ("time", "point")
-    assert points.time.values[-1] < 4 * np.pi
     assert swtstudy.stress_field(0, 0, 1, time=0.3).sigma_zz.ndim == 0
+
+
+def test_each_position_has_its_own_instants():
+    place = xr.DataArray([0.9, -0.3], dims="point", coords={"point": [7, 8]})
+    own = swtstudy.stress_field(place, 0.0, [0.0, 0.2], frequency_ratio="3/2")
+    for values in (own.sigma_xz, own.time, own.contact_radius):
+        assert values.dims == ("instant", "point", "z")
+    assert (own.time.diff("instant") >= 0.0).all()
+    assert float(own.time.max()) == pytest.approx(4 * np.pi)
+    for point, z in ((7, 0.2), (8, 0.0)):
+        one = own.sel(point=point, z=z)
+        same = swtstudy.stress_field(float(one.x), 0.0, z, time=one.time.values, frequency_ratio="3/2")
+        for name in own:
+            np.testing.assert_allclose(one[name], same[name], atol=1e-8)
+    for name in ("time", "instant"):
+        with pytest.raises(StudyError, match=f"x, y, z: found a dimension named {name}"):
+            swtstudy.stress_field(xr.DataArray([0.0], dims=name), 0.0, 0.0)
+
+
+def swt_of(field, poisson_ratio=0.3):
+    """swt of the histories of a stress field."""
+    names = [f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy")]
+    stress = np.stack([np.moveaxis(field[name].values, 0, -1) for name in names], axis=-1)
+    return swtstudy.swt_of_history(stress, poisson_ratio, 1.0 - poisson_ratio**2).swt
+
+
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
+def test_the_instants_of_a_position_make_its_swt(profile):
+    batch = random_points(11, 3, profile, 3)
+    for k in range(3):
+        ratio = Fraction(int(batch.p[k]), int(batch.q[k]))
+        names = ("poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase")
+        numbers = {name: float(getattr(batch, name)[k]) for name in names}
+        shape = {name: float(values[k]) for name, values in batch.shape.items()}
+        parameters = {"profile": profile, "frequency_ratio": ratio, **numbers, **shape}
+        solved = swtstudy.solve(rtol=1e-5, **parameters)
+        field = swtstudy.stress_field(float(solved.critical_x), 0.0, 0.0, **parameters)
+        assert float(swt_of(field, numbers["poisson_ratio"])) == pytest.approx(float(solved.s), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "low"),
+    [
+        ({"frequency_ratio": "1/2", "phase": 0.3}, {64: 0.207, 512: 0.068}),
+        ({"normal_amplitude": 8 / 9, "phase": 2.6}, {64: 0.232, 512: 0.102}),
+    ],
+)
+def test_what_evenly_spread_instants_cost(parameters, low):
+    """What the docstring of stress_field says."""
+    solved = swtstudy.solve(**parameters)
+    x, s = float(solved.critical_x), float(solved.s)
+    own = swtstudy.stress_field(x, 0.0, 0.0, **parameters)
+    assert float(swt_of(own)) == pytest.approx(s, rel=1e-5)
+    period = 4 * np.pi if "frequency_ratio" in parameters else 2 * np.pi
+    for count, share in low.items():
+        even = swtstudy.stress_field(x, 0.0, 0.0, time=period * np.arange(count) / count, **parameters)
+        assert 1.0 - float(swt_of(even)) / s == pytest.approx(share, abs=2e-3)
+
+
+def largest_memory(call):
+    """Bytes that a call takes at most."""
+    tracemalloc.start()
+    call()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return peak
+
+
+def test_memory_does_not_grow_with_the_square_of_the_instants():
+    """4,000 once took 2 GB at one point, the field at 7/8 half a GB."""
+    swtstudy.stress_field(0.4, 0.0, 0.1, time=0.0)  # what is made once only
+    few, many = (
+        largest_memory(partial(swtstudy.stress_field, 0.4, 0.0, 0.1, time=np.linspace(0.0, 6.0, count)))
+        for count in (1000, 4000)
+    )
+    assert few < 10e6
+    assert many - few < 3000 * 500
+    line = np.linspace(0.1, 1.2, 6)
+    assert largest_memory(lambda: swtstudy.swt_field(line, 0.0, 0.1, frequency_ratio="7/8")) < 60e6
+
+
+def test_planes_are_searched_for_some_points_at_a_time(monkeypatch):
+    line, depth = [0.4, 0.9], np.linspace(0.0, 1.0, 100)
+    at_once = swtstudy.swt_field(line, 0.0, depth)
+    monkeypatch.setattr(body, "_VALUES", 1000)
+    assert largest_memory(partial(swtstudy.swt_field, line, 0.0, depth)) < 8e6
+    xr.testing.assert_allclose(swtstudy.swt_field(line, 0.0, depth), at_once, rtol=1e-9)
 
 
 def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():
@@ -127,9 +222,63 @@ def test_slip_map():
         )
 
 
+NO_NUMBERS = {
+    "complex": 1j,
+    "text": "1/2",
+    "truth value": True,
+    "nothing": None,
+    "ragged": [[1.0], [1.0, 2.0]],
+    "time": np.timedelta64(1, "s"),
+    "times": np.array([1, 2], dtype="timedelta64[s]"),
+    "a time among numbers": [Fraction(1, 2), np.timedelta64(1, "s")],
+}
+PUBLIC = {
+    "x": lambda value: swtstudy.stress_field(value, 0.0, 0.0, time=0.0),
+    "y": lambda value: swtstudy.swt_field(0.0, value, 0.0),
+    "time": lambda value: swtstudy.stress_field(0.0, 0.0, 0.0, time=[value]),
+    "r": swtstudy.slip_map,
+    "critical_distance": swtstudy.nonlocal_swt,
+    "stress": lambda value: swtstudy.swt_of_history(value, 0.3),
+    "phase": lambda value: swtstudy.inspect_point(phase=f"{value}!" if isinstance(value, str) else value),
+}
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
+@pytest.mark.parametrize("key", PUBLIC)
+def test_what_is_no_number_is_one_mistake(key, value):
+    with pytest.raises(StudyError, match=rf"^{key}: found .*; allowed: [^\n]*$"):
+        PUBLIC[key](value)
+
+
+def test_every_wrong_position_is_named():
+    with pytest.raises(StudyError) as error:
+        swtstudy.stress_field(1j, "a", np.nan)
+    assert [mistake.key for mistake in error.value.mistakes] == ["x", "y", "z"]
+
+
+def test_fractions_and_objects_are_numbers():
+    third = Fraction(1, 3)
+    exact = swtstudy.stress_field(third, [third, 1], np.array([third], dtype=object), time=third)
+    xr.testing.assert_identical(exact, swtstudy.stress_field(1 / 3, [1 / 3, 1.0], [1 / 3], time=1 / 3))
+
+
+@pytest.mark.parametrize("field", [swtstudy.stress_field, swtstudy.swt_field])
+def test_positions_agree_in_their_coordinates(field):
+    def positions(places):
+        return xr.DataArray([0.1, 0.2], dims="point", coords={"point": places})
+
+    for other in (positions([1, 2]), positions([1, 0]), xr.DataArray([0.1] * 3, dims="point")):
+        with pytest.raises(StudyError, match="x, y, z: found DataArrays that do not fit together"):
+            field(positions([0, 1]), other, 0.1)
+    across = xr.DataArray([0.3, 0.4, 0.5], dims="other")
+    spanned = field(positions([0, 1]), across, 0.1)
+    assert spanned.sizes["point"] == 2
+    assert spanned.sizes["other"] == 3
+
+
 @pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], [0.5, -0.1], np.inf, np.ma.array([0.5], mask=[1])])
 def test_distances_of_a_slip_map_are_checked(r):
-    with pytest.raises(ValueError, match="r: allowed: a finite distance r ≥ 0 in a_H"):
+    with pytest.raises(ValueError, match=r"r: found .*; allowed: a finite distance r ≥ 0 in a_H"):
         swtstudy.slip_map(r)
 
 
@@ -156,6 +305,14 @@ def test_waves_too_short_to_follow_are_left_out_of_fields_too():
         for profile, shape in (("paraboloid", {}), ("wavy_paraboloid", wave))
     )
     np.testing.assert_allclose(wavy.sigma_xx, smooth.sigma_xx, rtol=1e-9)
+
+
+def test_nonlocal_values_of_one_point():
+    """All parameters single values: the same numbers as along an axis, without its dimension."""
+    one = swtstudy.nonlocal_swt(0.05)
+    assert one.s_volume.dims == ("critical_distance",)
+    for name, values in swtstudy.nonlocal_swt(0.05, friction=[0.3]).squeeze("friction").items():
+        np.testing.assert_array_equal(one[name], values)
 
 
 def test_nonlocal_values_tend_to_s():
@@ -195,3 +352,79 @@ def test_maximum_of_the_body():
     assert np.hypot(*found.position[:2]) == pytest.approx(abs(float(solved.critical_x)), rel=5e-3)
     assert abs(found.position[1]) > 0.1
     assert found.swt > 1.005 * float(solved.s)
+
+
+CURVED = [
+    {"profile": "paraboloid", "phase": 2.0},
+    {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 2.0},
+    {"profile": "truncated_paraboloid", "flat_radius": 0.4, "phase": 2.0},
+    {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5, "phase": 2.0},
+]
+
+
+def swt_at(x, y, z, parameters):
+    """swt at points, of the shape of the coordinates."""
+    points = np.broadcast_arrays(x, y, z)
+    places = (xr.DataArray(values.ravel(), dims="point") for values in points)
+    return swtstudy.swt_field(*places, **parameters).s_local.values.reshape(points[0].shape)
+
+
+@pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
+def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
+    """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
+    monkeypatch.setattr(swt_module, "_STEPS", 10)
+    distance = 0.15
+    found = swtstudy.nonlocal_swt(distance, **parameters).squeeze("critical_distance")
+    x, angle = float(found.critical_x), np.radians(float(found.critical_angle))
+    assert abs(angle) > 0.05
+    # Simpson's rule in the root of the distance, in which swt is smooth.
+    share = np.linspace(0.0, 1.0, 9)
+    for name, right, down in (("depth", 0.0, 1.0), ("critical_plane", -np.sin(angle), np.cos(angle))):
+        values = found.sel(direction=name)
+        point = swt_at(x + 0.5 * distance * right, 0.0, 0.5 * distance * down, parameters)
+        assert float(values.s_point) == pytest.approx(float(point), rel=0.015)
+        away = 2.0 * distance * share**2
+        line = swt_at(x + away * right, 0.0, away * down, parameters)
+        assert float(values.s_line) == pytest.approx(simpson(2.0 * share * line, x=share), rel=0.015)
+    # Gauss's rule in the three coordinates of the whole half sphere, y < 0 included.
+    node, weight = (values / 2 for values in np.polynomial.legendre.leggauss(4))
+    ρ, c, φ = np.meshgrid(node + 0.5, node + 0.5, 2 * np.pi * (np.arange(5) + 0.3) / 5, indexing="ij")
+    across, s = distance * ρ, np.sqrt(1.0 - c**2)
+    swt = swt_at(x + across * s * np.cos(φ), across * s * np.sin(φ), across * c, parameters).mean(axis=2)
+    expected = 3.0 * np.einsum("rc,r,r,c", swt, (node + 0.5) ** 2, weight, weight)
+    assert float(found.s_volume) == pytest.approx(expected, rel=0.015)
+
+
+MINDLIN = {"normal_amplitude": 0.0, "tangential_amplitude": 0.6, "friction": 0.4}
+#: On the way to +x and back: ω1 t, and the sense of the motion.
+MINDLIN_INSTANTS = {0.7: 1, 2.5: -1, 4.0: -1, 5.5: 1}
+
+
+def mindlin(instant, sense):
+    """Stick radius and the traction q/μ as (factor, radius) of full-slip fields (Mindlin and Deresiewicz)."""
+    largest, u = 0.6, 0.6 * np.sin(instant)
+    stick, least = np.sqrt(1.0 - 0.5 * (largest + sense * u)), np.sqrt(1.0 - largest)
+    return stick, [(sense, 1.0), (-2 * sense, stick), (sense, least)]
+
+
+@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
+def test_oscillating_sphere_is_hamiltons(instant, sense):
+    """All six components of stress_field, tangential load included, as sums of full-slip Hertzian fields."""
+    x, y, z = np.meshgrid([-1.2, 0.4, 0.9], [-0.7, 0.3], [0.1, 0.7], indexing="ij")
+    field = swtstudy.stress_field(x[:, 0, 0], y[0, :, 0], z[0, 0], time=instant, **MINDLIN)
+    expected = np.array(Hertz.stress_Cartesian(x, y, z, 0.3))
+    for factor, a in mindlin(instant, sense)[1]:
+        sliding = np.array(Hertz.stress_for_tangential_loading(x / a, y / a, z / a, 0.3))
+        expected = expected + 0.4 * factor * a * sliding
+    for name, component in zip(("xx", "yy", "zz", "yz", "xz", "xy"), expected * 2 / np.pi, strict=True):
+        np.testing.assert_allclose(field[f"sigma_{name}"], component, atol=1e-10)
+
+
+@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
+def test_slip_of_an_oscillating_sphere_is_mindlins(instant, sense):
+    stick, _ = mindlin(instant, sense)
+    states = swtstudy.slip_map([0.0, stick - 1e-6, stick + 1e-6, 1 - 1e-6, 1 + 1e-6], time=instant, **MINDLIN)
+    assert float(states.slip_radius) == pytest.approx(stick, abs=1e-9)
+    assert float(states.contact_radius) == pytest.approx(1.0)
+    slip = 2 if sense > 0 else 3
+    assert states.state.values.tolist() == [1, 1, slip, slip, 0]

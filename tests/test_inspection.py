@@ -49,6 +49,44 @@ def test_springs_are_those_of_the_clip_rule(parameters):
     np.testing.assert_allclose(found[1], tau[some], atol=1e-3)
 
 
+@pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
+def test_curves_are_those_of_the_stress_field(parameters):
+    """Which comes from the springs by another way: the stress on the shown plane, the load on the surface."""
+    point = swtstudy.inspect_point(**parameters)
+    x, angle = float(point.shown_x), np.radians(float(point.shown_angle))
+    some = point.isel(time=slice(None, None, 40))
+    field = swtstudy.stress_field(x, 0.0, 0.0, time=some.time.values, **parameters)
+    n, m = np.cos(angle), np.sin(angle)
+    normal = n * n * field.sigma_xx + 2 * n * m * field.sigma_xz + m * m * field.sigma_zz
+    trace = field.sigma_xx + field.sigma_yy + field.sigma_zz
+    strain = (1.3 * normal - 0.3 * trace) / (1 - 0.3**2)  # Hooke's law with E = (1 − ν²) E*
+    for name, expected in (
+        ("normal_stress", normal),
+        ("normal_strain", strain),
+        ("sigma_xx", field.sigma_xx),
+        ("sigma_xz", field.sigma_xz),
+    ):
+        np.testing.assert_allclose(some[name], expected, atol=1e-5)
+    np.testing.assert_allclose(some.contact_radius, field.contact_radius, atol=1e-9)
+
+    line = point.isel(x=slice(None, None, 40))
+    load = swtstudy.stress_field(line.x.values, 0.0, 0.0, time=line.instant_time.values, **parameters)
+    np.testing.assert_allclose(line.pressure, -load.sigma_zz, atol=1e-5)
+    np.testing.assert_allclose(line.traction, -load.sigma_xz, atol=1e-5)
+
+
+def test_traction_is_cattaneos():
+    """Sliding in +x over an annulus: +μ p there, and Coulomb's bound with the μ of the scene."""
+    point = swtstudy.inspect_point(normal_amplitude=0, tangential_amplitude=0.4, friction=0.5)
+    for sense, turn in ((1.0, np.pi / 2), (-1.0, 3 * np.pi / 2)):
+        at = point.isel(instant=int(np.abs(point.instant_time.values - turn).argmin()))
+        assert float(at.instant_time) == pytest.approx(turn)
+        c2, r2 = 0.6, at.x.values**2
+        p, less = (2 / np.pi * np.sqrt(np.maximum(square - r2, 0.0)) for square in (1.0, c2))
+        np.testing.assert_allclose(at.pressure, p, atol=1e-9)
+        np.testing.assert_allclose(at.traction, sense * 0.5 * (p - less), atol=1e-9)
+
+
 def test_what_always_sticks():
     # With δA = 0 the stick zone is Cattaneo's: (c/a)² = 1 − U.
     point = swtstudy.inspect_point(normal_amplitude=0, tangential_amplitude=0.4)

@@ -385,6 +385,19 @@ def test_lives_of_two_extremes():
     assert FatigueConstants(Decimal(2), np.float32(3), -1, 4, -1).young_modulus.hex() == (2.0).hex()
 
 
+def test_what_is_masked_has_no_life():
+    """The number behind a mask, here even one that is no SWT, counts for nothing."""
+    masked = np.ma.array([1.0, -5.0, 2.0], mask=[0, 1, 0])
+    contact = physical(**ALUMINIUM, depth=0.01, tangential_amplitude=0.002)
+    for lives, plain in (
+        (STEEL.cycles(masked), STEEL.cycles([1.0, np.nan, 2.0])),
+        (STEEL.swt(masked), STEEL.swt([1.0, np.nan, 2.0])),
+        (contact.cycles(STEEL, masked), contact.cycles(STEEL, [1.0, np.nan, 2.0])),
+    ):
+        np.testing.assert_array_equal(lives, plain)
+        assert np.isnan(lives).tolist() == [False, True, False]
+
+
 def test_wrong_constants_are_named_at_once():
     with pytest.raises(swtstudy.StudyError, match="in magnitude from 1e-100 to 1e\\+100") as caught:
         FatigueConstants(5e-324, 1e308, -1e-310, True, -np.inf)

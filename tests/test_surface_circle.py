@@ -57,7 +57,7 @@ def test_gain_is_that_of_the_field(parameters):
     x = float(solved.critical_x)
     angle = np.linspace(0.2, 0.8, 25)
     scene = read_scene(parameters)
-    body = Body.of(scene, time_nodes(scene, 40, [abs(x)]), cells=60)
+    body = Body(scene, time_nodes(scene, 40, [abs(x)]), cells=60)
     swt = body.swt(x * np.cos(angle), x * np.sin(angle), 0.0).swt
     assert float(solved.s_surface) > 1.005 * float(solved.s)
     assert float(solved.s_surface) == pytest.approx(swt.max(), rel=5e-4)

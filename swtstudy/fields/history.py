@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from swtstudy.mechanics.planes import all_planes
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.numbers import read_numbers
 
 
 def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
@@ -31,7 +32,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
     Raises
     ------
     StudyError
-        A ValueError with every mistake in the input.
+        A ValueError with every mistake in the input; a history has no gaps, so that NaN or a masked
+        component is one.
 
     Examples
     --------
@@ -41,11 +43,11 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
     >>> float(swt), abs(normal).round(6).tolist()
     (0.5, [1.0, 0.0, 0.0])
     """
-    mistakes = []
+    mistakes: list[Mistake] = []
     try:
-        history = np.asarray(stress, dtype=float)
-    except (TypeError, ValueError):
-        mistakes.append(Mistake("stress", literal(stress), "an array of numbers"))
+        history = read_numbers("stress", stress, "an array of numbers")
+    except StudyError as error:
+        mistakes.extend(error.mistakes)
     else:
         if history.ndim < 2 or history.shape[-1] != 6 or history.shape[-2] == 0:
             mistakes.append(
@@ -53,7 +55,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
             )
         elif not np.isfinite(history).all():
             wrong = np.count_nonzero(~np.isfinite(history))
-            mistakes.append(Mistake("stress", f"{wrong} components that are not finite", "finite numbers"))
+            found = f"{wrong} components that are not finite or masked"
+            mistakes.append(Mistake("stress", found, "finite numbers"))
     if not -1.0 < plain_number(poisson_ratio) <= 0.5:
         mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
     if not 0.0 < plain_number(young_modulus) < math.inf:

@@ -7,16 +7,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import numbers
+from swtstudy.fields.places import read_distances
 from swtstudy.grid.canonical import SHAPE_COLUMNS
-from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
+from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.body.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 from swtstudy.solving import solve
 
-_CELLS, _STEPS = 60, 10
+_CELLS = 60
 DIRECTIONS = ("depth", "critical_plane")
 _MEANINGS = {
     "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
@@ -39,18 +41,20 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     -------
     xarray.Dataset
         That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
-        s_line over these and direction: straight down, or along the critical plane into the body. Averages
-        are accurate to about 5e-3, and NaN where s is.
+        s_line over these and direction: straight down, or along the critical plane into the body. The
+        instants are those of the critical point, which leaves values low by about 1 % at ℓ = 0.3 a_H and by
+        less at smaller ℓ. NaN where s is.
     """
-    distance = np.atleast_1d(numbers(critical_distance))
-    if distance.ndim != 1 or not np.isfinite(distance).all() or (distance <= 0.0).any():
-        raise ValueError("critical_distance: allowed: finite numbers ℓ/a_H > 0")
+    allowed = "finite numbers ℓ/a_H > 0"
+    distance = read_distances("critical_distance", critical_distance, allowed)
+    if (distance <= 0.0).any():
+        raise StudyError([Mistake("critical_distance", literal(critical_distance), allowed)])
     dataset = solve(**parameters)
     dims, shape = dataset.s.dims, dataset.s.shape
     volume = np.full((*shape, distance.size), np.nan)
     point, line = (np.full((*shape, distance.size, len(DIRECTIONS)), np.nan) for _ in range(2))
     # Where s is not finite there is no critical point.
-    for index in zip(*np.nonzero(np.isfinite(dataset.critical_x.values)), strict=True):
+    for index in map(tuple, np.argwhere(np.isfinite(dataset.critical_x.values))):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         # A grid of several profiles has the shape parameters of all of them.
         others = {*SHAPE_COLUMNS} - {*PROFILE_SHAPES[one.profile.item()]}
@@ -76,8 +80,7 @@ def _of_point(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Volume mean, point and line values of one parameter point, shapes (k,), (k, 2) and (k, 2)."""
     scene = read_scene(parameters)
-    nodes = closer_nodes(scene, time_nodes(scene, _STEPS, [abs(x)]), (x, 0.0, 0.0), _CELLS, looks=2)
-    body = Body.of(scene, nodes, _CELLS)
+    body = Body(scene, decisive_nodes(scene, (x, 0.0, 0.0)), _CELLS)
     down = np.array([0.0, 0.0, 1.0])
     directions = down, critical_direction(body.swt(x, 0.0, 0.0).normal)
     point = np.stack([at_distance(body, x, direction, distance) for direction in directions], axis=-1)

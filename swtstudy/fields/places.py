@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.numbers import read_numbers
 
 _NAMES = {
     "x": "position in the direction of sliding",
     "y": "position across the direction of sliding",
     "z": "depth",
 }
-
-#: Instants of a cycle unless others are asked for.
-DEFAULT_INSTANTS = 64
 
 
 def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
@@ -30,13 +31,28 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
 
     Raises
     ------
-    ValueError
-        If a coordinate is not finite, or z is negative.
+    StudyError
+        A ValueError, if a coordinate is no finite number, z is negative, or DataArrays have different
+        coordinates along a common dimension.
     """
-    arrays = [_coordinate(name, values) for name, values in zip("xyz", (x, y, z), strict=True)]
+    arrays: list[xr.DataArray] = []
+    mistakes: list[Mistake] = []
+    for name, values in zip("xyz", (x, y, z), strict=True):
+        try:
+            arrays.append(_coordinate(name, values))
+        except StudyError as error:
+            mistakes.extend(error.mistakes)
+    if mistakes:
+        raise StudyError(mistakes)
     if float(arrays[2].min()) < 0.0:
-        raise ValueError(f"z: found {float(arrays[2].min()):g}; allowed: depths z ≥ 0 into the body")
-    placed = xr.broadcast(*arrays)
+        found = f"{float(arrays[2].min()):g}"
+        raise StudyError([Mistake("z", found, "depths z ≥ 0 into the body")])
+    try:
+        placed = xr.broadcast(*xr.align(*arrays, join="exact"))
+    except ValueError as error:
+        found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
+        allowed = "the same coordinates along the dimensions that they share"
+        raise StudyError([Mistake("x, y, z", found, allowed)]) from None
     return placed[0], placed[1], placed[2]
 
 
@@ -49,26 +65,31 @@ def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.D
     return result
 
 
-def numbers(values: object) -> FloatArray:
-    """What a user gave as an array of floats; NaN where it is masked."""
-    return np.ma.filled(np.ma.asarray(values, dtype=float), np.nan)
+def read_distances(name: str, values: object, allowed: str) -> FloatArray:
+    """A number or a one-dimensional sequence of them, finite, shape (k,), k > 0; the sign is not checked."""
+    distances = np.atleast_1d(read_numbers(name, values, allowed))
+    if distances.ndim > 1 or distances.size == 0 or not np.isfinite(distances).all():
+        raise StudyError([Mistake(name, literal(values), allowed)])
+    return distances
 
 
 def _coordinate(name: str, values: object) -> xr.DataArray:
-    if not isinstance(values, xr.DataArray):
-        array = numbers(values)
+    allowed = "finite positions in a_H"
+    if isinstance(values, xr.DataArray):
+        values = values.copy(data=read_numbers(name, values.values, allowed))
+    else:
+        array = read_numbers(name, values, allowed)
         if array.ndim > 1:
-            raise ValueError(
-                f"{name}: found {array.ndim} dimensions; allowed: a number, a sequence or a DataArray"
-            )
+            found = f"{array.ndim} dimensions"
+            raise StudyError([Mistake(name, found, "a number, a sequence or a DataArray")])
         values = xr.DataArray(array, dims=(name,) * array.ndim)
     if values.size == 0 or not bool(np.isfinite(values).all()):
-        raise ValueError(f"{name}: found no or not finite values; allowed: finite positions in a_H")
+        raise StudyError([Mistake(name, "no or not finite values", allowed)])
     long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
-    return values.astype(float).assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
+    return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
-def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNodes]:
+def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
     """Instants of the stationary cycle.
 
     Parameters
@@ -76,20 +97,23 @@ def read_time(scene: Scene, time: object | None) -> tuple[xr.DataArray, TimeNode
     scene
         A batch of one point.
     time
-        ω1 t in rad, a number or a one-dimensional sequence; by default `DEFAULT_INSTANTS` over one common
-        period. The cycle repeats itself with the period 2πq, where ω2/ω1 = p/q.
+        ω1 t in rad, a number or a one-dimensional sequence. The cycle repeats itself with the period 2πq,
+        where ω2/ω1 = p/q.
 
     Returns
     -------
     time, nodes
         ω1 t, and the same instants of the cycle in the order of time.
     """
-    q = scene.cycle.load.oscillations[0]
-    if time is None:
-        time = 2.0 * np.pi * q * np.arange(DEFAULT_INSTANTS) / DEFAULT_INSTANTS
-    array = numbers(time)
+    allowed = "a finite number or a sequence of them, ω1 t in rad"
+    array = read_numbers("time", time, allowed)
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
-        raise ValueError("time: allowed: a finite number or a sequence of them, ω1 t in rad")
-    nodes = nodes_at(scene, np.mod(array.ravel() / q, 2.0 * np.pi))
+        raise StudyError([Mistake("time", literal(time), allowed)])
+    nodes = nodes_at(scene, np.mod(array.ravel() / scene.cycle.load.oscillations[0], 2.0 * np.pi))
+    return label_time(array, ("time",) * array.ndim), nodes
+
+
+def label_time(time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+    """Instants ω1 t with their meaning."""
     attributes = {"long_name": "omega1 t, in the stationary cycle", "units": "rad", "symbol": r"\omega_1 t"}
-    return xr.DataArray(array, dims=("time",) * array.ndim, attrs=attributes), nodes
+    return xr.DataArray(time, dims=dims, attrs=attributes)

@@ -8,8 +8,11 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import numbers, read_time
+from swtstudy.fields.places import read_distances, read_time
+from swtstudy.mistakes import Mistake, StudyError, literal
 
+#: Instants of a cycle unless others are asked for.
+_INSTANTS = 64
 #: In the order of the flag values.
 STATES = ("open", "stick", "forward_slip", "backward_slip")
 
@@ -22,7 +25,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     r
         Distance from the axis in a_H, a number or a one-dimensional sequence.
     time
-        ω1 t in rad, as for `swtstudy.stress_field`.
+        ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each.
 
@@ -38,10 +41,13 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         If a distance, an instant or a parameter is not allowed.
     """
     scene = read_scene(parameters)
+    if time is None:
+        time = 2.0 * np.pi * scene.cycle.load.oscillations[0] * np.arange(_INSTANTS) / _INSTANTS
     instants, nodes = read_time(scene, time)
-    distances = np.atleast_1d(numbers(r))
-    if distances.ndim > 1 or distances.size == 0 or not (np.isfinite(distances) & (distances >= 0.0)).all():
-        raise ValueError("r: allowed: a finite distance r ≥ 0 in a_H or a sequence of them")
+    allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
+    distances = read_distances("r", r, allowed)
+    if (distances < 0.0).any():
+        raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
     states = scene.cycle.states(nodes.interval[None], nodes.instant[None])

@@ -67,7 +67,7 @@ class FatigueConstants:
             return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
     def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
-        """Cycles N to the initiation of a crack at a given SWT; inf where it is 0, NaN where it is NaN.
+        """Cycles N to the initiation of a crack at a given SWT.
 
         The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
@@ -79,6 +79,11 @@ class FatigueConstants:
         ----------
         swt
             SWT in the unit of stress of the constants.
+
+        Returns
+        -------
+        cycles
+            Of the shape of ``swt``; inf where that is 0, NaN where it is NaN or masked.
 
         Raises
         ------

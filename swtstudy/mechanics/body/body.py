@@ -15,13 +15,17 @@ from swtstudy.mechanics.planes.ascent import normal_weights
 from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.field import ContactStates, contact_states
+from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
 _SUBDIVISIONS = 6
 #: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
 _HOT = 0.15
+#: Instants whose contact states are held at a time: their memory grows with the square of the number.
+_INSTANTS = 64
+#: Points × instants whose planes are searched at a time: that takes about 1 kB for each.
+_VALUES = 65536
 
 
 @dataclass(frozen=True)
@@ -40,26 +44,38 @@ class Body:
     ----------
     scene
         A batch of one point: cycle, profile, ν and μ.
-    states
-        The contact at the instants of the cycle.
+    nodes
+        The instants of the cycle.
+    cells
+        As for `contact_states`.
     """
 
     scene: Scene
-    states: ContactStates
-
-    @classmethod
-    def of(cls, scene: Scene, nodes: TimeNodes, cells: int) -> Body:
-        """The body at the given instants; ``cells`` as for `contact_states`."""
-        return cls(scene, contact_states(scene.cycle, scene.coordinate, nodes.interval, nodes.instant, cells))
+    nodes: TimeNodes
+    cells: int
 
     def stress(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """Stress history at points of shape S in a_H, shape S + (T, 6), in E* √(δ0/R)."""
-        return self.states.stress(x, y, z, float(self.scene.friction[0]), float(self.scene.poisson_ratio[0]))
+        scene, interval, instant = self.scene, self.nodes.interval, self.nodes.instant
+        material = float(scene.friction[0]), float(scene.poisson_ratio[0])
+        stress = np.empty((*np.broadcast_shapes(*map(np.shape, (x, y, z))), instant.size, 6))
+        for first in range(0, instant.size, _INSTANTS):
+            part = slice(first, first + _INSTANTS)
+            states = contact_states(scene.cycle, scene.coordinate, interval[part], instant[part], self.cells)
+            stress[..., part, :] = states.stress(x, y, z, *material)
+        return stress
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
         """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
         ν = float(self.scene.poisson_ratio[0])
-        return swt_of_history(self.stress(x, y, z), ν, 1.0 - ν**2)
+        x, y, z = np.broadcast_arrays(x, y, z)
+        swt, normal = np.empty(x.size), np.empty((x.size, 3))
+        columns = max(1, _VALUES // self.nodes.instant.size)
+        for first in range(0, x.size, columns):
+            part = slice(first, first + columns)
+            stress = self.stress(x.flat[part], y.flat[part], z.flat[part])
+            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2)
+        return CriticalPlane(swt.reshape(x.shape), normal.reshape(*x.shape, 3))
 
     def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
@@ -107,7 +123,7 @@ def closer_nodes(
     """
     share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
     for _ in range(looks):
-        body = Body.of(scene, nodes, cells)
+        body = Body(scene, nodes, cells)
         stress, strain = _on_critical_plane(body, point)
         extremes = np.array([stress.argmax(), strain.argmax(), strain.argmin()])
         left = np.concatenate([extremes - 1, extremes])

@@ -103,7 +103,7 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     both = np.stack([place, own])
     distinct = both[: 1 + bool(np.any(place != own))]
     nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
-    swt, normal = Body.of(scene, nodes, _VALUE_CELLS).swt(*_cartesian(both))
+    swt, normal = Body(scene, nodes, _VALUE_CELLS).swt(*_cartesian(both))
     best = int(swt[1] >= swt[0])
     position = np.array(_cartesian(both[best]))
     return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
@@ -113,7 +113,7 @@ def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spe
     """Instants that resolve the extremes over the cycle at one place, and the parts of it that matter."""
     point = tuple(float(v) for v in _cartesian(place))
     nodes = time_nodes(scene, _VALUE, place[:1])
-    spells = decisive_spells(Body.of(scene, nodes, _CELLS), nodes, point)
+    spells = decisive_spells(Body(scene, nodes, _CELLS), nodes, point)
     return closer_nodes(scene, spells.of(nodes), point, _CELLS, looks), spells
 
 
@@ -124,7 +124,7 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
         np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
     ).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    swt = Body.of(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
+    swt = Body(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= _PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
@@ -152,7 +152,7 @@ def _climb(search: _Search, places: FloatArray) -> FloatArray:
     resolved = [_closer(search.scene, place, looks=1) for place in places]
     height = np.array(
         [
-            Body.of(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
+            Body(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
             for (nodes, _), place in zip(resolved, places, strict=True)
         ]
     )
@@ -182,7 +182,7 @@ def _climb_from(
         # The trials have three radii, at each of which the stress has its own cusps in time.
         aligned = time_nodes(scene, _LOOK, np.unique(trial[:, 0]))
         nodes = together(scene, sharp, spells.of(aligned))
-        swt = Body.of(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
+        swt = Body(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
         here = int(np.abs(trial - place).max(axis=1).argmin())
         best = int(swt.argmax())
         if swt[best] <= swt[here] * (1.0 + 1e-9):
