@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 class SwtAccessor:
     """What can be done with results of `solve`, `run` and `open_results`, also after xarray's operations.
 
-    Registered as ``Dataset.swt`` as soon as one of these functions has been looked up in `swtstudy`, or by
-    ``import swtstudy.accessor``, which those need who open an archive with xarray alone.
+    Registered as ``Dataset.swt`` once `swtstudy` and xarray are both imported, in any order.
 
     Examples
     --------

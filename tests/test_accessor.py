@@ -180,8 +180,23 @@ def test_results_of_solve():
 
 
 @pytest.mark.parametrize(
-    "first", ["import xarray", "import swtstudy; swtstudy.open_results", "import swtstudy.accessor"]
+    "imports",
+    [
+        "import swtstudy, xarray",
+        "import xarray, swtstudy",
+        "import swtstudy.accessor",
+        "from swtstudy.archive.read import open_results; import xarray",
+        "from swtstudy.solving import solve",
+        "import swtstudy.labelled",
+        "from swtstudy import Study; import dask.array, xarray.core.dataset",
+    ],
 )
-def test_the_accessor_is_there_without_being_asked_for(first):
-    code = f"{first}\nimport swtstudy, xarray\nxarray.Dataset().swt"
+def test_the_accessor_is_there_whatever_is_imported_first(imports):
+    code = f"{imports}\nfrom xarray import Dataset\nDataset({{'s': 1.0}}).swt.to_table"
+    code += "\nimport sys\nassert not any('swtstudy' in type(finder).__module__ for finder in sys.meta_path)"
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    code = "import swtstudy, sys; sys.exit('heavy' if {'numpy', 'xarray'} & set(sys.modules) else 0)"
     subprocess.run([sys.executable, "-c", code], check=True)
