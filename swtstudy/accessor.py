@@ -55,7 +55,10 @@ class SwtAccessor:
         regimes: bool = False,
         style: Style | None = None,
     ) -> Figure:
-        """A figure of one's own: the same keys as in a study's ``[figure]``."""
+        """A figure of one's own: the same keys as in a study's ``[figure]``.
+
+        ``y`` may name any data variable of the Dataset.
+        """
         from swtstudy.figures.draw import draw
         from swtstudy.study.figure import FigureLayout
 
@@ -70,10 +73,10 @@ class SwtAccessor:
         return slice_at(self._dataset, places, tolerance)
 
     def normalised(self, place: str) -> xr.DataArray:
-        """s over s at one place, such as "b=0"; see `swtstudy.results.normalise.normalised`."""
-        from swtstudy.results.normalise import normalised
+        """s over s at one place, such as "b=0"; see `swtstudy.results.quantity.quantity`."""
+        from swtstudy.results.quantity import quantity
 
-        return normalised(self._dataset, f"s/s({place})")
+        return quantity(self._dataset, f"s/s({place})")
 
     def extrema(self, dim: str) -> xr.Dataset:
         """Least and greatest s along a dimension, and where; see `swtstudy.results.extrema.extrema`."""
