@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
+from swtstudy.figures.quantity_words import flag_words, quantity_words
 from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
-from swtstudy.figures.words import axis_words, flag_words, place_words, quantity_words
+from swtstudy.figures.words import axis_words, place_words
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import quantity

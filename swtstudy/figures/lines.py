@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
-from swtstudy.figures.words import flag_words, place_words, tick_in_pi
+from swtstudy.figures.words import place_words, tick_in_pi
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.study.figure import FigureLayout

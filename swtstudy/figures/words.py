@@ -7,17 +7,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from swtstudy.parameters import PARAMETERS
-from swtstudy.study.figure import reference
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.axis import Axis
 
 #: A float this close, relatively, to a fraction or a root is taken for it.
 _TOLERANCE = 1e-9
 _LARGEST_DENOMINATOR = 20
-
-_UNITS = {"degree": "°"}
 
 
 def parameter_words(name: str) -> str:
@@ -103,32 +99,6 @@ def pi_words(multiple: Fraction) -> str:
 def _fraction(value: float, largest: int) -> Fraction | None:
     fraction = Fraction(value).limit_denominator(largest)
     return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None
-
-
-def quantity_words(values: xr.DataArray, y: str) -> str:
-    """What a figure's ``y`` names, with its symbol and its unit.
-
-    Parameters
-    ----------
-    values
-        The quantity, as from `swtstudy.results.quantity.quantity`.
-    y
-        Its name in the layout.
-    """
-    place = reference(y)
-    if place is not None:
-        name, value = place
-        return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else float(value))})"
-    if values.name == "s":
-        return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
-    symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
-    words = f"${symbol}$" if symbol else str(values.name).replace("_", " ")
-    return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"
-
-
-def flag_words(values: xr.DataArray) -> list[str]:
-    """The meanings of flags, in the order of their values from 0 on; none if there are no flags."""
-    return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]
 
 
 def tick_in_pi(axis: Axis, low: float, high: float) -> None:
