@@ -4,12 +4,14 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+import xarray as xr
 from made_up import made_up
 from matplotlib import colormaps
 from matplotlib.colors import to_rgba
 from matplotlib.transforms import Bbox
 
 from swtstudy.figures.legend import add_legend
+from swtstudy.figures.scale import hue_scale
 from swtstudy.figures.words import place_words
 from swtstudy.parameters import PROFILE_SHAPES
 
@@ -47,14 +49,23 @@ def test_any_number_of_entries_fits(below):
     names = [f"the line number {index}" for index in range(60)]
     for name in names:
         figure.axes[0].plot(PHASE, PHASE, label=name)
+    width, height = figure.get_size_inches()
     add_legend(figure, np.array(figure.axes), below)
     assert_whole(figure, names)
+    # In several columns or rows rather than far beyond the panels.
+    assert figure.get_figheight() == height if not below else figure.get_figwidth() == width
 
 
 def test_names_have_a_legend():
     dataset = made_up(lambda profile, phase: phase + 0.0, profile=[*PROFILE_SHAPES], phase=PHASE)
     figure = dataset.swt.panels("phase", "profile")
     assert_whole(figure, [name.replace("_", " ") for name in PROFILE_SHAPES])
+
+
+def test_names_have_no_scale_however_many():
+    values = np.array([f"profile {index}" for index in range(20)])
+    assert hue_scale(xr.DataArray(values)) is None
+    assert hue_scale(xr.DataArray(np.arange(20.0))) is not None
 
 
 def test_panels_stay_as_large_beside_a_legend():

@@ -84,6 +84,18 @@ def test_contours_are_where_the_values_are(dataset, name):
     assert drawn > 20
 
 
+@pytest.mark.parametrize("name", ["s", "regime"])
+def test_surfaces_do_not_depend_on_the_order_of_values(dataset, name):
+    mixed = dataset.isel(phase=[5, 0, 12, *range(1, 5), *range(6, 12)], friction=[2, 0, 1])
+    keys = {"vertical": "friction", "kind": "contour", "y": name}
+    one, other = (each.swt.panels("phase", **keys).axes[0] for each in (dataset, mixed))
+    assert one.get_xlim() == other.get_xlim()
+    for first, second in zip(one.collections, other.collections, strict=True):
+        np.testing.assert_array_equal(first.get_array(), second.get_array())
+        for path, again in zip(first.get_paths(), second.get_paths(), strict=True):
+            np.testing.assert_array_equal(path.vertices, again.vertices)
+
+
 def test_only_s_has_curves_of_its_extrema(dataset):
     figure = dataset.swt.panels("phase", vertical="friction", kind="contour", y=["s", "critical_x"])
     s, x = figure.axes[:2]
