@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import importlib
-import sys
 from typing import TYPE_CHECKING
+
+from swtstudy.registration import register_with_xarray
 
 if TYPE_CHECKING:
     from swtstudy.archive.read import open_results
@@ -65,15 +66,10 @@ _HOMES = {
     "swt_of_history": "swtstudy.fields.history",
 }
 
-#: What gives Datasets of results, which then have the accessor ``swt``.
-_GIVE_RESULTS = ("open_results", "run", "run_suite", "solve")
-
 
 def __getattr__(name: str) -> object:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if name in _GIVE_RESULTS:
-        importlib.import_module("swtstudy.accessor")
     value = getattr(importlib.import_module(_HOMES[name]), name)
     globals()[name] = value
     return value
@@ -83,5 +79,4 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-if "xarray" in sys.modules:
-    importlib.import_module("swtstudy.accessor")  # costs nothing then
+register_with_xarray()

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 class SwtAccessor:
     """What can be done with results of `solve`, `run` and `open_results`, also after xarray's operations.
 
-    Registered as ``Dataset.swt`` as soon as one of these functions has been looked up in `swtstudy`, or by
-    ``import swtstudy.accessor``, which those need who open an archive with xarray alone.
+    Registered as ``Dataset.swt`` once `swtstudy` and xarray are both imported, in any order.
 
     Examples
     --------
@@ -56,7 +55,10 @@ class SwtAccessor:
         regimes: bool = False,
         style: Style | None = None,
     ) -> Figure:
-        """A figure of one's own: the same keys as in a study's ``[figure]``."""
+        """A figure of one's own: the same keys as in a study's ``[figure]``.
+
+        ``y`` may name any data variable of the Dataset.
+        """
         from swtstudy.figures.draw import draw
         from swtstudy.study.figure import FigureLayout
 
@@ -71,10 +73,10 @@ class SwtAccessor:
         return slice_at(self._dataset, places, tolerance)
 
     def normalised(self, place: str) -> xr.DataArray:
-        """s over s at one place, such as "b=0"; see `swtstudy.results.normalise.normalised`."""
-        from swtstudy.results.normalise import normalised
+        """s over s at one place, such as "b=0"; see `swtstudy.results.quantity.quantity`."""
+        from swtstudy.results.quantity import quantity
 
-        return normalised(self._dataset, f"s/s({place})")
+        return quantity(self._dataset, f"s/s({place})")
 
     def extrema(self, dim: str) -> xr.Dataset:
         """Least and greatest s along a dimension, and where; see `swtstudy.results.extrema.extrema`."""

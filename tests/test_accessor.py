@@ -14,7 +14,7 @@ from made_up import PANELS, made_up
 import swtstudy
 from swtstudy import Study, run
 from swtstudy.accessor import SwtAccessor
-from swtstudy.results.normalise import normalised, normalised_error
+from swtstudy.results.quantity import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 
 
@@ -84,9 +84,9 @@ def test_normalised_is_s_over_s_there(dataset):
 
 def test_errors_of_ratios_add_up(dataset):
     dataset["s_error"] = 0.01 * dataset.s
-    error = normalised_error(dataset, "s/s(b=0)")
+    error = quantity_error(dataset, "s/s(b=0)")
     assert (error.isel(flat_radius=0) == 0).all()
-    expected = 0.02 * normalised(dataset, "s/s(b=0)").isel(flat_radius=slice(1, None))
+    expected = 0.02 * quantity(dataset, "s/s(b=0)").isel(flat_radius=slice(1, None))
     np.testing.assert_allclose(error.isel(flat_radius=slice(1, None)), expected)
 
 
@@ -155,9 +155,9 @@ def test_figures(dataset):
         )
         == 3
     )
-    with pytest.raises(ValueError, match="no place for frequency_ratio"):
+    with pytest.raises(ValueError, match="no place for the axis frequency_ratio"):
         dataset.swt.panels("phase", panels="flat_radius")
-    with pytest.raises(ValueError, match="not a dimension"):
+    with pytest.raises(ValueError, match="not an axis of these results"):
         dataset.swt.slice(flat_radius=0).swt.figure()
 
 
@@ -180,8 +180,23 @@ def test_results_of_solve():
 
 
 @pytest.mark.parametrize(
-    "first", ["import xarray", "import swtstudy; swtstudy.open_results", "import swtstudy.accessor"]
+    "imports",
+    [
+        "import swtstudy, xarray",
+        "import xarray, swtstudy",
+        "import swtstudy.accessor",
+        "from swtstudy.archive.read import open_results; import xarray",
+        "from swtstudy.solving import solve",
+        "import swtstudy.records.labelled",
+        "from swtstudy import Study; import dask.array, xarray.core.dataset",
+    ],
 )
-def test_the_accessor_is_there_without_being_asked_for(first):
-    code = f"{first}\nimport swtstudy, xarray\nxarray.Dataset().swt"
+def test_the_accessor_is_there_whatever_is_imported_first(imports):
+    code = f"{imports}\nfrom xarray import Dataset\nDataset({{'s': 1.0}}).swt.to_table"
+    code += "\nimport sys\nassert not any('swtstudy' in type(finder).__module__ for finder in sys.meta_path)"
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    code = "import swtstudy, sys; sys.exit('heavy' if {'numpy', 'xarray'} & set(sys.modules) else 0)"
     subprocess.run([sys.executable, "-c", code], check=True)

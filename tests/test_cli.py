@@ -1,13 +1,16 @@
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+import stand_in
 from click.testing import CliRunner
 
 import swtstudy
 import swtstudy.parameters
+from swtstudy import Study, run
 from swtstudy.archive.files import save
 from swtstudy.cli import main
 from swtstudy.records.records import MISSING
@@ -42,6 +45,75 @@ def test_plot_needs_the_archive_alone(study, tmp_path):
     study.unlink()
     assert call("plot", tmp_path / "small.nc", "-o", tmp_path / "other.svg").exit_code == 0
     assert (tmp_path / "other.svg").stat().st_size > 1000
+
+
+@pytest.fixture
+def merged(tmp_path):
+    """Two archives as one, whose axes no figure of theirs has a place for."""
+    for friction in (0.1, 0.2):
+        text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n[figure]\nx = "phase"\n'
+        run(Study.from_text(text), tmp_path / f"{friction}.nc", solver=stand_in.smooth)
+    assert call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", tmp_path / "both.nc").exit_code == 0
+    return tmp_path / "both.nc"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--x", "phase", "--hue", "friction", "--y", "critical_x", "--y", "regime"),
+        ("--x", "phase", "--panels", "friction", "--title", "critical", "--regimes"),
+        ("--x", "phase", "--vertical", "friction", "--kind", "contour", "--y", "critical_angle"),
+        ("--x", "friction", "--vertical", "phase", "--kind", "heatmap", "--y", "regime"),
+    ],
+)
+def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, options, monkeypatch):
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    result = call("plot", merged, *options)
+    assert result.exit_code == 0, result.output
+    own: dict = {"y": []}
+    for key, value in zip(options[::2], (*options[1::2], True), strict=False):
+        name = key.removeprefix("--")
+        own[name] = [*own["y"], value] if name == "y" else value
+    expected = swtstudy.open_results(merged).swt.panels(**{**own, "y": own["y"] or "s"})
+    pictures = []
+    for figure in (drawn[0], expected):
+        picture = BytesIO()
+        figure.savefig(picture, format="png", dpi=50)
+        pictures.append(picture.getvalue())
+    assert pictures[0] == pictures[1]
+
+
+def test_options_change_the_figure_of_an_archive(study, tmp_path, monkeypatch):
+    call("run", study, "--results", tmp_path)
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    assert call("plot", tmp_path / "small.nc", "--y", "critical_x", "--title", "Where").exit_code == 0
+    (figure,) = drawn
+    dataset = swtstudy.open_results(tmp_path / "small.nc")
+    for line, values in zip(figure.axes[0].lines, dataset.critical_x, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), values)
+    assert figure.get_suptitle() == "Where"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ((), "have no figure of a study; allowed: a layout of your own, with x one of phase, friction"),
+        (("--y", "critical_x"), "have no figure of a study"),
+        (("--x", "fase", "--hue", "friction"), "figure.x: found 'fase', not an axis of these results; "),
+        (("--x", "phase"), "no place for the axis friction"),
+        (("--x", "phase", "--hue", "friction", "--y", "speed"), "figure.y: found 'speed' (not a quantity)"),
+        (("--x", "phase", "--hue", "friction", "--kind", "pie"), "figure.kind: found 'pie'"),
+        (("--x", "phase", "--hue", "friction", "--title", "$x^2^3$"), "figure.title: "),
+    ],
+)
+def test_a_layout_that_cannot_be_drawn_is_one_line(merged, options, words):
+    result = call("plot", merged, *options)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not merged.with_suffix(".png").exists()
 
 
 def test_plot_says_what_an_unfinished_archive_lacks(study, tmp_path):

@@ -11,7 +11,7 @@ from swtstudy.figures.draw import draw
 from swtstudy.figures.save import save_figure
 from swtstudy.figures.style import STYLE
 from swtstudy.figures.words import value_words
-from swtstudy.results.normalise import normalised
+from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
 
 
@@ -62,14 +62,14 @@ def test_other_endings_are_refused(panels, tmp_path):
 
 
 def test_what_cannot_be_drawn_is_refused(panels):
-    with pytest.raises(ValueError, match="not a dimension"):
+    with pytest.raises(ValueError, match="not an axis of these results"):
         draw(panels, FigureLayout(x="friction"))
     with pytest.raises(ValueError, match="no figure"):
         draw(panels.drop_attrs())
 
 
 def test_the_reference_of_a_normalised_quantity(panels):
-    ratio = normalised(panels, "s/s(flat_radius=0)")
+    ratio = quantity(panels, "s/s(flat_radius=0)")
     np.testing.assert_allclose(ratio * panels.s.isel(flat_radius=0), panels.s)
 
 

@@ -1,4 +1,6 @@
 import math
+import subprocess
+import sys
 from fractions import Fraction
 
 import pytest
@@ -7,7 +9,7 @@ from swtstudy import Study, StudyError
 from swtstudy.audit.audit import sample_rows
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import VARIABLES, FigureLayout
 from swtstudy.study.writing import to_toml
 
 MINIMAL = 'title = "t"\n'
@@ -219,7 +221,12 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
         (FIGURE + 'colour = "red"', "figure.colour", "known:"),
         (FIGURE + "y = 3", "figure.y", "a text, or a list"),
         (FIGURE + 'y = "t"', "figure.y", "not a quantity"),
+        (FIGURE + 'y = "critical"', "figure.y", "critical_angle, regime"),
+        (FIGURE + 'y = "regimes"', "figure.y", "did you mean regime?"),
+        (FIGURE + 'y = "b/c"', "figure.y", "not a quantity"),
         (FIGURE + "y = []", "figure.y", "empty list"),
+        (FIGURE + "title = 'an $\\frca$'", "figure.title", "Unknown symbol: \\frca"),
+        (FIGURE + "title = '$x^2^3$'", "figure.title", "Double superscript"),
         (FIGURE + 'kind = "pie"', "figure.kind", '"contour"'),
         (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
         (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
@@ -252,6 +259,30 @@ def test_a_written_study_is_the_same_study(layout):
     grid = Study.from_text(MINIMAL + "[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]").grid
     study = Study.from_text(to_toml("t", 1e-3, grid, layout))
     assert (study.title, study.rtol, study.grid, study.figure) == ("t", 1e-3, grid, layout)
+
+
+def test_every_data_variable_is_accepted():
+    study = Study.from_text(MINIMAL + FIGURE + f"y = {[*VARIABLES]}")
+    assert study.figure is not None
+    assert study.figure.y == VARIABLES
+
+
+@pytest.mark.parametrize("title", ["costs $5", r"$\frac{\mu}{2}$ of 5 \$", "$a$ and $b$", "plain"])
+def test_titles_that_can_be_drawn_are_accepted(title):
+    study = Study.from_text(MINIMAL + FIGURE + f"title = '{title}'")
+    assert study.figure is not None
+    assert study.figure.title == title
+
+
+@pytest.mark.parametrize(("title", "imported"), [("plain", set()), ("$x$", {"matplotlib.mathtext"})])
+def test_titles_are_checked_without_pyplot(title, imported):
+    code = f"""
+import sys
+from swtstudy import Study
+Study.from_text({MINIMAL + FIGURE + f"title = '{title}'"!r})
+assert set(sys.modules) & {{"matplotlib.mathtext", "matplotlib.pyplot", "xarray"}} == {imported or "set()"}
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_normalised_quantities_are_accepted():

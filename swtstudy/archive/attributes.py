@@ -9,7 +9,8 @@ from typing import Any, TypedDict
 
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.records.records import Run
-from swtstudy.study.figure import FigureLayout, reference, wrong_roles
+from swtstudy.study.figure import FigureLayout, reference
+from swtstudy.study.figure_check import wrong_layout
 
 
 class Failure(TypedDict):
@@ -49,8 +50,8 @@ def read_figure(text: object) -> FigureLayout:
     texts += [word for word in (layout.hue, layout.panels, layout.title, layout.vertical) if word is not None]
     if not all(isinstance(word, str) for word in texts) or not isinstance(layout.regimes, bool):
         raise ValueError(f"no layout of a figure: {literal(asdict(layout))}")
-    for key, found, allowed in wrong_roles(layout):
-        raise ValueError(f"{key[1:]}: found {found}; allowed: {allowed}")
+    for key, found, allowed in wrong_layout(layout):
+        raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
         reference(y)
     return layout

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -11,23 +13,41 @@ from swtstudy.cli.examples import examples
 
 
 @click.command(
-    epilog=examples("swtstudy plot results/figure3.nc", "swtstudy plot results/figure3.nc -o figure3.pdf")
+    epilog=examples(
+        "swtstudy plot results/figure3.nc -o figure3.pdf",
+        "swtstudy plot results/figure3.nc --y critical_x --y regime",
+        "swtstudy plot merged.nc --x phase --vertical friction --kind heatmap --y critical_angle",
+    )
 )
 @click.argument("archive", shell_complete=archive_completion)
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
-def plot(archive: str, output: str | None, style: str | None) -> None:
-    """Draw the figure of an ARCHIVE, from the archive alone."""
+@click.option("--x", help="The axis along the horizontal axis.")
+@click.option("--hue", help="The axis whose values are the lines.")
+@click.option("--panels", help="The axis whose values are the panels.")
+@click.option("--vertical", help="The axis along the vertical axis of contours and heat maps.")
+@click.option("--kind", help="lines, contour or heatmap.")
+@click.option("--y", multiple=True, help="What is drawn, such as s, critical_x or regime; once for each row.")
+@click.option("--title", help="A title over the figure.")
+@click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
+def plot(archive: str, output: str | None, style: str | None, **own: Any) -> None:
+    """Draw the figure of an ARCHIVE, from the archive alone.
+
+    With --x the layout is what the other options say; without, that of the archive but for what they say.
+    """
     from swtstudy.archive.files import check_writable
     from swtstudy.archive.read import open_results
-    from swtstudy.figures.draw import draw
+    from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.save import save_figure
     from swtstudy.records.records import MISSING
+    from swtstudy.study.figure import FigureLayout
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)
     check_writable(target)
-    save_figure(draw(dataset, style=style), target, style)
+    given = {key: value for key, value in own.items() if value not in (None, ())}
+    layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
+    save_figure(draw(dataset, layout, style), target, style)
     missing = int((dataset.status == MISSING).sum())
     if missing:
         click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)

@@ -5,24 +5,31 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
+from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.surfaces import colours_of, draw_cells, draw_contours
+from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.figures.words import axis_words, place_words
-from swtstudy.results.normalise import normalised
-from swtstudy.study.figure import FigureLayout, reference, wrong_roles
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.parameters import PARAMETERS
+from swtstudy.results.quantity import quantity
+from swtstudy.results.select import require_points
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure_check import wrong_axes, wrong_layout
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Every panel of every figure is so large, in inches.
-_PANEL_WIDTH, _PANEL_HEIGHT, _LEGEND_WIDTH = 4.0, 3.2, 1.5
+#: Every panel of every figure is so large, in inches; beside it is so much room for a scale of colours.
+_PANEL_WIDTH, _PANEL_HEIGHT, _SCALE_WIDTH = 4.0, 3.2, 1.5
 
 
 def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style | None = None) -> Figure:
-    """Draw the figure of an archive.
+    """Draw a figure of results.
 
     Parameters
     ----------
@@ -43,20 +50,15 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
     Raises
     ------
     ValueError
-        If the archive has no figure, or lacks a dimension of it.
+        With every mistake in the layout; or if the archive has none, or there are no points.
     """
     layout = layout or layout_of(dataset)
-    for key, found, allowed in wrong_roles(layout):
-        raise ValueError(f"figure{key}: found {found}; allowed: {allowed}")
-    roles = dict(layout.roles())
-    for role, name in roles.items():
-        if name not in dataset.s.dims:
-            raise ValueError(f"the figure's {role} is {name}, which is not a dimension of these results")
-    spare = [str(name) for name in dataset.s.dims if name not in roles.values()]
-    if spare:
-        raise ValueError(f"the figure has no place for {', '.join(spare)}: slice these results first")
+    require_points(dataset)
+    mistakes = list(dict.fromkeys(_mistakes(dataset, layout)))
+    if mistakes:
+        raise StudyError(mistakes)
     with styled(style):
-        return _draw_rows(dataset, layout)
+        return _draw_rows(dataset.compute(), layout)
 
 
 def layout_of(dataset: xr.Dataset) -> FigureLayout:
@@ -68,10 +70,35 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
         If the results come from no study, or from one without a figure.
     """
     if "figure" not in dataset.attrs:
-        raise ValueError("these results have no figure of a study; allowed: a layout of your own")
+        raise ValueError(
+            "these results have no figure of a study; allowed: a layout of your own, "
+            f"with x one of {', '.join(map(str, dataset.dims))}"
+        )
     layout = FigureLayout.from_json(dataset.attrs["figure"])
     hue, panels = (None if name not in dataset.dims else name for name in (layout.hue, layout.panels))
     return replace(layout, hue=hue, panels=panels)
+
+
+def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
+    found = [Mistake(*each) for each in wrong_layout(layout)]
+    for y in layout.y:
+        try:
+            values = quantity(dataset, y)
+        except StudyError as error:
+            found += error.mistakes
+            continue
+        except ValueError as error:
+            found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
+            continue
+        sizes = {str(name): size for name, size in values.sizes.items()}
+        strange = [name for name in sizes if name not in PARAMETERS]
+        if strange or values.dtype.kind not in "fiub":
+            what = f"values over {', '.join(strange)}" if strange else f"values of type {values.dtype}"
+            found.append(Mistake("figure.y", f"{y!r} with {what}", "numbers over parameters"))
+        found += [Mistake(*each) for each in wrong_axes(layout, sizes, "these results")]
+    if layout.regimes and not ("regime" in dataset and flag_words(dataset.regime)):
+        found.append(Mistake("figure.regimes", "True", "False for results without regime"))
+    return found
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
@@ -80,43 +107,32 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
     from swtstudy.figures.figure import Figure
 
     columns = _slices(dataset, layout.panels)
-    rows = len(layout.y)
-    beside = layout.hue is not None or layout.kind != "lines"
-    size = (_PANEL_WIDTH * len(columns) + _LEGEND_WIDTH * beside, _PANEL_HEIGHT * rows)
+    rows, lines = len(layout.y), layout.kind == "lines"
+    scale = hue_scale(dataset[layout.hue]) if layout.hue else None
+    beside = _SCALE_WIDTH if scale or not lines else 0.0
+    size = (_PANEL_WIDTH * len(columns) + beside, _PANEL_HEIGHT * rows)
     figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
-    sharey: Any = "row" if layout.kind == "lines" else "all"
+    sharey: Any = "row" if lines else "all"
     axes = figure.subplots(rows, len(columns), sharex=True, sharey=sharey, squeeze=False)
     for row, y in enumerate(layout.y):
-        if layout.kind == "lines":
+        values = [quantity(panel, y) for panel in columns]
+        words = quantity_words(values[0], y)
+        if lines:
             for one, panel in zip(axes[row], columns, strict=True):
-                draw_lines(one, panel, layout, y)
+                draw_lines(one, panel, layout, y, scale)
         else:
-            surfaces = [normalised(panel, y).transpose(layout.vertical, layout.x) for panel in columns]
-            norm = colours_of(surfaces, 13 if layout.kind == "contour" else None)
-            fill = draw_contours if layout.kind == "contour" else draw_cells
-            mappables = [fill(one, s, norm) for one, s in zip(axes[row], surfaces, strict=True)]
-            figure.colorbar(mappables[-1], ax=axes[row], label=_quantity_words(y), pad=0.02)
-        for column, panel in enumerate(columns):
-            number = row * len(columns) + column
-            _head_panel(axes[row, column], panel, layout, number, rows * len(columns))
-        axes[row, 0].set_ylabel(
-            _quantity_words(y) if layout.vertical is None else axis_words(layout.vertical)
-        )
+            surfaces = [each.transpose(layout.vertical, layout.x) for each in values]
+            draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
+        axes[row, 0].set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
+    for index, (one, panel) in enumerate(zip(axes.flat, columns * rows, strict=True)):
+        _head_panel(one, panel, layout, index, axes.size)
     for bottom in axes[-1]:
         bottom.set_xlabel(axis_words(layout.x))
-    # What the panels have in common is said once, the lines before the marks.
-    handles: dict[str, Any] = {}
-    for one in axes.flat:
-        for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
-            handles.setdefault(label, handle)
-    labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
-    if labels:
-        below = layout.kind != "lines"
-        place: Any = "outside lower center" if below else "outside right upper"
-        columns_of_legend = len(labels) if below else 1
-        figure.legend([handles[label] for label in labels], labels, loc=place, ncols=columns_of_legend)
     if layout.title:
         figure.suptitle(layout.title)
+    if scale and layout.hue:
+        add_scale(figure, axes, scale, layout.hue)
+    add_legend(figure, axes, below=not lines)
     return figure
 
 
@@ -131,11 +147,3 @@ def _head_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int,
     if layout.panels:
         words.append(place_words(layout.panels, panel[layout.panels].item()))
     axes.set_title("  ".join(words), loc="left")
-
-
-def _quantity_words(y: str) -> str:
-    place = reference(y)
-    if place is None:
-        return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
-    name, value = place
-    return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else float(value))})"

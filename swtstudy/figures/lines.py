@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
 from swtstudy.figures.words import place_words, tick_in_pi
 from swtstudy.parameters import PARAMETERS
-from swtstudy.results.normalise import normalised, normalised_error
+from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from numpy.typing import NDArray
 
 #: Markers, where a line has them, are so far apart, as a share of the panel's diagonal.
 _MARK_EVERY = 0.1
@@ -22,29 +25,58 @@ _MARK_EVERY = 0.1
 _VISIBLE_ERROR = 0.004
 
 
-def draw_lines(axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str) -> None:
-    """Draw the curves of one panel; a band around a curve is its estimated error, where it can be seen."""
-    curves, errors = normalised(panel, y), normalised_error(panel, y)
-    order = np.argsort(panel[layout.x].values)
-    x = panel[layout.x].values[order]
-    visible = _VISIBLE_ERROR * float(curves.max() - curves.min())
-    for index in range(curves.sizes[layout.hue] if layout.hue else 1):
-        curve, error, words = curves, errors, None
-        if layout.hue:
-            curve, error = (values.isel({layout.hue: index}) for values in (curves, errors))
-            words = place_words(layout.hue, curve[layout.hue].item())
-        s, half = curve.values[order], error.values[order]
-        (line,) = axes.plot(x, s, label=words, markevery=_MARK_EVERY)
-        if visible > 0.0 and np.any(half > visible):
-            axes.fill_between(x, s - half, s + half, color=line.get_color(), alpha=0.25, linewidth=0)
+def draw_lines(
+    axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str, scale: ScalarMappable | None = None
+) -> None:
+    """Draw the curves of one panel.
+
+    Parameters
+    ----------
+    axes
+        The panel.
+    panel
+        Results over x and hue.
+    layout, y
+        What is drawn. A band around a curve is its estimated error, where it can be seen.
+    scale
+        Colours of the values of hue; without one the curves have the looks of the cycle, and labels.
+    """
+    panel = panel.sortby(layout.x)
+    x = panel[layout.x].values
+    parts = [panel.isel({layout.hue: i}) for i in range(panel.sizes[layout.hue])] if layout.hue else [panel]
+    curves, whole = [quantity(part, y) for part in parts], quantity(panel, y)
+    visible = _VISIBLE_ERROR * float(whole.max() - whole.min())
+    for part, curve in zip(parts, curves, strict=True):
+        look: dict[str, Any] = {"markevery": _MARK_EVERY}
+        if scale:
+            look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
+        elif layout.hue:
+            look["label"] = place_words(layout.hue, part[layout.hue].item())
+        if flag_words(curve):
+            look["drawstyle"] = "steps-mid"
+        (line,) = axes.plot(x, curve.values, **look)
+        error = quantity_error(part, y)
+        if error is not None and visible > 0.0 and np.any(error.values > visible):
+            low, high = curve.values - error.values, curve.values + error.values
+            axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
         if layout.regimes:
-            regime = panel.regime.isel({layout.hue: index}) if layout.hue else panel.regime
-            names = panel.regime.attrs["flag_meanings"].split()
-            mark_regimes(axes, x, s, [names[value] for value in regime.values[order]], line.get_color())
+            names, regime = panel.regime.attrs["flag_meanings"].split(), known_regime(part).values
+            regimes = [names[int(value)] if np.isfinite(value) else None for value in regime]
+            mark_regimes(axes, x, curve.values, regimes, line.get_color())
+    _scale_axes(axes, x, whole, layout.x)
+
+
+def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
+    """Limits, logarithms and ticks that suit what is drawn."""
     axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    words = flag_words(values)
+    if words:
+        axes.set_yticks(range(len(words)), words)
+        axes.set_ylim(-0.5, len(words) - 0.5)
     if in_equal_ratios(x):
         axes.set_xscale("log")
-        if float(curves.max()) > LOG_RATIO * float(curves.where(curves > 0.0).min()):
+        ratio = float(values.max()) / float(values.where(values > 0.0).min())
+        if not words and float(values.min()) >= 0.0 and ratio > LOG_RATIO:
             axes.set_yscale("log")
-    if PARAMETERS[layout.x].units == "rad":
+    if PARAMETERS[name].units == "rad":
         tick_in_pi(axes.xaxis, float(x.min()), float(x.max()))

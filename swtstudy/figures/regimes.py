@@ -17,11 +17,13 @@ _WORDS = {"not_finite": "not finite from here on", "lift_off": "lift-off begins"
 LOG_RATIO = 100.0
 
 
-def mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str], colour: Any) -> None:
-    """Mark where the regimes of a line, one a point, change."""
+def mark_regimes(
+    axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None], colour: Any
+) -> None:
+    """Mark where the regimes of a line, one a point, change; None if not known."""
     for place in range(1, len(regimes)):
-        name = regimes[place]
-        if name != regimes[place - 1]:
+        before, name = regimes[place - 1 : place + 1]
+        if name and before and name != before:
             at = place - 1 if name == "not_finite" else place
             words = _WORDS.get(name, f"{name.replace('_', ' ')} begins")
             style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markersize": 5}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,5 +30,9 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
         raise ValueError(f"{path}: a figure's name ends in one of {', '.join(FORMATS)}")
-    with styled(style), replacing(path) as temporary:
-        figure.savefig(temporary, format=suffix[1:], metadata=_NO_DATE.get(suffix))
+    # Drawing takes seconds, in which a process that is ended would leave an unfinished file.
+    picture = BytesIO()
+    with styled(style):
+        figure.savefig(picture, format=suffix[1:], metadata=_NO_DATE.get(suffix))
+    with replacing(path) as temporary:
+        temporary.write_bytes(picture.getvalue())

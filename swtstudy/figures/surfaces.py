@@ -1,4 +1,4 @@
-"""A panel of s over two dimensions: contours, or a heat map of cells."""
+"""Panels of a quantity over two dimensions: contours, or a heat map of cells."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.words import tick_in_pi, value_words
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.extrema import extrema
@@ -16,32 +17,101 @@ if TYPE_CHECKING:
     from matplotlib.axis import Axis
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 #: Ticks of the axes of cells, at most, and places at which an optimum is labelled.
 _TICKS_ACROSS, _TICKS_UP, _LABELLED = 9, 20, 5
 
+#: Contours are about so many.
+_LEVELS = 13
 
-def colours_of(surfaces: list[xr.DataArray], levels: int | None = None) -> Normalize:
-    """One scale of colours for all panels of a row, in about so many steps."""
+
+def draw_surfaces(
+    figure: Figure, axes: NDArray[Any], surfaces: list[xr.DataArray], kind: str, words: str
+) -> None:
+    """A row of panels with one scale of colours.
+
+    Parameters
+    ----------
+    figure, axes
+        The figure and the panels of the row.
+    surfaces
+        A quantity over (vertical, x) for each panel; flags have a colour each, with its meaning beside it.
+    kind
+        "contour" or "heatmap".
+    words
+        What the colours say.
+    """
+    names = flag_words(surfaces[0])
+    look = _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind)}
+    for one, surface in zip(axes, surfaces, strict=True):
+        if kind == "heatmap":
+            filled = draw_cells(one, surface, look)
+        elif names:
+            filled = draw_areas(one, surface, look)
+        else:
+            filled = draw_contours(one, surface, look)
+    bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
+    if names:
+        bar.set_ticks(range(len(names)), labels=names)
+        bar.ax.tick_params(which="both", length=0)
+
+
+def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
+    """One scale of colours for all panels of a row, in steps for contours."""
     from matplotlib.colors import BoundaryNorm, Normalize
     from matplotlib.ticker import MaxNLocator
 
-    low = min(float(values.min()) for values in surfaces)
-    high = max(float(values.max()) for values in surfaces)
-    if levels is None:
+    values = np.concatenate([surface.values.ravel() for surface in surfaces])
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if kind == "heatmap":
         return Normalize(low, high)
-    return BoundaryNorm(MaxNLocator(levels).tick_values(low, high), 256)
+    return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
 
 
-def draw_contours(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarMappable:
-    """Contours of a surface over (vertical, x), and along x its minima and maxima, labelled with x."""
+def _flag_colours(names: list[str]) -> dict[str, Any]:
+    """A colour for each flag, in order from dark to light."""
+    from matplotlib import colormaps, rcParams
+    from matplotlib.colors import BoundaryNorm
+
+    colours = colormaps[rcParams["image.cmap"]].resampled(len(names))
+    return {"cmap": colours, "norm": BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))}
+
+
+def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
+    """Areas of flags over (vertical, x), with their borders half way between points; grey if NaN."""
     vertical, x = map(str, surface.dims)
-    levels = norm.boundaries  # type: ignore[attr-defined]
+    axes.set_facecolor("0.8")
     surface = surface.sortby([vertical, x])
     at = surface[x], surface[vertical]
-    filled = axes.contourf(*at, surface, levels=levels, norm=norm)
+    mesh = axes.pcolormesh(*at, surface, shading="nearest", rasterized=True, **look)
+    axes.set(xlim=surface[x].values[[0, -1]], ylim=surface[vertical].values[[0, -1]])
+    axes.grid(False)
+    _tick_angles(axes, surface)
+    return mesh
+
+
+def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
+    """Contours of a surface over (vertical, x); of s its minima and maxima along x too, labelled with x."""
+    vertical, x = map(str, surface.dims)
+    levels = look["norm"].boundaries
+    surface = surface.sortby([vertical, x])
+    at = surface[x], surface[vertical]
+    axes.set_facecolor("0.8")
+    filled = axes.contourf(*at, surface, levels=levels, **look)
     lines = axes.contour(*at, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
     axes.clabel(lines, levels[::2], fontsize="x-small", fmt="%g")
+    if surface.name == "s":
+        _draw_extrema(axes, surface)
+    axes.grid(False)
+    _tick_angles(axes, surface)
+    return filled
+
+
+def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
+    vertical, x = map(str, surface.dims)
     found = extrema(surface.to_dataset(name="s"), x)
     for kind, look in (("minimum", {"linestyle": "-"}), ("maximum", {"linestyle": (0, (4, 2))})):
         places = found[f"at_{kind}"]
@@ -54,11 +124,12 @@ def draw_contours(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarM
         axes.plot(unbroken, places[vertical], color="white", linewidth=3.4, **over)
         axes.plot(unbroken, places[vertical], color="#B22222", label=label, **look, **over)
         _label_places(axes, places, x, vertical)
-    axes.grid(False)
-    for axis, name in ((axes.xaxis, x), (axes.yaxis, vertical)):
+
+
+def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
+    for axis, name in zip((axes.yaxis, axes.xaxis), map(str, surface.dims), strict=True):
         if PARAMETERS[name].units == "rad":
             tick_in_pi(axis, float(surface[name].min()), float(surface[name].max()))
-    return filled
 
 
 def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> None:
@@ -74,12 +145,12 @@ def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> No
         axes.text(*at, words, fontsize="x-small", ha=side, va="center", bbox=box, zorder=4)
 
 
-def draw_cells(axes: Axes, surface: xr.DataArray, norm: Normalize) -> ScalarMappable:
+def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
     """A cell for every point of a surface over (vertical, x), in the order of the values; grey if NaN."""
     vertical, x = map(str, surface.dims)
     axes.set_facecolor("0.8")
     columns, rows = (np.arange(surface.sizes[name]) for name in (x, vertical))
-    mesh = axes.pcolormesh(columns, rows, surface, norm=norm, shading="nearest", rasterized=True)
+    mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
     axes.grid(False)
     _tick_cells(axes.xaxis, x, surface[x].values.tolist(), _TICKS_ACROSS)
     _tick_cells(axes.yaxis, vertical, surface[vertical].values.tolist(), _TICKS_UP)

@@ -15,43 +15,61 @@ from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import STATES
 
-#: Attributes of the data variables, after the CF conventions.
+#: xarray breaks the labels of its own plots after 30 characters, the unit included.
+_LONGEST_NAME = 24
+
+#: Attributes of the data variables, after the CF conventions. Long names are short: xarray's plots have them
+#: as labels. Dimensionless quantities say so by the unit 1, although xarray's labels then end in "[1]".
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
-        "long_name": "normalized maximum Smith-Watson-Topper parameter SWT/SWT0",
+        "long_name": "SWT parameter SWT/SWT0",
         "units": "1",
         "symbol": r"s",
         "ancillary_variables": "s_error regime s_surface",
-        "comment": "SWT0 = E* delta0 / R; one elastic half-space with E*, G* against a rigid indenter",
+        "comment": (
+            "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R; "
+            "one elastic half-space with E*, G* against a rigid indenter"
+        ),
     },
-    "s_error": {"long_name": "estimated absolute error of s", "units": "1", "symbol": r"\Delta s"},
+    "s_error": {
+        "long_name": "absolute error of s",
+        "comment": "estimated",
+        "units": "1",
+        "symbol": r"\Delta s",
+    },
     "s_surface": {
-        "long_name": "s over the circle on the surface through the critical point and over all planes",
+        "long_name": "s on the surface circle",
+        "comment": "s over the circle on the surface through the critical point and over all planes",
         "units": "1",
         "symbol": r"s_\mathrm{surface}",
     },
     "critical_x": {
-        "long_name": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
+        "long_name": "critical point x/a_H",
+        "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
         "units": "1",
         "symbol": r"x/a_H",
     },
     "critical_angle": {
-        "long_name": "angle of the normal of the critical plane against the x axis",
+        "long_name": "critical plane angle",
+        "comment": "angle of the normal of the critical plane against the x axis, in (-90, 90]",
         "units": "degree",
         "symbol": r"\varphi",
     },
     "regime": {
-        "long_name": "regime of the contact over the stationary cycle",
+        "long_name": "regime of the contact",
+        "comment": "over the stationary cycle",
         "flag_values": np.arange(len(REGIMES), dtype=np.int8),
         "flag_meanings": " ".join(REGIMES),
     },
     "status": {
-        "long_name": "whether the point has been computed",
+        "long_name": "state of the point",
+        "comment": "whether the point has been computed",
         "flag_values": np.arange(len(STATES), dtype=np.int8),
         "flag_meanings": " ".join(STATES),
     },
     "run": {
-        "long_name": "run that made the value, an index into the attribute runs; -1 if missing",
+        "long_name": "run that made the value",
+        "comment": "an index into the attribute runs; -1 if missing",
         "units": "1",
     },
 }
@@ -105,7 +123,12 @@ def _values(values: tuple[Value, ...]) -> NDArray:
 
 def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
     parameter = PARAMETERS[name]
-    attributes = {"long_name": parameter.meaning, "symbol": parameter.symbol}
+    short = len(parameter.meaning) <= _LONGEST_NAME
+    attributes = {
+        "long_name": parameter.meaning if short else name.replace("_", " "),
+        "comment": parameter.meaning,
+        "symbol": parameter.symbol,
+    }
     if parameter.kind != "profile":
         attributes["units"] = parameter.units
     if isinstance(values[0], Fraction):

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mistakes import nearest
+from swtstudy.results.select import require_points
 
 
 def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
@@ -27,12 +28,14 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
     Raises
     ------
     ValueError
-        If s has no such dimension.
+        If s has no such dimension, or the results are empty.
     """
     if dim not in dataset.s.dims:
         raise ValueError(
             f"found {dim!r}, no dimension of s; allowed: {nearest(dim, map(str, dataset.s.dims))}"
         )
+    require_points(dataset)
+    dataset = dataset[["s"]].compute()  # an index along a dimension must be known
     parts: dict[str, xr.DataArray] = {}
     for name, index in (
         ("minimum", dataset.s.fillna(np.inf).argmin(dim)),
@@ -41,9 +44,10 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
         value = dataset.s.isel({dim: index}).drop_vars(dim)
         place = dataset[dim].isel({dim: index}).drop_vars(dim)
         place = place.where(value.notnull()) if place.dtype.kind == "f" else place
-        parts[name] = value.assign_attrs(long_name=f"{name} of s along {dim}", units="1", symbol="s")
-        words = {"long_name": f"{dim} at the {name} of s"}
+        words = {"long_name": f"{name} of s", "comment": f"along {dim}", "units": "1", "symbol": "s"}
+        parts[name] = value.drop_attrs().assign_attrs(words)
+        words = {"long_name": f"{dim.replace('_', ' ')} of {name} s"}
         parts[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
-    words = {"long_name": f"maximum over minimum of s along {dim}", "units": "1"}
-    parts["ratio"] = (parts["maximum"] / parts["minimum"]).assign_attrs(words)
+    words = {"long_name": "maximum over minimum of s", "comment": f"along {dim}", "units": "1"}
+    parts["ratio"] = (parts["maximum"] / parts["minimum"]).drop_attrs().assign_attrs(words)
     return xr.Dataset(parts)

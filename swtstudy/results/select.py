@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,6 +41,7 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
     StudyError
         A ValueError with every name and value that is not there, and what is.
     """
+    require_points(dataset)
     mistakes: list[Mistake] = []
     chosen: dict[str, Any] = {}
     for name, raw in places.items():
@@ -49,13 +50,28 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
             mistakes.append(Mistake(name, "no parameter of these results", nearest(name, known)))
             continue
         several = isinstance(raw, list | tuple | range | np.ndarray) and np.ndim(raw) > 0
-        elements: Iterable[object] = raw if several else [raw]  # type: ignore[assignment]
+        elements: list[object] = list(raw) if several else [raw]  # type: ignore[call-overload]
+        if not elements:
+            mistakes.append(Mistake(name, literal(raw), "at least one value"))
         found = [_index(dataset[name], element, tolerance, mistakes) for element in elements]
         if name in dataset.dims:
             chosen[name] = found if several else found[0]
     if mistakes:
         raise StudyError(mistakes)
     return dataset.isel(chosen)
+
+
+def require_points(dataset: xr.Dataset) -> None:
+    """Refuse results without a single point, as selections leave them.
+
+    Raises
+    ------
+    ValueError
+        Naming the dimensions without a value.
+    """
+    empty = [str(name) for name, size in dataset.sizes.items() if not size]
+    if empty:
+        raise ValueError(f"these results are empty: no value is left of {', '.join(empty)}")
 
 
 def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mistake]) -> int:

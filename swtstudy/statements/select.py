@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from swtstudy.figures.words import value_words
+from swtstudy.mistakes import StudyError
+from swtstudy.results.select import slice_at
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+#: Values this close, relatively, are the same one: study files and statements write it alike.
+_SAME = 1e-9
 
 
 class NotInArchiveError(LookupError):
@@ -24,17 +28,12 @@ def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
     NotInArchiveError
         If a dimension or a value is not there.
     """
-    for name, value in places.items():
-        if name not in dataset.coords:
-            raise NotInArchiveError(f"no {name}")
-        known = np.atleast_1d(dataset[name].values)
-        same = known == value if isinstance(value, str) else np.isclose(known, value, rtol=1e-9, atol=1e-12)
-        if not same.any():
-            raise NotInArchiveError(f"no {name} = {value_words(name, value)}")
-        if name in dataset.dims:
-            dataset = dataset.isel({name: int(np.argmax(same))})
-        dataset = dataset.drop_vars(name)
-    return dataset
+    try:
+        return slice_at(dataset, places, _SAME).drop_vars(places)
+    except StudyError as error:
+        mistake = error.mistakes[0]
+        place = f" = {value_words(mistake.key, places[mistake.key])}" if mistake.key in dataset.coords else ""
+        raise NotInArchiveError(f"no {mistake.key}{place}") from None
 
 
 def with_dims(dataset: xr.Dataset, *names: str) -> xr.Dataset:

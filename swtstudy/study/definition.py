@@ -13,7 +13,8 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Range, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
 from swtstudy.parameters import PARAMETERS
-from swtstudy.study.figure import FigureLayout, check_figure
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 
 

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, Parameter, profiles_with
+from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
 #: Name of the schema's file beside studies; their first line points to it.
@@ -26,12 +27,15 @@ _RANGE_DESCRIPTIONS = {
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
 }
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, or s as contours or as a heat map over x and vertical.",
+    "kind": "Lines over x, or contours or a heat map over x and vertical.",
     "x": "Axis along the horizontal axis.",
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",
     "panels": "Axis whose values are the panels side by side.",
-    "y": 'One row of panels for each: "s", or "s/s(name=value)" for s over its value at one place.',
+    "y": (
+        f"One row of panels for each: {', '.join(VARIABLES)}, "
+        f"or {QUANTITY} for s over its value at one place."
+    ),
     "title": "Title over the figure.",
     "regimes": "Whether lines are marked where a regime of the contact begins.",
 }

@@ -1,0 +1,55 @@
+"""The legend beside or below all panels, for which a figure grows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.legend import Legend
+    from numpy.typing import NDArray
+
+#: Points in an inch.
+_POINTS = 72.0
+
+
+def add_legend(figure: Figure, axes: NDArray[Any], below: bool) -> None:
+    """Say once what the panels have in common, the lines before the marks; no entry is cut.
+
+    Parameters
+    ----------
+    figure
+        The figure, which grows by the legend.
+    axes
+        Its panels.
+    below
+        Whether the legend stands below the panels, not at their right.
+    """
+    handles: dict[str, Any] = {}
+    for one in axes.flat:
+        for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
+    if not labels:
+        return
+    place: Any = "outside lower center" if below else "outside right upper"
+    columns = range(len(labels), 0, -1) if below else range(1, len(labels) + 1)
+    for count in columns:
+        legend = figure.legend([handles[label] for label in labels], labels, loc=place, ncols=count)
+        width, height = _inches(legend, figure.dpi)
+        if count == columns[-1] or (
+            width <= figure.get_figwidth() if below else height <= figure.get_figheight()
+        ):
+            break
+        legend.remove()
+    if below:
+        figure.set_size_inches(max(figure.get_figwidth(), width), figure.get_figheight() + height)
+    else:
+        figure.set_size_inches(figure.get_figwidth() + width, max(figure.get_figheight(), height))
+
+
+def _inches(legend: Legend, dpi: float) -> tuple[float, float]:
+    """Width and height of a legend with the room around it."""
+    around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / _POINTS
+    box = legend.get_window_extent()
+    return box.width / dpi + around, box.height / dpi + around

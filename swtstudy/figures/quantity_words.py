@@ -1,0 +1,42 @@
+"""Quantities of results as they stand in a figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from swtstudy.figures.words import place_words
+from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.study.figure import reference
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_UNITS = {"degree": "°"}
+
+
+def quantity_words(values: xr.DataArray, y: str) -> str:
+    """What a figure's ``y`` names, with its symbol and its unit.
+
+    Parameters
+    ----------
+    values
+        The quantity, as from `swtstudy.results.quantity.quantity`.
+    y
+        Its name in the layout.
+    """
+    place = reference(y)
+    if place is not None:
+        name, value = place
+        return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else float(value))})"
+    if values.name == "s":
+        return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
+    symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
+    # xarray lets what is computed from a variable keep its symbol.
+    kept = any(symbol == known.get("symbol") for name, known in ATTRIBUTES.items() if name != values.name)
+    words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
+    return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"
+
+
+def flag_words(values: xr.DataArray) -> list[str]:
+    """The meanings of flags, in the order of their values from 0 on; none if there are no flags."""
+    return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]

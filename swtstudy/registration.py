@@ -1,0 +1,44 @@
+"""The accessor ``swt`` for Datasets as soon as there are any, without importing xarray for it.
+
+xarray has no entry point for accessors: a package registers its own when it is imported. This package does
+not import xarray, which takes ten times as long as the package itself, before it is needed.
+"""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Sequence
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+
+
+def register_with_xarray() -> None:
+    """Register the accessor: now if xarray has been imported, else right after it is."""
+    if "xarray" in sys.modules:
+        importlib.import_module("swtstudy.accessor")
+    else:
+        sys.meta_path.insert(0, _AfterXarray())
+
+
+class _AfterXarray:
+    """Finds nothing itself; lets the loader of xarray register the accessor when it has done its work."""
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if name != "xarray":
+            return None
+        sys.meta_path.remove(self)
+        spec = importlib.util.find_spec(name)
+        if spec is None or spec.loader is None:
+            return spec
+        execute = spec.loader.exec_module
+
+        def execute_and_register(module: ModuleType) -> None:
+            execute(module)
+            importlib.import_module("swtstudy.accessor")
+
+        spec.loader.exec_module = execute_and_register  # type: ignore[method-assign]
+        return spec

@@ -1,0 +1,129 @@
+"""What is wrong with the layout of a figure, by itself and for the axes there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.values import Value
+from swtstudy.mistakes import Report, literal, nearest
+from swtstudy.parameters import PARAMETERS
+from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, FigureLayout, reference
+
+
+def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of everything that is wrong with a layout whatever the results are."""
+    used: dict[str, str] = {}
+    for role, name in layout.roles():
+        if name in used:
+            yield f"figure.{role}", f"{literal(name)}, used for {used[name]} too", "each axis once"
+        used.setdefault(name, role)
+    if layout.kind not in KINDS:
+        yield "figure.kind", literal(layout.kind), nearest(layout.kind, KINDS)
+    elif layout.kind == "lines":
+        if layout.vertical is not None:
+            allowed = 'none for kind = "lines", whose vertical axis is y'
+            yield "figure.vertical", literal(layout.vertical), allowed
+    else:
+        if layout.vertical is None:
+            yield "figure.vertical", "nothing", f'the name of an axis (kind = "{layout.kind}" needs it)'
+        if layout.hue is not None:
+            yield "figure.hue", literal(layout.hue), f'none for kind = "{layout.kind}"'
+    for role in ("x", "vertical"):
+        if getattr(layout, role) == "profile" and layout.kind != "heatmap":
+            yield f"figure.{role}", "'profile'", "an axis of numbers"
+    if not layout.y:
+        yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
+    problem = _wrong_formula(layout.title or "")
+    if problem:
+        yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
+
+
+def wrong_axes(
+    layout: FigureLayout, sizes: Mapping[str, int | None], of: str
+) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of everything in a layout that does not fit the axes there are.
+
+    Parameters
+    ----------
+    layout
+        The figure.
+    sizes
+        Number of values of each axis; None if not known.
+    of
+        What has these axes, in words.
+    """
+    for role, name in layout.roles():
+        if name not in sizes:
+            yield f"figure.{role}", f"{literal(name)}, not an axis of {of}", nearest(name, sizes)
+        elif layout.kind == "contour" and role in ("x", "vertical") and sizes[name] == 1:
+            yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
+    roles = dict(layout.roles())
+    for name in sizes:
+        if name not in roles.values() and name in PARAMETERS:
+            yield (
+                "figure",
+                f"no place for the axis {name}",
+                "every axis as x, hue, vertical or panels, or with a single value",
+            )
+
+
+def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, report: Report) -> None:
+    """Report everything in a figure that its study cannot have.
+
+    Parameters
+    ----------
+    layout
+        The figure.
+    dims
+        Names of the axes of the study.
+    grid
+        The grid, if it is free of mistakes, to look up the places used for normalisation.
+    report
+        Takes key, found and allowed of a mistake.
+    """
+    sizes = {name: None if grid is None else len(grid.values(name)) for name in dims}
+    for key, found, allowed in (*wrong_layout(layout), *wrong_axes(layout, sizes, "this study")):
+        report(key, found, allowed)
+    for y in layout.y:
+        _check_quantity(y, dims, grid, report)
+
+
+def _wrong_formula(text: str) -> str | None:
+    """What keeps matplotlib from drawing the formulae in a text, if anything."""
+    if "$" not in text:
+        return None
+    # Imported where there is something to read: it takes longer than the rest of the check.
+    from matplotlib.cbook import is_math_text
+    from matplotlib.mathtext import MathTextParser
+
+    if not is_math_text(text):
+        return None
+    try:
+        MathTextParser("path").parse(text)
+    except ValueError as error:
+        return str(error).strip().splitlines()[-1].partition(": ")[2]  # without the parser's own name
+    return None
+
+
+def _check_quantity(y: str, dims: list[str], grid: Grid | None, report: Report) -> None:
+    try:
+        place = reference(y)
+    except ValueError as error:
+        report("figure.y", f"{literal(y)} ({error})", f"{', '.join(VARIABLES)}, or {QUANTITY}")
+        return
+    if place is None:
+        if y.strip() not in VARIABLES:
+            report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, VARIABLES)}, {QUANTITY}")
+        return
+    name, value = place
+    if name not in dims:
+        report("figure.y", f"{literal(y)}: {name} is not an axis of this study", nearest(name, dims))
+    elif grid is not None and not any(_same(value, other) for other in grid.values(name)):
+        report("figure.y", f"{literal(y)}: {value} is not on that axis", f"a value of the axis {name}")
+
+
+def _same(one: Value, other: Value) -> bool:
+    if isinstance(one, float) and isinstance(other, float):
+        return abs(one - other) <= 1e-11 * max(abs(one), abs(other))
+    return one == other

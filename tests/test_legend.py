@@ -1,0 +1,136 @@
+"""Legends that are never cut, and the scale of colours of many lines."""
+
+from io import BytesIO
+
+import numpy as np
+import pytest
+import xarray as xr
+from made_up import made_up
+from matplotlib import colormaps
+from matplotlib.colors import to_rgba
+from matplotlib.transforms import Bbox
+
+from swtstudy.figures.legend import add_legend
+from swtstudy.figures.scale import hue_scale
+from swtstudy.figures.words import place_words
+from swtstudy.parameters import PROFILE_SHAPES
+
+PHASE = np.linspace(0, 2, 5)
+
+
+def lines_over(friction):
+    return made_up(lambda phase, friction: friction + np.sin(phase), phase=PHASE, friction=friction)
+
+
+def assert_whole(figure, entries):
+    """All entries of the legend are in the figure as it is saved, and do not cover a panel."""
+    figure.savefig(BytesIO(), format="png")
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == entries
+    boxes = [text.get_window_extent() for text in legend.get_texts()]
+    boxes += [handle.get_window_extent() for handle in legend.legend_handles]
+    for box in boxes:
+        assert figure.bbox.x0 <= box.x0 <= box.x1 <= figure.bbox.x1
+        assert figure.bbox.y0 <= box.y0 <= box.y1 <= figure.bbox.y1
+        assert not any(Bbox.intersection(box, axes.bbox) for axes in figure.axes)
+    assert all(axes.bbox.width > 0.5 * 72 for axes in figure.axes)
+
+
+@pytest.mark.parametrize("size", [5, 10, 24, 40])
+def test_no_entry_is_cut_in_any_size_of_letters(size):
+    friction = np.arange(1, 8) / 10
+    figure = lines_over(friction).swt.panels("phase", "friction", style={"font.size": size})
+    assert_whole(figure, [place_words("friction", value) for value in friction])
+
+
+@pytest.mark.parametrize("below", [False, True])
+def test_any_number_of_entries_fits(below):
+    figure = lines_over([0.1]).isel(friction=0).swt.panels("phase")
+    names = [f"the line number {index}" for index in range(60)]
+    for name in names:
+        figure.axes[0].plot(PHASE, PHASE, label=name)
+    width, height = figure.get_size_inches()
+    add_legend(figure, np.array(figure.axes), below)
+    assert_whole(figure, names)
+    # In several columns or rows rather than far beyond the panels.
+    assert figure.get_figheight() == height if not below else figure.get_figwidth() == width
+
+
+def test_names_have_a_legend():
+    dataset = made_up(lambda profile, phase: phase + 0.0, profile=[*PROFILE_SHAPES], phase=PHASE)
+    figure = dataset.swt.panels("phase", "profile")
+    assert_whole(figure, [name.replace("_", " ") for name in PROFILE_SHAPES])
+
+
+def test_names_have_no_scale_however_many():
+    values = np.array([f"profile {index}" for index in range(20)])
+    assert hue_scale(xr.DataArray(values)) is None
+    assert hue_scale(xr.DataArray(np.arange(20.0))) is not None
+
+
+def test_panels_stay_as_large_beside_a_legend():
+    dataset = lines_over([0.1, 0.2])
+    alone, beside = dataset.isel(friction=0).swt.panels("phase"), dataset.swt.panels("phase", "friction")
+    for figure in (alone, beside):
+        figure.savefig(BytesIO(), format="png")
+    assert beside.get_figwidth() > alone.get_figwidth()
+    assert beside.axes[0].bbox.width == pytest.approx(alone.axes[0].bbox.width, rel=0.03)
+
+
+@pytest.mark.parametrize(("count", "scale"), [(7, False), (8, True), (19, True)])
+def test_many_numbers_have_a_scale_and_no_legend(count, scale):
+    friction = np.linspace(0.1, 1.0, count)
+    figure = lines_over(friction).swt.panels("phase", "friction")
+    lines = figure.axes[0].lines
+    assert len(lines) == count
+    assert len(figure.legends) == (not scale)
+    assert len(figure.axes) == 1 + scale
+    if scale:
+        assert figure.axes[1].get_ylabel() == r"$\mu$"
+        assert figure.axes[1].get_ylim() == pytest.approx((0.1, 1.0))
+        assert {line.get_linestyle() for line in lines} == {"-"}
+        assert {line.get_marker() for line in lines} <= {"", "None"}
+
+
+def colours_of(friction):
+    lines = lines_over(friction).swt.panels("phase", "friction").axes[0].lines
+    for line, value in zip(lines, friction, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), value + np.sin(PHASE))
+    return np.array([to_rgba(line.get_color()) for line in lines])
+
+
+def test_a_colour_stands_for_its_value():
+    friction = np.array([0.1, 0.2, 0.4, 0.45, 0.5, 0.9, 0.95, 1.0])
+    expected = colormaps["cividis"](0.9 * (friction - 0.1) / 0.9)
+    np.testing.assert_allclose(colours_of(friction), expected, atol=0.01)
+    np.testing.assert_allclose(colours_of(friction[::-1]), expected[::-1], atol=0.01)
+    grey = colours_of(friction)[:, :3] @ [0.299, 0.587, 0.114]
+    assert (np.diff(grey) > 0).all()
+    assert grey[-1] < 0.8  # to be seen on white
+
+
+def test_colours_of_values_in_equal_ratios_are_evenly_spaced():
+    expected = colormaps["cividis"](0.9 * np.linspace(0, 1, 9))
+    np.testing.assert_allclose(colours_of(np.geomspace(1e-2, 1e2, 9)), expected, atol=0.01)
+
+
+def test_a_scale_of_phases_is_in_multiples_of_pi():
+    phase = np.linspace(0, 2 * np.pi, 9)
+    dataset = made_up(lambda friction, phase: friction + np.sin(phase), friction=[0.1, 0.2, 0.3], phase=phase)
+    figure = dataset.swt.panels("friction", "phase")
+    bar = figure.axes[1]
+    assert bar.get_ylabel() == r"$\psi$ (rad)"
+    assert [tick.get_text() for tick in bar.get_yticklabels()] == ["0", "π/2", "π", "3π/2", "2π"]
+
+
+def test_one_scale_stands_beside_all_panels():
+    dataset = made_up(
+        lambda phase, friction, poisson_ratio: friction + poisson_ratio * phase,
+        phase=PHASE,
+        friction=np.linspace(0.1, 1, 10),
+        poisson_ratio=[0.2, 0.3],
+    )
+    figure = dataset.swt.panels("phase", "friction", "poisson_ratio", y=["s", "critical_x"])
+    assert len(figure.axes) == 5
+    figure.savefig(BytesIO(), format="png")
+    assert all(axes.bbox.x1 < figure.axes[4].bbox.x0 for axes in figure.axes[:4])

@@ -1,0 +1,272 @@
+"""What is drawn of each quantity: values, places, names and colours."""
+
+import numpy as np
+import pytest
+from made_up import made_up
+from matplotlib.colors import to_rgba
+
+from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.results.quantity import quantity
+
+PHASE = np.linspace(0, np.pi, 13)
+FRICTION = np.array([0.1, 0.2, 0.4])
+WORDS = {
+    "s": r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
+    "s_error": r"$\Delta s$",
+    "critical_x": "$x/a_H$",
+    "critical_angle": r"$\varphi$ (°)",
+    "s_surface": r"$s_\mathrm{surface}$",
+}
+REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite"]
+
+
+@pytest.fixture
+def dataset():
+    """Each variable over ψ and μ is another function, of which a sum of the two parameters is a part."""
+    found = made_up(lambda phase, friction: 2 + phase + 5 * friction, phase=PHASE, friction=FRICTION)
+    found = found.assign(s_surface=3 * found.s, s_error=1e-9 * found.s, critical_x=found.s - 4)
+    found = found.assign(critical_angle=10 * found.s - 50)
+    codes = np.zeros((13, 3), np.int8)
+    codes[4:], codes[8:, 1:] = 1, 2
+    found["regime"] = ("phase", "friction"), codes
+    for name, values in found.data_vars.items():
+        values.attrs = dict(ATTRIBUTES[name])
+    return found
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_lines_are_the_values(dataset, name):
+    figure = dataset.isel(phase=slice(None, None, -1)).swt.panels("phase", "friction", y=name)
+    (axes,) = figure.axes
+    assert axes.get_ylabel() == WORDS[name]
+    assert axes.get_xlabel() == r"$\psi$ (rad)"
+    assert axes.get_xlim() == (0.0, np.pi)
+    assert len(axes.lines) == 3
+    for line, friction in zip(axes.lines, FRICTION, strict=True):
+        np.testing.assert_array_equal(line.get_xdata(), PHASE)
+        np.testing.assert_array_equal(line.get_ydata(), dataset[name].sel(friction=friction))
+        assert line.get_label() == rf"$\mu$ = {friction}"
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_a_heat_map_is_the_values(dataset, name):
+    figure = dataset.swt.panels("friction", vertical="phase", kind="heatmap", y=name)
+    axes, bar = figure.axes
+    (mesh,) = axes.collections
+    np.testing.assert_array_equal(mesh.get_array(), dataset[name])  # rows are phases
+    assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset[name].min(), dataset[name].max())
+    assert mesh.get_cmap().name == "cividis"
+    assert bar.get_ylabel() == WORDS[name]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\mu$", r"$\psi$ (rad)")
+    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["0.1", "0.2", "0.4"]
+    assert [tick.get_text() for tick in axes.get_yticklabels()][::6] == ["0", "π/2", "π"]
+
+
+@pytest.mark.parametrize("name", WORDS)
+def test_contours_are_where_the_values_are(dataset, name):
+    slope = {"s": 1, "s_error": 1e-9, "s_surface": 3, "critical_x": 1, "critical_angle": 10}[name]
+    at_zero = float(dataset[name][0, 0]) - 0.5 * slope
+    figure = dataset.swt.panels("phase", vertical="friction", kind="contour", y=name)
+    axes, bar = figure.axes
+    filled, lines = axes.collections[:2]
+    assert bar.get_ylabel() == WORDS[name]
+    levels = lines.levels
+    assert 8 <= len(levels) <= 15
+    assert levels[0] <= dataset[name].min() < levels[1]
+    assert levels[-2] < dataset[name].max() <= levels[-1]
+    assert np.ptp(np.diff(levels)) < 1e-9 * levels[-1]
+    np.testing.assert_array_equal(filled.levels, levels)
+    drawn = 0
+    for level, path in zip(levels, lines.get_paths(), strict=True):
+        for phase, friction in path.vertices:
+            drawn += 1
+            assert at_zero + slope * (phase + 5 * friction) == pytest.approx(level, abs=1e-6 * slope)
+    assert drawn > 20
+
+
+@pytest.mark.parametrize("name", ["s", "regime"])
+def test_surfaces_do_not_depend_on_the_order_of_values(dataset, name):
+    mixed = dataset.isel(phase=[5, 0, 12, *range(1, 5), *range(6, 12)], friction=[2, 0, 1])
+    keys = {"vertical": "friction", "kind": "contour", "y": name}
+    one, other = (each.swt.panels("phase", **keys).axes[0] for each in (dataset, mixed))
+    assert one.get_xlim() == other.get_xlim()
+    for first, second in zip(one.collections, other.collections, strict=True):
+        np.testing.assert_array_equal(first.get_array(), second.get_array())
+        for path, again in zip(first.get_paths(), second.get_paths(), strict=True):
+            np.testing.assert_array_equal(path.vertices, again.vertices)
+
+
+def test_only_s_has_curves_of_its_extrema(dataset):
+    figure = dataset.swt.panels("phase", vertical="friction", kind="contour", y=["s", "critical_x"])
+    s, x = figure.axes[:2]
+    assert {line.get_label() for line in s.lines} >= {"least $s$", "greatest $s$"}
+    assert not x.lines
+    least, greatest = (
+        next(line for line in s.lines if line.get_label() == label) for label in ("least $s$", "greatest $s$")
+    )
+    np.testing.assert_array_equal(least.get_xdata(), 0.0)
+    np.testing.assert_array_equal(greatest.get_xdata(), np.pi)
+    np.testing.assert_array_equal(least.get_ydata(), FRICTION)
+    assert {text.get_text() for text in s.texts} >= {"0°", "180°"}
+
+
+def test_all_panels_of_a_row_have_one_scale_of_colours(dataset):
+    both = dataset.expand_dims(poisson_ratio=[0.2, 0.3]) * 1.0
+    both["s"] = both.s * (1 + 10 * (both.poisson_ratio - 0.2))
+    figure = both.swt.panels(
+        "phase", panels="poisson_ratio", vertical="friction", kind="heatmap", y=["s", "critical_x"]
+    )
+    one, other, x, _ = (axes.collections[0] for axes in figure.axes[:4])
+    assert one.norm is other.norm
+    assert (one.norm.vmin, one.norm.vmax) == (both.s.min(), both.s.max())
+    assert (x.norm.vmin, x.norm.vmax) == (both.critical_x.min(), both.critical_x.max())
+    np.testing.assert_array_equal(other.get_array(), both.s.isel(poisson_ratio=1).transpose())
+    titles = [axes.get_title("left") for axes in figure.axes[:4]]
+    assert titles == [
+        r"(A)  $\nu$ = 0.2",
+        r"(B)  $\nu$ = 0.3",
+        r"(C)  $\nu$ = 0.2",
+        r"(D)  $\nu$ = 0.3",
+    ]
+
+
+@pytest.mark.parametrize("kind", ["contour", "heatmap"])
+def test_regimes_are_colours_with_names(dataset, kind):
+    figure = dataset.swt.panels("phase", vertical="friction", kind=kind, y="regime")
+    axes, bar = figure.axes
+    (mesh,) = axes.collections
+    np.testing.assert_array_equal(mesh.get_array(), dataset.regime.transpose())
+    assert [tick.get_text() for tick in bar.get_yticklabels()] == REGIMES
+    np.testing.assert_array_equal(bar.get_yticks(), range(5))
+    assert bar.get_ylabel() == "regime"
+    colours = [mesh.cmap(mesh.norm(code)) for code in range(5)]
+    lightness = np.array(colours)[:, :3] @ [0.299, 0.587, 0.114]
+    assert (np.diff(lightness) > 0.1).all()
+    if kind == "contour":
+        assert axes.get_xlim() == (0.0, np.pi)
+        assert axes.get_ylim() == (0.1, 0.4)
+        corners = mesh.get_coordinates()
+        np.testing.assert_allclose(corners[0, 1:-1, 0], (PHASE[1:] + PHASE[:-1]) / 2)
+        np.testing.assert_allclose(corners[1:-1, 0, 1], [0.15, 0.3])
+
+
+def test_lines_of_regimes_are_steps_between_names(dataset):
+    (axes,) = dataset.swt.panels("phase", "friction", y="regime").axes
+    assert [tick.get_text() for tick in axes.get_yticklabels()] == REGIMES
+    np.testing.assert_array_equal(axes.get_yticks(), range(5))
+    assert {line.get_drawstyle() for line in axes.lines} == {"steps-mid"}
+    np.testing.assert_array_equal(axes.lines[2].get_ydata(), dataset.regime[:, 2])
+
+
+def test_points_that_are_missing_or_failed_have_no_regime(dataset):
+    dataset["status"] = dataset.regime.copy(data=np.zeros((13, 3), np.int8))
+    dataset.regime[5:7, 0], dataset.status[5, 0], dataset.status[6, 0] = 4, 1, 2
+    unknown = np.isnan(quantity(dataset, "regime"))
+    np.testing.assert_array_equal(np.argwhere(unknown.values), [[5, 0], [6, 0]])
+    figure = dataset.swt.panels("phase", vertical="friction", kind="heatmap", y="regime")
+    assert np.argwhere(figure.axes[0].collections[0].get_array().mask).tolist() == [[0, 5], [0, 6]]
+    (axes,) = dataset.swt.panels("phase", "friction", regimes=True).axes
+    marks = [line for line in axes.lines if line.get_linestyle() == "None"]
+    places = [(line.get_label(), *line.get_xydata()[0]) for line in marks]
+    s = dataset.s.values
+    assert places == [
+        ("partial slip begins", PHASE[4], s[4, 0]),
+        ("partial slip begins", PHASE[4], s[4, 1]),
+        ("gross slip begins", PHASE[8], s[8, 1]),
+        ("partial slip begins", PHASE[4], s[4, 2]),
+        ("gross slip begins", PHASE[8], s[8, 2]),
+    ]
+
+
+def test_what_is_not_finite_leaves_the_scale_of_colours_alone(dataset):
+    dataset.s[0, 0], dataset.s[1, 0] = np.inf, np.nan
+    rest = dataset.s.values[np.isfinite(dataset.s.values)]
+    for kind in ("contour", "heatmap"):
+        axes = dataset.swt.panels("phase", vertical="friction", kind=kind).axes[0]
+        norm = axes.collections[0].norm
+        assert norm.vmin <= rest.min() < rest.max() <= norm.vmax < 20
+        assert axes.get_facecolor() == to_rgba("0.8")
+    everywhere = dataset.assign(s=np.nan * dataset.s)
+    figure = everywhere.swt.panels("phase", vertical="friction", kind="heatmap")
+    assert figure.axes[0].collections[0].get_array().mask.all()
+
+
+def test_a_ratio_is_drawn_with_its_error(dataset):
+    dataset["s_error"] = 0.01 * dataset.s
+    (axes,) = dataset.swt.panels("phase", "friction", y="s/s(ψ=0)").axes
+    ratio = dataset.s / dataset.s[0]
+    assert axes.get_ylabel() == r"$s$ / $s$($\psi$ = 0)"
+    for line, band, friction in zip(axes.lines, axes.collections, FRICTION, strict=True):
+        expected = ratio.sel(friction=friction).values
+        np.testing.assert_allclose(line.get_ydata(), expected, rtol=1e-14)
+        edge = band.get_paths()[0].vertices
+        assert edge[edge[:, 0] == np.pi][:, 1].max() == pytest.approx(1.02 * expected[-1])
+        assert edge[edge[:, 0] == np.pi][:, 1].min() == pytest.approx(0.98 * expected[-1])
+        assert edge[edge[:, 0] == 0.0][:, 1].max() == 1.0
+        assert to_rgba(band.get_facecolor()[0])[:3] == to_rgba(line.get_color())[:3]
+
+
+def test_only_s_has_the_error_of_s(dataset):
+    dataset["s_error"] = 0.1 * dataset.s
+    assert dataset.swt.panels("phase", "friction").axes[0].collections
+    assert not dataset.swt.panels("phase", "friction", y="s_surface").axes[0].collections
+
+
+def test_a_variable_of_ones_own_is_drawn(dataset):
+    dataset["cycles"] = (1e4 / dataset.s).assign_attrs(units="kilocycles")
+    dataset["alone"] = 0.0 * dataset.s.drop_attrs()
+    figure = dataset.swt.panels("phase", "friction", y=["cycles", "alone"])
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels == ["cycles (kilocycles)", "alone"]
+    np.testing.assert_array_equal(figure.axes[0].lines[1].get_ydata(), dataset.cycles[:, 1])
+    found = dataset.swt.extrema("phase").swt.panels("friction", y=["ratio", "at_maximum"])
+    assert [axes.get_ylabel() for axes in found.axes] == ["ratio", "at maximum"]
+    np.testing.assert_array_equal(found.axes[0].lines[0].get_ydata(), dataset.s[-1] / dataset.s[0])
+    np.testing.assert_array_equal(found.axes[1].lines[0].get_ydata(), np.pi)
+
+
+def test_long_ranges_are_logarithmic_where_values_allow_it():
+    friction = np.geomspace(1e-3, 10, 9)
+    dataset = made_up(lambda friction: friction**2, friction=friction)
+    dataset["critical_x"] = dataset.s * [-1, 1, 1, 1, 1, 1, 1, 1, 1]
+    figure = dataset.swt.panels("friction", y=["s", "critical_x", "critical_angle"])
+    assert [axes.get_xscale() for axes in figure.axes] == ["log"] * 3
+    assert [axes.get_yscale() for axes in figure.axes] == ["log", "linear", "linear"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"y": "speed"}, r"figure.y: found 'speed' \(not a quantity\); allowed: .*critical_x"),
+        ({"y": "s/s(b=0)"}, "flat_radius"),
+        ({"y": "s/s(ψ=9)"}, "phase: found 9"),
+        ({"y": "s/s"}, "not a quantity"),
+        ({"y": "name"}, "values of type"),
+        ({"y": "path"}, "values over step"),
+        ({"y": []}, "empty list"),
+        ({"hue": "phase"}, "figure.hue: found 'phase', used for x too; allowed: each axis once"),
+        ({"hue": None}, "no place for the axis friction"),
+        ({"title": "$x^2^3$"}, "figure.title: .*Double superscript"),
+        ({"regimes": True}, "figure.regimes"),
+    ],
+)
+def test_what_cannot_be_drawn_is_named(dataset, keys, words):
+    dataset["name"] = dataset.s.astype(str)
+    dataset["path"] = dataset.s.expand_dims(step=2)
+    del dataset.regime.attrs["flag_meanings"]
+    with pytest.raises(ValueError, match=words):
+        dataset.swt.panels(**{"x": "phase", "hue": "friction", **keys})
+
+
+def test_contours_of_a_single_value_are_refused_and_cells_are_not(dataset):
+    single = dataset.isel(friction=[0])
+    with pytest.raises(ValueError, match=r"figure.vertical: found friction with a single value"):
+        single.swt.panels("phase", vertical="friction", kind="contour")
+    assert len(single.swt.panels("phase", vertical="friction", kind="heatmap").axes) == 2
+
+
+def test_all_mistakes_of_a_layout_come_at_once(dataset):
+    with pytest.raises(ValueError, match="pie") as caught:
+        dataset.swt.panels("fase", "friction", kind="pie", y=["s", "speed"], title="$x^2^3$")
+    assert len(str(caught.value).splitlines()) == 5
+    assert isinstance(caught.value.mistakes, tuple)
