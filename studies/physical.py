@@ -10,7 +10,7 @@ The radius of 50 µm, over which swt is averaged, is no constant of the material
 import numpy as np
 
 import swtstudy
-from swtstudy.units.contact import PhysicalContact
+from swtstudy.contacts.contact import PhysicalContact
 
 MATERIAL = swtstudy.FatigueConstants(
     young_modulus=73.1e3, strength=927.0, strength_exponent=-0.113, ductility=0.409, ductility_exponent=-0.713

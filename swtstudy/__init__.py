@@ -6,10 +6,13 @@ import importlib
 from typing import TYPE_CHECKING
 
 from swtstudy.registration import register_with_xarray
+from swtstudy.version import __version__
 
 if TYPE_CHECKING:
-    from swtstudy.archive.read import open_results
+    from swtstudy.archive.open import open_results
     from swtstudy.audit.audit import audit_study
+    from swtstudy.contacts.life import FatigueConstants
+    from swtstudy.contacts.physical import physical
     from swtstudy.fields.history import swt_of_history
     from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.nonlocal_swt import nonlocal_swt
@@ -22,10 +25,7 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.suite import run_suite
-    from swtstudy.units.life import FatigueConstants
-    from swtstudy.units.physical import physical
 
-__version__ = "0.1.0"
 __all__ = [
     "FatigueConstants",
     "Study",
@@ -48,15 +48,15 @@ __all__ = [
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
-    "FatigueConstants": "swtstudy.units.life",
+    "FatigueConstants": "swtstudy.contacts.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "audit_study": "swtstudy.audit.audit",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
-    "open_results": "swtstudy.archive.read",
-    "physical": "swtstudy.units.physical",
+    "open_results": "swtstudy.archive.open",
+    "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "slip_map": "swtstudy.fields.slip",

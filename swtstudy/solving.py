@@ -11,6 +11,7 @@ from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
 from swtstudy.grid.reading import read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,7 +49,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    from swtstudy import __version__
     from swtstudy.grid.blocks import block_ends
     from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points

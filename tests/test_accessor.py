@@ -185,7 +185,7 @@ def test_results_of_solve():
         "import swtstudy, xarray",
         "import xarray, swtstudy",
         "import swtstudy.accessor",
-        "from swtstudy.archive.read import open_results; import xarray",
+        "from swtstudy.archive.open import open_results; import xarray",
         "from swtstudy.solving import solve",
         "import swtstudy.records.labelled",
         "from swtstudy import Study; import dask.array, xarray.core.dataset",

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 
 import swtstudy
 from swtstudy import Study, open_results, run
-from swtstudy.archive.files import check_writable, replacing
 from swtstudy.archive.lock import LockedError
 from swtstudy.cli import main
+from swtstudy.files import check_writable, replacing
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.parameters import PARAMETERS
 

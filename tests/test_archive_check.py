@@ -8,8 +8,8 @@ import stand_in
 from click.testing import CliRunner
 
 from swtstudy import open_results, run
-from swtstudy.archive.files import save
-from swtstudy.archive.read import ArchiveError
+from swtstudy.archive.error import ArchiveError
+from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.records.records import FAILED, MISSING
 

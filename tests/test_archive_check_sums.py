@@ -13,8 +13,8 @@ import xarray as xr
 from click.testing import CliRunner
 
 from swtstudy import Study, open_results, run
+from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.merge import merge
-from swtstudy.archive.read import ArchiveError
 from swtstudy.cli import main
 
 NAMED = (

@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 from made_up import made_up_audit, made_up_finding
 
-from swtstudy.archive.files import save
+from swtstudy.archive.write import save
 from swtstudy.audit.audit import audit_study, sample_rows
 from swtstudy.audit.point import VERDICTS
 from swtstudy.audit.report import report

@@ -8,7 +8,7 @@ from click.testing import CliRunner
 from made_up import made_up_audit
 
 from swtstudy import Study, run
-from swtstudy.archive.files import save
+from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.statements.check import STATEMENTS, STUDIES, check
 from swtstudy.statements.report import markdown, summary, terminal_table

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 import swtstudy
 import swtstudy.parameters
 from swtstudy import Study, run
-from swtstudy.archive.files import save
+from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.records.records import MISSING
 

@@ -10,9 +10,9 @@ from swtstudy import Study, run
 from swtstudy.figures.draw import draw
 from swtstudy.figures.save import save_figure
 from swtstudy.figures.style import STYLE
-from swtstudy.figures.words import value_words
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
+from swtstudy.wording import value_words
 
 
 @pytest.fixture

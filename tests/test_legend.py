@@ -12,8 +12,8 @@ from matplotlib.transforms import Bbox
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.scale import hue_scale
-from swtstudy.figures.words import place_words
 from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.wording import place_words
 
 PHASE = np.linspace(0, 2, 5)
 

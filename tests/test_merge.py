@@ -6,9 +6,9 @@ import stand_in
 import xarray as xr
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.files import save
 from swtstudy.archive.merge import ConflictError, GapsError, merge
 from swtstudy.archive.recall import grid_of, records_of
+from swtstudy.archive.write import save
 from swtstudy.records import records
 
 FIGURE = '[figure]\nx = "phase"\nhue = "friction"\n'

@@ -188,25 +188,25 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
 
 def make_parts(text: str, path: Path) -> None:
     """Stop a run when all is computed, before it writes its archive."""
-    from swtstudy.archive import files
+    from swtstudy.archive import write
 
-    save = files.save
+    save = write.save
 
     def stop(*_: object, **__: object) -> None:
         raise Stopped("before the archive")
 
-    files.save = stop  # type: ignore[assignment]
+    write.save = stop  # type: ignore[assignment]
     try:
         run(Study.from_text(text), path, solver=cheap)
     except Stopped:
         pass
     finally:
-        files.save = save
+        write.save = save
 
 
 def time_of_write(dataset: xr.Dataset, folder: Path) -> float:
     """Seconds that writing such an archive takes."""
-    from swtstudy.archive.files import save
+    from swtstudy.archive.write import save
 
     begin = time.perf_counter()
     save(dataset, folder / "timed.nc")

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-import swtstudy
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
 from swtstudy.study.definition import Study
+from swtstudy.version import __version__
 
 #: Packages whose versions can matter for the numbers or the file.
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
@@ -28,7 +28,7 @@ REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 
 def versions() -> str:
     """Versions of Python, of this package and of those that matter for its numbers and files."""
-    found = [f"python {platform.python_version()}", f"swtstudy {swtstudy.__version__}"]
+    found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
     for name in _PACKAGES:
         try:
             found.append(f"{name} {version(name)}")
@@ -76,14 +76,14 @@ def failures(records: Records) -> list[dict[str, Any]]:
 def history_line(what: str) -> str:
     """A line for the history: now, and what was done."""
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    return f"{now}: {what} by swtstudy {swtstudy.__version__}"
+    return f"{now}: {what} by swtstudy {__version__}"
 
 
 def _provenance(study: Study, records: Records, history: str, seconds: float) -> dict[str, Any]:
     attributes: dict[str, Any] = {
         "Conventions": "CF-1.11",
         "title": study.title,
-        "source": f"swtstudy {swtstudy.__version__}",
+        "source": f"swtstudy {__version__}",
         "history": history,
         "references": REFERENCE,
         "versions": versions(),

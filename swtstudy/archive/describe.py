@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.figures.words import value_words
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES
+from swtstudy.wording import value_words
 
 #: Values of an axis, or failed points, that are listed one by one.
 _LISTED = 8

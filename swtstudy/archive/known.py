@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.parts import kept_folder, parts_folder, read_parts
-from swtstudy.archive.read import ArchiveError, read_archive
+from swtstudy.archive.read import read_archive
 from swtstudy.archive.recall import records_of
 from swtstudy.records.records import Records, join
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line
 from swtstudy.archive.attributes import read_figure
-from swtstudy.archive.read import ArchiveError, open_results
+from swtstudy.archive.error import ArchiveError
+from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
 from swtstudy.grid.grid import Grid

@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.archive.files import replacing
+from swtstudy.files import replacing
 from swtstudy.grid.canonical import COLUMNS, PROFILES, group_rows
 from swtstudy.mechanics.points import Solution
 from swtstudy.records.records import Records, Run, join

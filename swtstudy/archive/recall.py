@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.archive.read import ArchiveError
+from swtstudy.archive.error import ArchiveError
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.shapes import shapes_needed
 from swtstudy.grid.unique import unique_points

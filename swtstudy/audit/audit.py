@@ -67,7 +67,7 @@ def audit_study(
         If the file is there and holds no audit, or `study` is no Study.
     """
     require_study(study)
-    from swtstudy.archive.files import save
+    from swtstudy.archive.write import save
     from swtstudy.audit.point import audit_point
     from swtstudy.audit.table import findings_dataset, open_audit, read_findings
     from swtstudy.runner.workers import start_workers

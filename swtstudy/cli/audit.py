@@ -20,9 +20,9 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     Leaves the findings, and a report that says where the maximum is not on the surface line, on which s is
     looked for. What is there already is not audited again.
     """
-    from swtstudy.archive.files import check_writable, replacing
     from swtstudy.archive.names import archive_paths
     from swtstudy.audit import AUDIT_PREFIX
+    from swtstudy.files import check_writable, replacing
     from swtstudy.study.several import read_studies
 
     defined = read_studies(studies)

@@ -23,7 +23,7 @@ def check(results: str, output: str | None) -> None:
     0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing or
     have gaps.
     """
-    from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.files import check_writable, replacing
     from swtstudy.statements.check import check as check_statements
     from swtstudy.statements.report import markdown, summary, terminal_table
 

@@ -18,8 +18,8 @@ def info(archive: str) -> None:
     From which study and versions, how complete, how accurate.
     """
     from swtstudy.archive.describe import describe
+    from swtstudy.archive.open import open_results
     from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
-    from swtstudy.archive.read import open_results
 
     dataset = open_results(archive)
     for line in describe(dataset):

@@ -20,11 +20,12 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     Its grid has the values of all of them along every axis. Points of it that are in none of the archives
     are refused without --sparse, values that contradict each other always.
     """
-    from swtstudy.archive.files import check_writable, save
     from swtstudy.archive.lock import locked
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
+    from swtstudy.archive.write import save
+    from swtstudy.files import check_writable
     from swtstudy.records.records import MISSING
 
     target = Path(output)

@@ -18,7 +18,7 @@ def new(name: str) -> None:
     Beside it goes the schema by which editors complete and check studies. An existing study is never
     replaced.
     """
-    from swtstudy.archive.files import check_writable
+    from swtstudy.files import check_writable
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template
 

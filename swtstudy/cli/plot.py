@@ -35,10 +35,10 @@ def plot(archive: str, output: str | None, style: str | None, **own: Any) -> Non
 
     With --x the layout is what the other options say; without, that of the archive but for what they say.
     """
-    from swtstudy.archive.files import check_writable
-    from swtstudy.archive.read import open_results
+    from swtstudy.archive.open import open_results
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.save import save_figure
+    from swtstudy.files import check_writable
     from swtstudy.records.records import MISSING
     from swtstudy.study.figure import FigureLayout
 

@@ -79,8 +79,8 @@ def run(
     After 2 and 130 what was computed is saved, and the same command goes on
     from there.
     """
-    from swtstudy.archive.files import check_writable
     from swtstudy.archive.names import archive_paths
+    from swtstudy.files import check_writable
     from swtstudy.study.several import read_studies
     from swtstudy.study.shipped import shipped_folder
 

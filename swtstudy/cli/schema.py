@@ -15,7 +15,7 @@ def schema(output: str | None) -> None:
     Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
     a study whose first line is "#:schema study.schema.json".
     """
-    from swtstudy.archive.files import check_writable, replacing
+    from swtstudy.files import check_writable, replacing
     from swtstudy.study.schema import schema_text
 
     if output is None:

@@ -17,9 +17,9 @@ def show(output: str, style: str | None, **texts: str | None) -> None:
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
-    from swtstudy.archive.files import check_writable
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.save import save_figure
+    from swtstudy.files import check_writable
 
     parameters: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     figure = inspect(style=style, **parameters)

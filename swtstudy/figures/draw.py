@@ -11,13 +11,13 @@ from swtstudy.figures.quantity_words import flag_words, quantity_words
 from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
-from swtstudy.figures.words import axis_words, place_words
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import quantity
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import wrong_axes, wrong_layout
+from swtstudy.wording import axis_words, place_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,9 +15,9 @@ from swtstudy.figures.inspection_panels import (
     draw_tractions,
 )
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.words import place_words, value_words
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.wording import place_words, value_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from swtstudy.figures.words import place_words
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
+from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,8 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.archive.files import replacing
 from swtstudy.figures.style import Style, styled
+from swtstudy.files import replacing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

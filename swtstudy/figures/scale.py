@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.regimes import in_equal_ratios
-from swtstudy.figures.words import axis_words, tick_in_pi
 from swtstudy.parameters import PARAMETERS
+from swtstudy.wording import axis_words, tick_in_pi
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.quantity_words import flag_words
-from swtstudy.figures.words import tick_in_pi, value_words
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.extrema import extrema
+from swtstudy.wording import tick_in_pi, value_words
 
 if TYPE_CHECKING:
     import xarray as xr

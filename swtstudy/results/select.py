@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.words import value_words
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.parameters import PARAMETERS
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

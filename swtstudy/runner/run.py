@@ -11,7 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.archive.files import check_writable
+from swtstudy.files import check_writable
 from swtstudy.grid.cost import SECONDS_PER_WEIGHT, weights
 from swtstudy.records.records import Records, Run
 from swtstudy.runner.chunk import Solver, solve_points
@@ -199,9 +199,9 @@ def _history(what: str, path: Path) -> str:
 
 def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
     """Write the archive, which takes the place of the parts, and keep what is not in it."""
-    from swtstudy.archive.files import save
     from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
     from swtstudy.archive.read import read_archive
+    from swtstudy.archive.write import save
 
     folder, kept = parts_folder(path), kept_folder(path)
     try:

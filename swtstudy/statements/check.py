@@ -81,7 +81,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
 
 def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
     """Read an archive into the others; what is wrong if it cannot be used."""
-    from swtstudy.archive.read import open_results
+    from swtstudy.archive.open import open_results
     from swtstudy.audit.table import open_audit
 
     audited = name.startswith(AUDIT_PREFIX)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.words import value_words
 from swtstudy.statements.measures import period, spread
 from swtstudy.statements.select import at, listed, with_dims
 from swtstudy.statements.statement import Finding, Statement
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

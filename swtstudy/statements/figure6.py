@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from swtstudy.figures.words import value_words
 from swtstudy.statements.figure5 import NEGLIGIBLE, coupling_with
 from swtstudy.statements.measures import largest_rise
 from swtstudy.statements.select import at, with_dims
 from swtstudy.statements.statement import Finding, Statement
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

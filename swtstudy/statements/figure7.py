@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.words import value_words
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.statements.measures import spread
 from swtstudy.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
 from swtstudy.statements.select import at, with_dims
 from swtstudy.statements.statement import Finding, Statement
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from swtstudy.figures.words import value_words
 from swtstudy.mistakes import StudyError
 from swtstudy.results.select import slice_at
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,1 +1,1 @@
-"""Real contacts: from lengths, moduli and forces to the parameters of a study, and back."""
+"""Quantities with a unit: elastic moduli and what sizes are possible."""

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def check_writable(path: str | PathLike[str]) -> None:
@@ -57,23 +53,6 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
         temporary.unlink(missing_ok=True)
         raise
     _sync(path.parent)
-
-
-def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
-    """Write a Dataset as compressed netCDF-4 with checksums, atomically; see `replacing` for `beside`."""
-    from swtstudy.archive.check_sums import has_its_own, write_check_sums
-
-    encoding: dict[Hashable, dict[str, Any]] = {
-        name: {"fletcher32": True} if has_its_own(each) else {} for name, each in dataset.variables.items()
-    }
-    for name in dataset.coords:
-        encoding[name]["_FillValue"] = None  # CF forbids one for coordinates, which xarray would give them
-    for name, variable in dataset.data_vars.items():
-        if variable.ndim:
-            encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
-    with replacing(path, beside) as temporary:
-        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        write_check_sums(temporary, dataset)
 
 
 def _temporary(path: Path, folder: Path) -> tuple[int, str]:

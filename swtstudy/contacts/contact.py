@@ -11,11 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.indenter import Profile, make_profile
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PROFILE_SHAPES
-from swtstudy.units.bodies import (
+from swtstudy.contacts.bodies import (
     LABELS,
     SWT_ATTRIBUTES,
     Values,
@@ -24,12 +20,16 @@ from swtstudy.units.bodies import (
     cycles_from,
     swt_from,
 )
+from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.indenter import Profile, make_profile
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.parameters import PROFILE_SHAPES
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.units.life import FatigueConstants
+    from swtstudy.contacts.life import FatigueConstants
 
 #: Radii at which the largest pressure is looked for, and its digits.
 _RADII, _DIGITS = 4001, 9.0

@@ -10,13 +10,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
-from swtstudy.units.contact import PhysicalContact
-from swtstudy.units.given import (
+from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.contacts.given import (
     SIMILAR,
     in_own_values,
     pair,
@@ -26,6 +21,11 @@ from swtstudy.units.given import (
     wrong_lengths,
     wrong_load,
 )
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
 from swtstudy.units.moduli import Moduli
 
 

@@ -1,0 +1,28 @@
+"""Writing archives."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from swtstudy.archive.check_sums import has_its_own, write_check_sums
+from swtstudy.files import replacing
+
+
+def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
+    """Write a Dataset as compressed netCDF-4 with check sums, atomically; `beside` as for `replacing`."""
+    encoding: dict[Hashable, dict[str, Any]] = {
+        name: {"fletcher32": True} if has_its_own(each) else {} for name, each in dataset.variables.items()
+    }
+    for name in dataset.coords:
+        encoding[name]["_FillValue"] = None  # CF forbids one for coordinates, which xarray would give them
+    for name, variable in dataset.data_vars.items():
+        if variable.ndim:
+            encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
+    with replacing(path, beside) as temporary:
+        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        write_check_sums(temporary, dataset)

@@ -1,0 +1,1 @@
+"""Real contacts in physical units, and the lives of their bodies."""
