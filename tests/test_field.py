@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from ContactMechanics.ReferenceSolutions import Hertz
+from oracles.punch import punch_functions
 
 from swtstudy.mechanics.stress.field import SlopeCells, graded_radii, slope_cells, stress_history
 from swtstudy.mechanics.stress.field.punch import (
     PunchFunctions,
     normal_components,
-    punch_functions,
     tangential_components,
 )
 

@@ -13,6 +13,9 @@ from swtstudy.mechanics.points import FloatArray
 #: Steps fall back to bisection when they leave the bracket, so this many always suffice.
 LARGEST_STEP_COUNT = 60
 
+#: No step follows a smaller one, rad: the error is about its cube.
+LAST_STEP = 1e-5
+
 #: Maps abscissae, and the numbers of the brackets they belong to, to values and two derivatives.
 Function = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray, FloatArray]]
 
@@ -50,9 +53,7 @@ class Brackets:
         return Brackets(*(values[index] for values in vars(self).values()))
 
 
-def monotone_roots(
-    function: Function, goal: FloatArray, brackets: Brackets, tolerance: float = 1e-5
-) -> FloatArray:
+def monotone_roots(function: Function, goal: FloatArray, brackets: Brackets) -> FloatArray:
     """Where monotone functions reach a goal: Halley's method, safeguarded by bisection.
 
     Parameters
@@ -63,8 +64,6 @@ def monotone_roots(
         Shape (n,).
     brackets
         n brackets. Where the goal is not between the values at the ends, the nearer end is returned.
-    tolerance
-        Size of the last step; the error is about its cube.
 
     Returns
     -------
@@ -87,7 +86,7 @@ def monotone_roots(
         new = root + step
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
         result[active] = new
-        going = np.abs(new - root) > tolerance
+        going = np.abs(new - root) > LAST_STEP
         if not np.any(going):
             break
         active, rising, goal = active[going], rising[going], goal[going]

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.contact.memory import GROWTH, Memory
+from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.cosine import between
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
 from swtstudy.mechanics.stress.field.superposition import stress_history
 
@@ -64,43 +65,49 @@ def contact_states(
     """
     memory = cycle.memory.take((np.zeros_like(interval), interval))
     states = cycle.states(interval[None], instant[None])
-    edge, front, sign = states.edge, states.front, states.sign
-    grown = (memory.slope == GROWTH) & np.isfinite(memory.start)
-    branches = np.unique(memory.branch[grown])
-    starts = np.where(memory.start < front[0, :, None], memory.start, 0.0)
-    # The deepest contact of the cycle is there for instants without any contact.
-    breaks = np.concatenate([edge.ravel(), front.ravel(), np.unique(starts), cycle.load.largest_normal])
-    if len(branches):
-        between = _between(np.stack([memory.start[grown], memory.stop[grown]]), cells)
-        breaks = np.concatenate([breaks, between[between < breaks.max()]])
-    radius = _cell_ends(coordinate, breaks, cells)
-
+    radius = _cell_ends(coordinate, _breakpoints(cycle, memory, states, cells), cells)
     at = coordinate.of(0.5 * (radius[1:] + radius[:-1])[None])[0]
-    touching = at < edge[0, :, None]
-    slips = touching & (at > front[0, :, None])
-    piece = np.maximum((memory.start[:, None, :] <= at[:, None]).sum(axis=-1) - 1, 0)
-    slope, branch = (np.take_along_axis(values, piece, axis=1) for values in (memory.slope, memory.branch))
-    # τ′ = −o′: the slopes of the memory diagram change their sign.
-    line = np.where(slips, -sign[0, :, None], np.where(slope == GROWTH, 0.0, -slope))
-    stuck_growth = touching & ~slips & (slope == GROWTH)
-    shares = [np.where(touching, line, 0.0), *(stuck_growth & (branch == b) for b in branches)]
+    touching = at < states.edge[0, :, None]
+    branches = np.unique(memory.branch[_grown(memory)])
 
     def weighted_slopes(ξ: FloatArray) -> FloatArray:
         at, m = coordinate.with_weighted_slope(ξ[None])
         slopes = [cycle.load.growth_slope(at, np.asarray(b)) for b in branches]
         return np.stack([m[0], *(m[0] * slope[0] for slope in slopes)])
 
-    b = float(coordinate.profile.flat_radius[0])
-    tangential_slope = np.stack(shares, axis=1).astype(float)
-    return ContactStates(
-        slope_cells(weighted_slopes, radius, start=b), touching.astype(float), tangential_slope
-    )
+    cells_of_slopes = slope_cells(weighted_slopes, radius, start=float(coordinate.profile.flat_radius[0]))
+    shares = _shares(memory, states, at, branches) * touching[:, None]
+    return ContactStates(cells_of_slopes, touching.astype(float), shares)
 
 
-def _between(ranges: FloatArray, cells: int) -> FloatArray:
-    """Coordinates that resolve each growth, finer towards its ends, from its begin and end, shape (2, …)."""
-    begin, end = np.unique(ranges, axis=1)
-    return between(begin[:, None], end[:, None], np.pi * np.arange(cells + 1) / cells).ravel()
+def _grown(memory: Memory) -> NDArray[np.bool_]:
+    return (memory.slope == GROWTH) & np.isfinite(memory.start)
+
+
+def _breakpoints(cycle: Cycle, memory: Memory, states: SlipStates, cells: int) -> FloatArray:
+    """Coordinates at which a slope dτ/dG jumps at some instant, and those that resolve growths."""
+    starts = np.where(memory.start < states.front[0, :, None], memory.start, 0.0)
+    # The deepest contact of the cycle is there for instants without any contact.
+    places = [states.edge.ravel(), states.front.ravel(), np.unique(starts), cycle.load.largest_normal]
+    grown = _grown(memory)
+    if np.any(grown):
+        begin, end = np.unique(np.stack([memory.start[grown], memory.stop[grown]]), axis=1)
+        angle = np.pi * np.arange(cells + 1) / cells
+        finer = between(begin[:, None], end[:, None], angle).ravel()
+        deepest = max(float(values.max()) for values in places)
+        places.append(finer[finer < deepest])
+    return np.concatenate(places)
+
+
+def _shares(memory: Memory, states: SlipStates, at: FloatArray, branches: IntArray) -> FloatArray:
+    """Share of each slope function in dτ/dG at the coordinates ``at``, (m,): shape (T, 1 + branches, m)."""
+    slips = at > states.front[0, :, None]
+    piece = np.maximum((memory.start[:, None, :] <= at[:, None]).sum(axis=-1) - 1, 0)
+    slope, branch = (np.take_along_axis(values, piece, axis=1) for values in (memory.slope, memory.branch))
+    grows = ~slips & (slope == GROWTH)
+    # τ′ = −o′: the slopes of the memory diagram change their sign.
+    line = np.where(slips, -states.sign[0, :, None], np.where(slope == GROWTH, 0.0, -slope))
+    return np.stack([line, *(grows & (branch == b) for b in branches)], axis=1).astype(float)
 
 
 def _cell_ends(coordinate: Coordinate, breaks: FloatArray, cells: int) -> FloatArray:

@@ -58,31 +58,6 @@ def complex_distance(r: FloatArray, z: FloatArray, radius: FloatArray) -> Comple
     return np.sqrt(square)
 
 
-def punch_functions(r: FloatArray, z: FloatArray, radius: FloatArray) -> PunchFunctions:
-    """The ten functions for one punch radius; the stresses need their imaginary parts.
-
-    Parameters
-    ----------
-    r, z, radius
-        As for `complex_distance`; not on the edge itself (r = ξ, z = 0).
-    """
-    R = complex_distance(r, z, radius)
-    ζ = z + 1j * radius
-    L = 1.0 / (R + ζ)
-    return PunchFunctions(
-        one_over_R=1.0 / R,
-        L_over_R=L / R,
-        L2_over_R=L**2 / R,
-        L3_over_R=L**3 / R,
-        L=L,
-        L2=L**2,
-        z_over_R3=z / R**3,
-        zζ_over_R3=z * ζ / R**3,
-        zD=z * (L**2 / R**2 + L / R**3),
-        zB=z * (2.0 * L**3 / R**2 + L**2 / R**3),
-    )
-
-
 def normal_components(
     f: PunchFunctions, x: FloatArray, y: FloatArray, z: FloatArray, poisson_ratio: ArrayLike
 ) -> FloatArray:

@@ -41,8 +41,11 @@ class SlopeCells:
     gradient: FloatArray
 
 
-def graded_radii(start: float, end: float, cells: int, power: float = 2.0) -> FloatArray:
-    """Cell ends from start to end, shrinking towards start like (k/n)^power.
+def graded_radii(start: float, end: float, cells: int) -> FloatArray:
+    """Cell ends from start to end, shrinking towards start like (k/n)².
+
+    That resolves √(ξ − b) and 1/√(ξ − b); a stronger grading costs digits, since rounding grows like the
+    gradient in the smallest cell.
 
     Parameters
     ----------
@@ -50,16 +53,12 @@ def graded_radii(start: float, end: float, cells: int, power: float = 2.0) -> Fl
         First and last radius; the slope's singularity, if any, at start.
     cells
         Number of cells n.
-    power
-        1 for equal cells; 2 resolves √(ξ − b) and 1/√(ξ − b). A stronger grading costs digits: rounding
-        grows like the gradient in the smallest cell.
 
     Returns
     -------
-    radii
-        Shape (cells + 1,).
+    Shape (cells + 1,).
     """
-    return start + (end - start) * np.linspace(0.0, 1.0, cells + 1) ** power
+    return start + (end - start) * np.linspace(0.0, 1.0, cells + 1) ** 2
 
 
 def slope_cells(

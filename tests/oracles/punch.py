@@ -1,0 +1,36 @@
+"""The functions of one rigid flat punch, written out: what the package has integrated over the punch radius."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.stress.field.punch import PunchFunctions
+
+Array = NDArray[np.float64]
+
+
+def punch_functions(r: Array, z: Array, radius: Array) -> PunchFunctions:
+    """The ten functions for one punch radius; the stresses need their imaginary parts.
+
+    Parameters
+    ----------
+    r, z, radius
+        Distance from the axis, depth and punch radius in one unit of length; not at r = ξ, z = 0.
+    """
+    ζ = z + 1j * radius
+    R = np.sqrt(r * r + ζ * ζ + 0j)
+    R = np.where(R.imag < 0.0, -R, R)
+    L = 1.0 / (R + ζ)
+    return PunchFunctions(
+        one_over_R=1.0 / R,
+        L_over_R=L / R,
+        L2_over_R=L**2 / R,
+        L3_over_R=L**3 / R,
+        L=L,
+        L2=L**2,
+        z_over_R3=z / R**3,
+        zζ_over_R3=z * ζ / R**3,
+        zD=z * (L**2 / R**2 + L / R**3),
+        zB=z * (2.0 * L**3 / R**2 + L**2 / R**3),
+    )
