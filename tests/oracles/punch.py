@@ -1,4 +1,4 @@
-"""The functions of one rigid flat punch, written out: what the package has integrated over the punch radius."""
+"""The functions of one rigid flat punch, written out: the package has their integrals over the radius."""
 
 from __future__ import annotations
 
