@@ -61,8 +61,10 @@ def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
         assert file["s"].ancillary_variables == "s_error regime s_surface status run"
         assert file["frequency_ratio"].fractions == "1"
         assert file["normal_amplitude"].symbol == r"\delta_A/\delta_0"
-        assert "in units of a_H" in file["critical_x"].long_name
-        assert "against the x axis" in file["critical_angle"].long_name
+        assert file["critical_x"].long_name == "critical point x/a_H"
+        assert "a_H = sqrt(R delta0)" in file["critical_x"].comment
+        assert file["critical_angle"].units == "degree"
+        assert "against the x axis" in file["critical_angle"].comment
 
 
 def test_every_number_of_the_solver_comes_back_from_the_file(tmp_path):

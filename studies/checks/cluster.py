@@ -1,4 +1,4 @@
-"""Runs on dask.distributed: a worker killed half way; a scheduler and workers started on their own.
+"""Runs on dask.distributed: a worker killed at work; a scheduler and workers started on their own.
 
 python studies/checks/cluster.py > results/cluster.txt
 """
@@ -15,28 +15,42 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import xarray as xr
 from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 
+if TYPE_CHECKING:
+    from distributed import Client
 
-def killed_worker(folder: Path, text: str, expected: xr.Dataset, seconds: float) -> None:
-    """A LocalCluster of two workers, one of which is killed half way."""
+
+def kill_at_work(client: Client, killed: list[int]) -> None:
+    """Kill a worker as soon as one has work in hand."""
+    processes, busy = client.run(os.getpid), []
+    while not busy:
+        time.sleep(0.02)
+        busy = [address for address, tasks in client.processing().items() if tasks]
+    killed.append(processes[busy[0]])
+    os.kill(killed[0], signal.SIGKILL)
+
+
+def killed_worker(folder: Path, text: str, expected: xr.Dataset) -> None:
+    """A LocalCluster of two workers, one of which is killed at work."""
     from distributed import Client, LocalCluster
 
     with (
         LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
         Client(cluster) as client,
     ):
-        victim = next(iter(client.run(os.getpid).values()))
-        timer = threading.Timer(seconds / 2, os.kill, (victim, signal.SIGKILL))
-        timer.start()
+        killed: list[int] = []
+        killer = threading.Thread(target=kill_at_work, args=(client, killed))
+        killer.start()
         begin = time.perf_counter()
         found = run(Study.from_text(text), folder / "local-cluster.nc", client=client)
-        print(f"LocalCluster, worker {victim} killed half way: {time.perf_counter() - begin:.1f} s")
-        assert timer.finished.is_set()
+        print(f"LocalCluster, worker {killed} killed at work: {time.perf_counter() - begin:.1f} s")
+        killer.join()
     same_values(found, expected)
     print("  the very values of the undisturbed run")
 
@@ -76,7 +90,7 @@ def main() -> None:
         expected = run(Study.from_text(text), Path(name) / "local.nc")
         seconds = time.perf_counter() - begin
         print(f"2 local workers, undisturbed: {expected.s.size} points in {seconds:.1f} s")
-        killed_worker(Path(name), text, expected, seconds)
+        killed_worker(Path(name), text, expected)
         separate_processes(Path(name), text, expected)
 
 

@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.records.records import Run
-from swtstudy.study.figure import FigureLayout, reference
+from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
 
 
@@ -53,7 +53,8 @@ def read_figure(text: object) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        reference(y)
+        if reference(y) is None and y.strip() not in VARIABLES:
+            raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 
 
