@@ -11,8 +11,8 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
+from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.circle_gain import circle_gain
-from swtstudy.mechanics.line.climb import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.events.stretches import NO_STRETCH
 from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
 from swtstudy.mechanics.load.load import PERIOD
@@ -108,21 +109,32 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     mirrored = scene.cycle.load.mirrored_half
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
     look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
-    nodes, history = look.nodes, look.history
-    interval = nodes.spread(nodes.interval)
-    # An interval of the first half may reach beyond it, and its mirror image into several.
-    begin, end = (np.stack([v, v + 0.5 * PERIOD], axis=1)[..., None] for v in (cycle.begin, cycle.end))
-    first = (scene.cycle.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
-    last = np.maximum((scene.cycle.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
-    first, last = (np.minimum(v, scene.cycle.begin.shape[1] - 1) for v in (first, last))
+    history = look.history
     if mirrored:
         # The same instants with the tangential load reversed.
         history = history.joined(history.with_tangential_sign(-1.0))
-    sides = (
+    sides = [
         coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
-    )
+    ]
     swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    return FirstLook(swt, angle, interval, first, last, history)
+    interval = look.nodes.spread(look.nodes.interval)
+    return FirstLook(swt, angle, interval, *_parts_of_whole(cycle, scene.cycle), history)
+
+
+def _parts_of_whole(cycle: Cycle, whole: Cycle) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """First and last interval of the whole cycle in each interval of a cycle, and in its mirror image.
+
+    An interval of the first half may reach beyond it, and its mirror image into several.
+
+    Returns
+    -------
+    Each of shape (n, 2, i).
+    """
+    begin, end = (np.stack([v, v + 0.5 * PERIOD], axis=1)[..., None] for v in (cycle.begin, cycle.end))
+    first = (whole.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
+    last = np.maximum((whole.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
+    most = whole.begin.shape[1] - 1
+    return np.minimum(first, most), np.minimum(last, most)
 
 
 def local_maxima(
@@ -138,24 +150,43 @@ def local_maxima(
         Shape (n, X): the positions, ascending; shorter rows repeat their first one.
     """
     largest = swt.max(axis=(1, 2), keepdims=True)
-    falls, rises = swt[..., :-1] >= swt[..., 1:], swt[..., 1:] > swt[..., :-1]
-    ends = ((0, 0), (0, 0))
-    above = np.pad(falls, (*ends, (0, 1)), constant_values=True)
-    before = np.pad(rises, (*ends, (1, 0)), constant_values=True)
-    # Two cusps side by side that make a maximum together: each has its own neighbour on the other side.
-    gap = np.diff(r)
-    close = ((gap > 0.0) & (gap < SIDE_BY_SIDE * (r.max(axis=1) - r[:, 0])[:, None]))[:, None]
-    least = (1.0 - TWIN) * np.maximum(swt[..., 1:], swt[..., :-1])
-    close = close & (np.minimum(swt[..., 1:], swt[..., :-1]) >= least)
-    above[..., :-1] |= close & above[..., 1:]
-    before[..., 1:] |= close & before[..., :-1]
-    peak = above & before & (swt >= CANDIDATE_SHARE * largest)
-    # Where another plane takes over, its maximum may hide beside the flank of the former one's.
-    turn = np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP
-    turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= HIDDEN_SHARE * largest
-    peak[..., 1:] |= turn & above[..., 1:]
-    peak[..., :-1] |= turn & before[..., :-1]
+    over_left, over_right = _over_neighbours(swt, r)
+    peak = over_left & over_right & (swt >= CANDIDATE_SHARE * largest)
+    peak |= _hidden(swt, double_angle, over_left, over_right, HIDDEN_SHARE * largest)
     # A point without tension anywhere keeps one bracket all the same.
     peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
     point, side, column = np.nonzero(peak)
     return point, side, column
+
+
+def _over_neighbours(swt: FloatArray, r: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Whether swt is higher than at the left neighbour, and whether it is no lower than at the right one.
+
+    Of two cusps side by side that make a maximum together, each has its own neighbour on the other side.
+    """
+    ends = ((0, 0), (0, 0))
+    left, right = swt[..., :-1], swt[..., 1:]
+    over_right = np.pad(left >= right, (*ends, (0, 1)), constant_values=True)
+    over_left = np.pad(right > left, (*ends, (1, 0)), constant_values=True)
+    gap = np.diff(r)
+    together = ((gap > 0.0) & (gap < SIDE_BY_SIDE * (r.max(axis=1) - r[:, 0])[:, None]))[:, None]
+    together = together & (np.minimum(right, left) >= (1.0 - TWIN) * np.maximum(right, left))
+    over_right[..., :-1] |= together & over_right[..., 1:]
+    over_left[..., 1:] |= together & over_left[..., :-1]
+    return over_left, over_right
+
+
+def _hidden(
+    swt: FloatArray,
+    double_angle: FloatArray,
+    over_left: NDArray[np.bool_],
+    over_right: NDArray[np.bool_],
+    least: FloatArray,
+) -> NDArray[np.bool_]:
+    """Where another plane takes over, its maximum may hide beside the flank of the former one's."""
+    turn = np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP
+    turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= least
+    hidden = np.zeros(swt.shape, dtype=bool)
+    hidden[..., 1:] |= turn & over_right[..., 1:]
+    hidden[..., :-1] |= turn & over_left[..., :-1]
+    return hidden

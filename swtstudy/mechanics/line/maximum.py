@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.passages import split_at_breakpoints
-from swtstudy.mechanics.line.climb import Accuracy, Climb, step
+from swtstudy.mechanics.line.accuracy import Accuracy
+from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.positions import positions_of_first_look
+from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -90,13 +92,15 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     climb = Climb.start(scene, split, part_of, look, positions, accuracy.search)
     largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)
     for turn in range(LARGEST_ROUND_COUNT):
-        active = np.flatnonzero(~climb.settled)
-        if not active.size:
+        going = np.flatnonzero(~climb.settled)
+        if not going.size:
             break
-        before = climb.column.copy()
-        parts = np.array_split(active, -(-active.size // largest_part))
-        twins = [step(split, positions, climb, part, accuracy) for part in parts]
-        climb = Climb.joined([climb.without_followers(climb.column != before), *twins])
+        parts = np.array_split(going, -(-going.size // largest_part))
+        rounds = [climb_round(split, positions, climb.take(part), accuracy) for part in parts]
+        moved = Climb.joined([climb.take(climb.settled), *(same for same, _ in rounds)])
+        before = np.concatenate([climb.column[climb.settled], climb.column[going]])
+        others = [other for _, other in rounds]
+        climb = Climb.joined([moved.without_followers(moved.column != before), *others])
         climb = climb.leading(climb.top, SHARES[min(turn, len(SHARES) - 1)])
     # What is still on its way counts for what was seen of it.
     climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])

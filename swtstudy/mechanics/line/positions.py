@@ -200,6 +200,10 @@ class PositionBrackets:
         at = row, column
         return cls(positions.low[at], positions.high[at], positions.alpha[at], positions.step[at])
 
+    def take(self, index: NDArray[np.intp]) -> PositionBrackets:
+        """The brackets at ``index``."""
+        return PositionBrackets(*(values[index] for values in vars(self).values()))
+
     @property
     def is_corner(self) -> NDArray[np.bool_]:
         """Shape (m,): whether a stretch ends at c = 0, so that swt may have a cusp there."""

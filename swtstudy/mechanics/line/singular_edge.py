@@ -28,7 +28,7 @@ from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
-from swtstudy.mechanics.line.climb import SETTLED, Accuracy
+from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
 from swtstudy.mechanics.load.load import Load

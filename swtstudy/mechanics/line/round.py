@@ -1,0 +1,204 @@
+"""One round of the climbs: look at a few positions around each centre, move to the vertex, narrow.
+
+Each climb looks at `OFFSETS` around its best position and fits parabolas or a polynomial, until a further
+round would change too little. A round may find other maxima between the same neighbours, which get climbs of
+their own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
+from swtstudy.mechanics.line.first_look import TWIN
+from swtstudy.mechanics.line.positions import PositionBrackets, Positions
+from swtstudy.mechanics.line.value import refine
+from swtstudy.mechanics.numerics.arrays import pick
+from swtstudy.mechanics.numerics.peaks import polynomial_maximum, powers_from_values, vertex_near
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
+
+#: Distances at which each round looks, in widths.
+OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
+_POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
+#: How the width shrinks while the best position is the outermost one.
+WALKING = 2.0 / 3.0
+LEAST_ROUND_COUNT = 2
+#: Share of the last round's change that further ones would make at most, and beside a corner, where swt may
+#: begin like a square root.
+CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, SHRINKING**0.5
+#: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
+POLYNOMIAL_SHARE = 0.3
+#: Values closer than this are equal, relative.
+TIE = 1e-12
+
+
+@dataclass(frozen=True)
+class _Seen:
+    """What a round has seen of m climbs, k positions each.
+
+    Attributes
+    ----------
+    scene, brackets
+        The climbs' scenes, of the parts of the cycle that they look at, and the gaps that they are in.
+    c, values, angles
+        Shape (m, k): positions in the gaps, swt there and 2θ of the best planes, rad.
+    best
+        Shape (m,): column of the largest value.
+    """
+
+    scene: Scene
+    brackets: PositionBrackets
+    c: FloatArray
+    values: FloatArray
+    angles: FloatArray
+    best: NDArray[np.intp]
+
+    @property
+    def place(self) -> FloatArray:
+        """Shape (m,): c of the largest value."""
+        return pick(self.c, self.best)
+
+    @property
+    def largest(self) -> FloatArray:
+        """Shape (m,)."""
+        return pick(self.values, self.best)
+
+    @property
+    def is_outermost(self) -> NDArray[np.bool_]:
+        """Shape (m,): whether the largest value is the first or the last."""
+        return (self.best == 0) | (self.best == self.c.shape[1] - 1)
+
+
+@dataclass(frozen=True)
+class _Vertex:
+    """Where the maxima are, from a fit to what was seen, arrays of shape (m,).
+
+    Attributes
+    ----------
+    centre, top
+        c and swt of the maximum.
+    remaining
+        How much `top` would change in further rounds, at most.
+    clear
+        Whether one round is enough.
+    """
+
+    centre: FloatArray
+    top: FloatArray
+    remaining: FloatArray
+    clear: NDArray[np.bool_]
+
+
+def climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> tuple[Climb, Climb]:
+    """One round of m climbs.
+
+    Returns
+    -------
+    moved, others
+        The same climbs one round later, and those to maxima that this round has found besides.
+    """
+    seen = _look_around(scene, positions, climb, accuracy)
+    moved = _moved(positions, climb, seen, _vertex(climb, seen, accuracy), accuracy.tolerance)
+    peaks = _other_peaks(climb, seen, accuracy.tolerance)
+    return moved, Climb.joined([peaks, _behind_corners(climb, seen, accuracy)])
+
+
+def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> _Seen:
+    brackets = climb.brackets(positions)
+    centre = climb.centre[:, None]
+    c = np.clip(centre + climb.width[:, None] * OFFSETS, -1.0, 1.0)
+    # A corner's other side is another function.
+    c = np.where(centre > 0.0, np.maximum(c, 0.0), c)
+    c = np.where(centre < 0.0, np.minimum(c, 0.0), c)
+    start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
+    chosen = scene.select(climb.point, climb.hot)
+    values, angles = refine(chosen, brackets.radius(c), climb.side, start, accuracy.search)
+    # Equal values, as beyond the last position, count for the centre.
+    best = (values * (1.0 - TIE * np.abs(c - centre))).argmax(axis=1)
+    return _Seen(chosen, brackets, c, values, angles, best)
+
+
+def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
+    is_corner = seen.brackets.is_corner
+    centre, top = vertex_near(seen.c, seen.values, seen.best, is_corner)
+    beside_corner = is_corner & (np.abs(climb.centre) < OFFSETS[-1] * climb.width)
+    share = np.where(beside_corner, CORNER_CHANGE_SHARE, CHANGE_SHARE)
+    remaining, clear = share * np.abs(top - climb.top), np.zeros(len(top), dtype=bool)
+    # Five values on a smooth maximum may be enough.
+    first = (climb.width == FIRST_WIDTH) & (climb.centre == 0.0) & ~is_corner
+    smooth = np.flatnonzero(accuracy.hasty & first & (np.abs(seen.place) < seen.c[:, -1]))
+    parabola = top[smooth]
+    centre[smooth], top[smooth] = _polynomial_maximum(seen.values[smooth], centre[smooth])
+    remaining[smooth] = POLYNOMIAL_SHARE * np.abs(top[smooth] - parabola)
+    clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
+    return _Vertex(centre, top, remaining, clear)
+
+
+def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tolerance: float) -> Climb:
+    """The climbs at their new places, narrower where the maximum lies between what was looked at."""
+    rise = vertex.top - seen.largest
+    flat = rise <= CHANGE_SHARE * tolerance * vertex.top
+    # A maximum next to a corner shows only once the search is narrow.
+    stays = seen.brackets.is_corner & (seen.place == 0.0) & (flat | (climb.rounds < LEAST_ROUND_COUNT))
+    # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
+    neighbour = climb.column + seen.place.astype(np.intp)
+    beyond = (np.abs(seen.place) == 1.0) & (neighbour >= 0) & (neighbour < positions.count[climb.point])
+    outermost = seen.is_outermost & (seen.place != climb.centre)
+    narrower = climb.width * np.where(outermost, WALKING, SHRINKING)
+    small = np.maximum(vertex.remaining, rise) <= SETTLED * tolerance * vertex.top
+    enough = climb.rounds + 1 >= LEAST_ROUND_COUNT
+    return replace(
+        climb,
+        column=np.where(beyond, neighbour, climb.column),
+        centre=np.where(beyond | stays, 0.0, vertex.centre),
+        width=np.where(beyond, FIRST_WIDTH, narrower),
+        angle=pick(seen.angles, seen.best),
+        top=vertex.top,
+        seen=seen.largest,
+        remaining=vertex.remaining,
+        rounds=climb.rounds + ~outermost,
+        settled=vertex.clear | (~outermost & small & enough & (flat | ~stays)),
+    )
+
+
+def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
+    """Climbs to other values of a first round that are local maxima and almost as high as the best."""
+    new = np.flatnonzero(climb.rounds == 0)
+    values, best = seen.values[new], seen.best[new]
+    padded = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
+    peak = (1.0 - tolerance) * values > np.maximum(padded[:, 2:], padded[:, :-2])
+    high = values >= (1.0 - TWIN) * pick(values, best)[:, None]
+    row, column = np.nonzero(peak & high & (np.arange(values.shape[1]) != best[:, None]))
+    at = new[row], column
+    return climb.twins(at[0], seen.c[at], seen.values[at], seen.angles[at])
+
+
+def _behind_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
+    """Climbs to maxima beside corners that a first round took no value of, behind lower ones across them."""
+    middle = len(OFFSETS) // 2
+    row = np.flatnonzero((climb.rounds == 0) & (climb.centre == 0.0) & (seen.best != middle))
+    largest = seen.largest[row]
+    corner = seen.brackets.is_corner[row]
+    place, height = vertex_near(seen.c[row], seen.values[row], np.full(len(row), middle), corner)
+    behind = (seen.place[row] * place < 0.0) & (height > (1.0 + accuracy.tolerance) * largest)
+    row, place, largest = row[behind], place[behind], largest[behind]
+    some = climb.take(row)
+    if not row.size:
+        return some
+    r = seen.brackets.take(row).radius(place[:, None])
+    value, angle = refine(seen.scene.take(row), r, some.side, some.angle[:, None], accuracy.search)
+    higher = np.flatnonzero(value[:, 0] > largest)
+    return some.twins(higher, place[higher], value[higher, 0], angle[higher, 0])
+
+
+def _polynomial_maximum(values: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Maximum of the polynomials through the values (m, k) of a first round, near ``c`` of shape (m,)."""
+    # Not a matrix product, see `chebyshev.running_integral`.
+    series = np.einsum("pk,mk->pm", _POWERS, values)
+    c = polynomial_maximum(series, c, c - FIRST_WIDTH, c + FIRST_WIDTH)
+    return c, np.polynomial.polynomial.polyval(c, series, tensor=False)
