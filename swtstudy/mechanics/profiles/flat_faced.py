@@ -123,7 +123,7 @@ class RoundedPrimitives(FacePrimitives):
 def _rise_table() -> tuple[FloatArray, FloatArray]:
     """w/(√G + (3 b G)^⅓) over 1/(1 + (b²/G)^⅙), for `RoundedPunch.radius`."""
     angle = np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
-    # Closer towards small faces: beside the contact edge the stress shows the square root of a radius's error.
+    # Closer towards small faces: beside the edge the stress shows the square root of a radius's error.
     rest = 0.5 * np.pi - angle
     rest = np.concatenate([rest[rest > 0.02], np.geomspace(0.02, 1e-12, 8001)])
     angle = 0.5 * np.pi - rest
