@@ -34,11 +34,13 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "long_name": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
         "units": "1",
         "symbol": r"x/a_H",
+        "comment": "NaN where s is 0 or not finite: no point is critical there",
     },
     "critical_angle": {
         "long_name": "angle of the normal of the critical plane against the x axis",
         "units": "degree",
         "symbol": r"\varphi",
+        "comment": "NaN where s is 0 or not finite: no plane is critical there",
     },
     "regime": {
         "long_name": "regime of the contact over the stationary cycle",

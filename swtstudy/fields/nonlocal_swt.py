@@ -39,7 +39,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     xarray.Dataset
         That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
         s_line over these and direction: straight down, or along the critical plane into the body. Averages
-        are accurate to about 5e-3, and NaN where s is.
+        are accurate to about 5e-3, and NaN where there is no critical point.
     """
     distance = np.atleast_1d(numbers(critical_distance))
     if distance.ndim != 1 or not np.isfinite(distance).all() or (distance <= 0.0).any():
@@ -48,8 +48,8 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     dims, shape = dataset.s.dims, dataset.s.shape
     volume = np.full((*shape, distance.size), np.nan)
     point, line = (np.full((*shape, distance.size, len(DIRECTIONS)), np.nan) for _ in range(2))
-    # Where s is not finite there is no critical point.
-    for index in zip(*np.nonzero(np.isfinite(dataset.critical_x.values)), strict=True):
+    # Where s is not finite, or 0, there is no critical point.
+    for index in map(tuple, np.argwhere(np.isfinite(dataset.critical_x.values))):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         values = {name: one[name].item() for name in PARAMETERS if name in one.coords}
         volume[index], point[index], line[index] = _of_point(values, float(one.critical_x), distance)

@@ -44,20 +44,28 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     """
     n = len(points)
     _, left_out = resolved_shape(points.profile, points.shape, 1.0 + points.normal_amplitude)
+    # Without tangential motion there is no traction, whatever the friction.
+    friction = np.where(points.tangential_amplitude > 0.0, points.friction, 0.0)
+    # Pressure alone makes no tension at ν = 1/2, and without motion no swing of strain.
+    idle = (friction == 0.0) & ((points.poisson_ratio == 0.5) | (points.normal_amplitude == 0.0))
     s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
     regime = np.zeros(n, dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
     for index, cycle in _batches(points):
         shape = {name: values[index] for name, values in points.shape.items()}
         profile = make_profile(points.profile, shape, 1.0 + points.normal_amplitude[index])
-        scene = Scene(cycle, profile, points.poisson_ratio[index], points.friction[index])
+        scene = Scene(cycle, profile, points.poisson_ratio[index], friction[index])
         lost = not_finite(profile, cycle, scene.friction)
-        found = _maximum(scene, np.flatnonzero(~lost), accuracy)
+        still = idle[index] & ~lost
+        found = _maximum(scene, np.flatnonzero(~(lost | still)), accuracy)
+        found = found.put(still, Maximum.unknown(int(still.sum()), 0.0))
         s[index] = found.swt
         error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
-        surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
-        position[index] = found.position
-        angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
+        gain, _ = circle_gain(scene, found.position, found.double_angle)
+        surface[index] = np.where(found.swt == 0.0, 0.0, found.swt * (1.0 + gain))
+        critical = found.swt > 0.0
+        position[index] = np.where(critical, found.position, np.nan)
+        angle[index] = np.where(critical, _fold_angle(np.degrees(found.double_angle) / 2.0), np.nan)
         state = np.where(cycle.slips(), "partial_slip", "stick")
         state = np.where(cycle.gross_slip, "gross_slip", state)
         state = np.where(cycle.lift_off, "lift_off", state)
