@@ -22,6 +22,9 @@ from swtstudy.mechanics.profiles.base import Profile
 
 T = TypeVar("T", bound=np.generic)
 
+#: A front or an edge whose depth is nearer than this to that of r, over the largest depth, has arrived at r.
+ARRIVED = 2e-15
+
 
 @dataclass(frozen=True)
 class History:
@@ -76,6 +79,10 @@ class SurfaceLine:
     def __init__(self, cycle: Cycle, profile: Profile, position: FloatArray, digits: float) -> None:
         self.cycle, self.profile, self.position = cycle, profile, position
         self.primitives = profile.primitives(position, digits)
+        # The stress shows the square root of the distance at which rounding leaves what arrives at r.
+        self.depth = profile.depth(position)[:, :, None]
+        beyond = profile.depth(position + np.spacing(position))[:, :, None]
+        self.arrived = ARRIVED * (1.0 + cycle.protocol.normal_amplitude[:, None, None]) + beyond - self.depth
         memory = cycle.memory
         n, intervals, pieces = memory.start.shape
         finite = np.isfinite(memory.start)
@@ -129,8 +136,16 @@ class SurfaceLine:
             return values.ravel().take(at)
 
         place, sign, slope = at_positions(place), at_positions(states.sign), at_positions(slope)
-        edge = at_positions(edge_radius)
-        at_front = self._full_slip(at_positions(front_radius))
+        r = self.position[:, :, None]
+
+        def radius_at_positions(depth: FloatArray, radius: FloatArray) -> FloatArray:
+            values = at_positions(radius)
+            np.copyto(values, r, where=np.abs(at_positions(depth) - self.depth) <= self.arrived)
+            return values
+
+        edge = radius_at_positions(states.depth, edge_radius)
+        front = radius_at_positions(states.front, front_radius)
+        at_front = self._full_slip(front)
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         columns, places = self.base.shape[2:]
         of_base = (rows * columns + np.arange(columns)[:, None]) * places + place
@@ -141,9 +156,8 @@ class SurfaceLine:
             result += base.ravel().take(of_base)
             result -= sign * edge_part
         if np.any(grown):
-            self._add_growth(total, at_positions(grown), place, at_positions(front_radius))
+            self._add_growth(total, at_positions(grown), place, front)
         total /= np.pi
-        r = self.position[:, :, None]
         # What the springs inside r carry, and what those outside press on the inside.
         inside = np.minimum(at_positions(half_load), profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *total)
