@@ -58,8 +58,46 @@ CASES = [
 ]
 
 
+# The same with values at the tightest tolerance: what some part of the search is there for.
+FROZEN = [
+    # A second plane, not far from the one of the first look.
+    (
+        "paraboloid",
+        (0.0795418, 0.574001, 0.82084386, 1.06225358, 1.71521037, 4, 3),
+        {},
+        0.8357207106,
+    ),
+    (
+        "rounded_punch",
+        (0.37897634, 0.30414001, 0.70318321, 0.33407447, 5.72945468, 4, 1),
+        {"flat_radius": 0.91058865},
+        0.0448058101,
+    ),
+    (
+        "wavy_paraboloid",
+        (0.37897634, 0.30414001, 0.70318321, 0.33407447, 5.72945468, 4, 1),
+        {"waviness_amplitude": 0.0471635, "wavelength": 6.1208145},
+        0.0762849428,
+    ),
+    # After the first round the largest maximum is 1 % below another one.
+    (
+        "paraboloid",
+        (0.20926969, 0.81969808, 0.65394187, 0.21103958, 1.58282955, 4, 1),
+        {},
+        0.3160460844,
+    ),
+    # Between two events the parabola makes a lower maximum of σ_n higher than that at an event.
+    (
+        "paraboloid",
+        (0.5, 4.229670557555671, 0.09126814589903608, 0.014888734975403578, 0.5235987755982988, 4, 1),
+        {},
+        0.5421196932,
+    ),
+]
+
+
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])
-@pytest.mark.parametrize(("profile", "values", "lengths", "s"), CASES)
+@pytest.mark.parametrize(("profile", "values", "lengths", "s"), CASES + FROZEN)
 def test_the_largest_of_narrow_maxima(profile, values, lengths, s, rtol):
     found = solve_points(points(profile, *values, **lengths), rtol)
     assert found.s[0] == pytest.approx(s, rel=rtol)

@@ -37,6 +37,8 @@ HOT = 0.35
 #: A smooth maximum may be higher than the best instant by this share of the bend there: a parabola through
 #: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33.
 REACH = 0.4
+#: Values of a curve that differ by less, relative, are as high.
+LEVEL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -281,7 +283,9 @@ def _extremes_and_rivals(
         apart = np.abs(np.arange(curve.shape[-1]) - best[..., None]) > 1
         rival = np.where(apart, reach, -np.inf).argmax(axis=-1)
         found.append(best)
-        rivals.append(np.where(pick(reach, rival) > pick(top, best), rival, best))
+        # The best one may have been lifted too high.
+        least = pick(curve, best)
+        rivals.append(np.where(pick(reach, rival) > least + LEVEL * np.abs(least), rival, best))
     return np.stack(found, axis=-1), np.stack(rivals, axis=-1)
 
 
@@ -301,12 +305,12 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
 
 
 def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-    """`lifted`, and how high the smooth local maxima may really be, −∞ elsewhere."""
+    """`lifted`, and how high the smooth local maxima may really be."""
     middle = curve[..., 1:-1]
     peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
     at = np.nonzero(peak)
     left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    result, reach = curve.copy(), np.full_like(curve, -np.inf)
+    result, reach = curve.copy(), curve.copy()
     result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
     reach[..., 1:-1][at] = centre + REACH * (2.0 * centre - left - right)
     return result, reach
