@@ -24,9 +24,9 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
 LEAST_SHARE = 0.25
-#: What numbers next to r cannot tell apart counts where r − b is less than this share of r (beside a cusp as
-#: the root of 2e-16 r/(r − b)), and where swt is smaller than this (rounding leaves 1e-8 of the pressure).
-BESIDE_FACE, FAINT = 0.05, 1e-6
+#: What numbers next to r cannot tell apart counts where r − b is less than this share of r (beside a cusp as the
+#: root of 2e-16 r/(r − b)), and where swt is smaller than this and so is 1/2 − ν: rounding leaves 1e-8 of p.
+BESIDE_FACE, FAINT, NO_SPREAD = 0.05, 1e-6, 0.01
 NEIGHBOURS = np.array([-1.0, 1.0])
 
 
@@ -82,7 +82,8 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         found = found.put(doubtful[better], again.take(better))
     face = scene.profile.flat_radius
     beside = (face > 0.0) & (np.abs(found.position) - face < BESIDE_FACE * np.abs(found.position))
-    rows = np.flatnonzero((beside | (found.swt < FAINT)) & (found.swt > 0.0))
+    beside |= (found.swt < FAINT) & (0.5 - scene.poisson_ratio < NO_SPREAD)
+    rows = np.flatnonzero(beside & (found.swt > 0.0))
     if rows.size:
         spread = _spread(scene.take(rows), found.take(rows), accuracy.check)
         found.error[rows] = np.maximum(found.error[rows], spread)
