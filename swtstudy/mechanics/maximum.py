@@ -24,8 +24,8 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
 LEAST_SHARE = 0.25
-#: What numbers next to r cannot tell apart counts where r − b is less than this share of r (beside a cusp as the
-#: root of 2e-16 r/(r − b)), and where swt is smaller than this and so is 1/2 − ν: rounding leaves 1e-8 of p.
+#: What numbers next to r cannot tell apart counts where r − b is less than this share of r, beside a cusp as
+#: the root of 2e-16 r/(r − b), and where swt is smaller than this and so is 1/2 − ν: rounding leaves 1e-8 p.
 BESIDE_FACE, FAINT, NO_SPREAD = 0.05, 1e-6, 0.01
 NEIGHBOURS = np.array([-1.0, 1.0])
 
