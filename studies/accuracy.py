@@ -1,18 +1,22 @@
 """How accurate s is, and whether s_error says so: random points against the tightest tolerance.
 
-Run as ``python studies/accuracy.py [points a profile]``; writes results/accuracy.md.
+Run as ``python studies/accuracy.py [points a profile] [--ends] [--seed n]``; writes results/accuracy.md,
+or, with ``--ends``, results/accuracy_ends.md: there the points crowd at the ends of the allowed ranges.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from fractions import Fraction
 from math import gcd
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.indenter import check_shape
 
 RTOLS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 REFERENCE_RTOL = 1e-8
@@ -46,11 +50,45 @@ def random_points(profile: str, count: int, seed: int) -> Points:
     )
 
 
-def rows(profile: str, count: int) -> list[str]:
-    """Lines of the table for one profile."""
-    points = random_points(profile, count, seed=1)
+def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -> Points:
+    """Points that crowd at the ends of what `swtstudy.parameters` allows, q and p up to ``largest_term``."""
+    rng = np.random.default_rng(seed)
+
+    def logarithmic(low: float, high: float) -> NDArray[np.float64]:
+        return np.asarray(10.0 ** rng.uniform(np.log10(low), np.log10(high), count))
+
+    def one_of(*kinds: ArrayLike) -> NDArray[np.float64]:
+        chosen = rng.integers(len(kinds), size=count)
+        return np.choose(chosen, [np.broadcast_to(kind, count) for kind in kinds])
+
+    def uniform(high: float) -> NDArray[np.float64]:
+        return rng.uniform(0.0, high, count)
+
+    poisson_ratio = one_of(0.0, 0.5, uniform(0.5), 0.5 - logarithmic(1e-6, 0.1))
+    friction = one_of(*[logarithmic(1e-3, 10.0)] * 9, 0.0)
+    near_lift_off = 1.0 - logarithmic(1e-6, 1.0)
+    normal = one_of(uniform(10.0), uniform(1.0), near_lift_off, logarithmic(1e-5, 1.0), 0.0)
+    tangential = one_of(*[logarithmic(1e-5, 100.0)] * 9, 0.0)
+    p, q = (np.floor(logarithmic(1.0, largest_term + 1.0)).astype(int) for _ in range(2))
+    common = np.gcd(p, q)
+    phase = one_of(uniform(2.0 * np.pi), np.pi / 12.0 * rng.integers(24, size=count))
+    shape = {}
+    if "flat_radius" in SHAPES[profile]:
+        shape = {"flat_radius": one_of(*[logarithmic(1e-6, 20.0)] * 9, 20.0)}
+    if "wavelength" in SHAPES[profile]:
+        shape = {"waviness_amplitude": logarithmic(1e-6, 10.0), "wavelength": logarithmic(3.3, 1e3)}
+        for k in range(count):
+            while check_shape(profile, {name: v[k] for name, v in shape.items()}, normal[k]) is not None:
+                shape["waviness_amplitude"][k] = 10.0 ** rng.uniform(-6.0, 1.0)
+                shape["wavelength"][k] = 10.0 ** rng.uniform(np.log10(3.3), 3.0)
+    loads = p // common, q // common, tangential, phase
+    return Points(profile, poisson_ratio, friction, normal, *loads, shape)
+
+
+def rows(points: Points) -> list[str]:
+    """Lines of the table for the points of one profile."""
     reference = solve_points(points, REFERENCE_RTOL).s
-    regular = np.isfinite(reference)
+    regular = reference > 0.0
     lines = []
     for rtol in RTOLS:
         solution = solve_points(points, rtol)
@@ -59,7 +97,7 @@ def rows(profile: str, count: int) -> list[str]:
         median, most, largest = np.quantile(error / s, [0.5, 0.99, 1.0])
         missed, wide = np.mean(error > claimed), np.mean(claimed > rtol * s)
         lines.append(
-            f"| {profile} | {rtol:.0e} | {median:.1e} | {most:.1e} | {largest:.1e} "
+            f"| {points.profile} | {rtol:.0e} | {median:.1e} | {most:.1e} | {largest:.1e} "
             f"| {missed:.1%} | {wide:.1%} |"
         )
     return lines
@@ -68,15 +106,21 @@ def rows(profile: str, count: int) -> list[str]:
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("points", nargs="?", type=int, default=100, help="points a profile")
+    arguments.add_argument("--ends", action="store_true", help="points at the ends of the allowed ranges")
+    arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
     arguments.add_argument("--quick", action="store_true", help="one point a profile, to see that it runs")
     given = arguments.parse_args()
     count = 1 if given.quick else given.points
-    table = [line for profile in SHAPES for line in rows(profile, count)]
-    title = f"Relative errors at {count} random points a profile, against rtol = {REFERENCE_RTOL:.0e}.\n\n"
+    draw: Callable[[str, int, int], Points] = points_at_ends if given.ends else random_points
+    table = [line for profile in SHAPES for line in rows(draw(profile, count, given.seed))]
+    where = "at the ends of the allowed ranges, " if given.ends else ""
+    title = f"Relative errors at {count} random points a profile, {where}"
+    title += f"against rtol = {REFERENCE_RTOL:.0e} (seed {given.seed}).\n\n"
     text = title + HEADER + "\n".join(table) + "\n"
     given.results.mkdir(exist_ok=True)
-    (given.results / "accuracy.md").write_text(text, encoding="utf-8")
+    name = "accuracy_ends.md" if given.ends else "accuracy.md"
+    (given.results / name).write_text(text, encoding="utf-8")
     print(text)
 
 

@@ -35,7 +35,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     xarray.Dataset
         s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
         the surface line is not enough), with the sequences as dimensions in the order given and the single
-        values as scalar coordinates; the attributes say by which version and to which rtol.
+        values as scalar coordinates; the attributes say by which version and to which rtol. Where s is 0 or
+        not finite there is no critical point: critical_x and critical_angle are NaN.
 
     Raises
     ------

@@ -26,12 +26,15 @@ def sound(batch: Points, rtol: float = RTOL) -> Solution:
     largest = make_profile(batch.profile, batch.shape, largest_depth).radius(largest_depth[:, None])[:, 0]
     finite = found.regime != REGIMES.index("not_finite")
     assert batch.profile == "truncated_paraboloid" or np.all(finite)
-    for values in (found.s, found.s_error, found.critical_x, found.critical_angle):
+    for values in (found.s, found.s_error):
         assert np.all(np.isnan(values) == ~finite)
+    critical = finite & (found.s > 0.0)
+    for values in (found.critical_x, found.critical_angle):
+        assert np.all(np.isnan(values) == ~critical)
     assert np.all(np.isfinite(found.s[finite]) & (found.s[finite] >= 0.0))
     assert np.all(np.isfinite(found.s_error[finite]) & (found.s_error[finite] >= 0.0))
-    assert np.all((np.abs(found.critical_x) <= largest * (1.0 + 1e-12))[finite])
-    assert np.all(((found.critical_angle > -90.0) & (found.critical_angle <= 90.0))[finite])
+    assert np.all((np.abs(found.critical_x) <= largest * (1.0 + 1e-12))[critical])
+    assert np.all(((found.critical_angle > -90.0) & (found.critical_angle <= 90.0))[critical])
     # The accuracy asked for, with a margin for the few points at which the estimate is a bit above it.
     # Without friction and at ν = 0.5 there is no tension but for rounding.
     assert np.all(found.s_error[finite] <= 3.0 * rtol * np.maximum(found.s[finite], NO_TENSION))

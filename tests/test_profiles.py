@@ -78,6 +78,14 @@ def test_contact_radius_inverts_g(indenter: oracle.Indenter) -> None:
     np.testing.assert_allclose(profile.depth(radius), depths, rtol=1e-9, atol=atol)
 
 
+@pytest.mark.parametrize("flat_radius", [1e-9, 1e-7, 2.3e-6, 1e-4, 1e-3])
+def test_contact_radius_over_a_small_face(flat_radius: float) -> None:
+    # Beside the contact edge the stress shows the square root of what the radius misses.
+    profile = make_profile("rounded_punch", {"flat_radius": np.array([flat_radius])}, np.array([DEEPEST]))
+    radius = flat_radius + np.geomspace(1e-3, 1.3, 1000)[None]
+    np.testing.assert_allclose(profile.radius(profile.depth(radius)), radius, rtol=2e-15)
+
+
 @every_indenter
 def test_half_of_the_normal_load(indenter: oracle.Indenter) -> None:
     radius = reached(indenter, np.array([0.1, 0.5, 1.0]))

@@ -82,6 +82,8 @@ def audit_point(row: Sequence[float]) -> Finding:
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
     if not np.isfinite(solved[1]):
         return Finding(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+    # Where s is 0 no point is critical, and the search of the body starts at any.
+    x = x if np.isfinite(x) else 1.0
     # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)

@@ -56,7 +56,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         - at a few telling instants, with their instant_time and reason: pressure p and traction q over x;
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
-          not finite, those of the largest swt that was sampled;
+          0 or not finite, those of the largest swt that was sampled;
         - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), least_radius and
           largest_radius of the contact.
 

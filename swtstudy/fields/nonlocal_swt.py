@@ -43,7 +43,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
         That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
         s_line over these and direction: straight down, or along the critical plane into the body. The
         instants are those of the critical point, which leaves values low by about 1 % at ℓ = 0.3 a_H and by
-        less at smaller ℓ. NaN where s is.
+        less at smaller ℓ. NaN where there is no critical point.
     """
     allowed = "finite numbers ℓ/a_H > 0"
     distance = read_distances("critical_distance", critical_distance, allowed)
@@ -53,7 +53,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     dims, shape = dataset.s.dims, dataset.s.shape
     volume = np.full((*shape, distance.size), np.nan)
     point, line = (np.full((*shape, distance.size, len(DIRECTIONS)), np.nan) for _ in range(2))
-    # Where s is not finite there is no critical point.
+    # Where s is not finite, or 0, there is no critical point.
     for index in map(tuple, np.argwhere(np.isfinite(dataset.critical_x.values))):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         # A grid of several profiles has the shape parameters of all of them.

@@ -62,9 +62,10 @@ class Solution:
     s_error
         Estimated absolute error of s, –.
     critical_x
-        Position of the critical point on the surface, signed, in a_H = √(R δ0).
+        Position of the critical point on the surface, signed, in a_H = √(R δ0); NaN where s is 0: nothing is
+        in tension then, or nothing moves, and no point is critical.
     critical_angle
-        Angle of the critical plane's normal against the x axis, degrees in (-90, 90].
+        Angle of the critical plane's normal against the x axis, degrees in (-90, 90]; NaN where s is 0.
     regime
         Index into `REGIMES`.
     s_surface

@@ -51,12 +51,16 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     accuracy = Accuracy.for_tolerance(rtol)
     for index, scene in _scenes(points):
         lost = not_finite(scene)
-        found = _maximum(scene, np.flatnonzero(~lost), accuracy)
+        idle = _idle(scene) & ~lost
+        found = _maximum(scene, np.flatnonzero(~(lost | idle)), accuracy)
+        found = found.put(idle, Maximum.unknown(int(idle.sum()), 0.0))
         s[index] = found.swt
         error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
-        surface[index] = found.swt * (1.0 + circle_gain(scene, found.position, found.double_angle)[0])
-        position[index] = found.position
-        angle[index] = _fold_angle(np.degrees(found.double_angle) / 2.0)
+        gain, _ = circle_gain(scene, found.position, found.double_angle)
+        critical = found.swt > 0.0
+        surface[index] = np.where(found.swt == 0.0, 0.0, found.swt * (1.0 + gain))
+        position[index] = np.where(critical, found.position, np.nan)
+        angle[index] = np.where(critical, _fold_angle(np.degrees(found.double_angle) / 2.0), np.nan)
         regime[index] = _regime(scene.cycle, lost)
     return Solution(s, error, position, angle, regime, surface)
 
@@ -81,13 +85,24 @@ def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
                     some = points.take(sharing[rows])
                     profile = make_profile(some.profile, some.shape, largest[sharing[rows]])
                     coordinate = DepthCoordinate(profile)
-                    scene = Scene(cycle.take(number[rows]), coordinate, some.poisson_ratio, some.friction)
-                    yield sharing[rows], scene
+                    # Without tangential motion there is no traction, whatever the friction.
+                    friction = np.where(load.moves_tangentially[number[rows]], some.friction, 0.0)
+                    yield (
+                        sharing[rows],
+                        Scene(cycle.take(number[rows]), coordinate, some.poisson_ratio, friction),
+                    )
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
     """The index in pieces of ``size`` at most, which are nearly equal."""
     return np.array_split(index, -(-len(index) // size))
+
+
+def _idle(scene: Scene) -> NDArray[np.bool_]:
+    """Where s is 0: pressure alone makes no tension at ν = 1/2, and without motion no swing of strain."""
+    load = scene.cycle.load
+    rests = load.largest_normal == load.least_normal
+    return np.asarray((scene.friction == 0.0) & ((scene.poisson_ratio == 0.5) | rests))
 
 
 def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:

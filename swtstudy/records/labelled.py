@@ -45,13 +45,15 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
     },
     "critical_x": {
         "long_name": "critical point x/a_H",
-        "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0)",
+        "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0); NaN "
+        "where s is 0 or not finite: no point is critical there",
         "units": "1",
         "symbol": r"x/a_H",
     },
     "critical_angle": {
         "long_name": "critical plane angle",
-        "comment": "angle of the normal of the critical plane against the x axis, in (-90, 90]",
+        "comment": "angle of the normal of the critical plane against the x axis, in (-90, 90]; NaN where "
+        "s is 0 or not finite: no plane is critical there",
         "units": "degree",
         "symbol": r"\varphi",
     },

@@ -58,7 +58,7 @@ def outside_of_stick(*archives: xr.Dataset) -> Finding:
     """Position of the critical point over the radius of permanent stick."""
     stick = np.concatenate([stick_radius(archive).values.ravel() for archive in archives])
     position = np.concatenate([abs(archive.critical_x.values).ravel() for archive in archives])
-    sticking = stick > 0
+    sticking = (stick > 0) & np.isfinite(position)
     if not sticking.any():
         return Finding(f"none of {len(stick)} points has a zone of permanent stick", True)
     relation = position[sticking] / stick[sticking]
@@ -74,6 +74,8 @@ def outside_of_stick(*archives: xr.Dataset) -> Finding:
 def normal_along_x(*archives: xr.Dataset) -> Finding:
     """Angle of the critical plane's normal against x."""
     angle = np.concatenate([abs(archive.critical_angle.values).ravel() for archive in archives])
+    # Where s is 0 there is no critical plane.
+    angle = angle[np.isfinite(angle)]
     share = float((angle <= _ABOUT_TEN_DEGREES).mean())
     worst = max(archives, key=lambda archive: float(abs(archive.critical_angle).max()))
     measured = (

@@ -28,6 +28,10 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
 LEAST_SHARE = 0.25
+#: What numbers next to r cannot tell apart counts where r − b is less than this share of r, beside a cusp as
+#: the root of 2e-16 r/(r − b), and where swt is smaller than this and so is 1/2 − ν: rounding leaves 1e-8 p.
+BESIDE_FACE, FAINT, NO_SPREAD = 0.05, 1e-6, 0.01
+NEIGHBOURS = np.array([-1.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -79,8 +83,25 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         better = (again.error < found.error[doubtful]) & (
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
-        return found.put(doubtful[better], again.take(better))
+        found = found.put(doubtful[better], again.take(better))
+    face = scene.profile.flat_radius
+    beside = (face > 0.0) & (np.abs(found.position) - face < BESIDE_FACE * np.abs(found.position))
+    beside |= (found.swt < FAINT) & (0.5 - scene.poisson_ratio < NO_SPREAD)
+    rows = np.flatnonzero(beside & (found.swt > 0.0))
+    if rows.size:
+        spread = _spread(scene.take(rows), found.take(rows), accuracy.check)
+        found.error[rows] = np.maximum(found.error[rows], spread)
     return found
+
+
+def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
+    """How much swt varies over the numbers next to the positions of the n maxima, shape (n,)."""
+    r = np.abs(found.position)[:, None]
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    near = np.maximum(r + NEIGHBOURS * np.spacing(r), scene.profile.flat_radius[:, None])
+    angle = np.broadcast_to(found.double_angle[:, None], near.shape)
+    value, _ = refine(split, near, np.sign(found.position), angle, resolution)
+    return np.asarray(np.abs(value - found.swt[:, None]).max(axis=1))
 
 
 def _search(scene: Scene, accuracy: Accuracy) -> Maximum:

@@ -23,8 +23,9 @@ SPREAD = 24
 #: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
 #: what sticks at touch-down keeps the oscillation.
 SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
-#: The centre is left out: swt is smooth there and never largest.
-INNERMOST = 0.02
+#: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
+#: its least radius is left out, and where contact is lost this share.
+INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
 #: Coordinates of cusps nearer than this, in the amplitudes of the motion, are one.
 SAME_DEPTH = 1e-9
 #: Share of the range below which a stretch between cusps is none.
@@ -73,10 +74,13 @@ def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
     largest = radius.max(axis=1, keepdims=True)
     profile = coordinate.profile
     approach = profile.singular_approach
-    innermost = profile.flat_radius[:, None] + INNERMOST * (largest - profile.flat_radius[:, None])
+    face = profile.flat_radius[:, None]
+    least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None]) - face
+    share = np.clip(0.5 * least / (largest - face), INNERMOST_OF_LOST, INNERMOST)
+    innermost = face + share * (largest - face)
     if approach.shape[1]:
         nearest = approach.min(axis=1, keepdims=True)
-        innermost = np.where(nearest > profile.flat_radius[:, None], nearest, innermost)
+        innermost = np.where(nearest > face, nearest, innermost)
     ends = np.concatenate([radius, innermost, approach], axis=1)
     return np.sort(np.maximum(ends, innermost), axis=1)
 

@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.line.look import Look, Resolution, extreme_instants, lifted, near_extremes
+from swtstudy.mechanics.line.look import (
+    Look,
+    Resolution,
+    extreme_instants,
+    extremes_and_rivals,
+    lifted,
+    near_extremes,
+)
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_over_planes
@@ -75,18 +82,36 @@ def refine(
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     best, other = _best_planes(planes, look.inside, double_angle + STARTS)
-    found, elsewhere = (extreme_instants(planes, angle, look.inside) for angle in (best, other))
+    found, rival = extremes_and_rivals(planes, best, look.inside)
+    elsewhere = extreme_instants(planes, other, look.inside)
     swt, angle = _zoomed(scene, look, side, best, found, resolution.zooms)
-    # Two planes that the nodes cannot tell apart are both followed; neighbouring nodes have the same bracket.
-    rows = np.flatnonzero((np.abs(found - elsewhere) > 1).any(axis=(1, 2)))
-    if rows.size:
-        some = scene.take(rows)
+    # Two planes, or two instants, that the nodes cannot tell apart are both followed; neighbouring nodes have
+    # the same bracket.
+    for plane, extremes in ((other, elsewhere), (best, rival)):
+        rows = np.flatnonzero((np.abs(found - extremes) > 1).any(axis=(1, 2)))
+        if not rows.size:
+            continue
+        some, at, there = scene.take(rows), plane[rows], extremes[rows]
         again = Look.at(some, position[rows], resolution.nodes, resolution.digits)
-        more, at = _zoomed(some, again, side[rows], other[rows], elsewhere[rows], resolution.zooms)
+        if extremes is rival:
+            there = _higher(some, again, side[rows], at, (found[rows], there))
+        more, at = _zoomed(some, again, side[rows], at, there, resolution.zooms)
         better = more > swt[rows]
         swt[rows] = np.where(better, more, swt[rows])
         angle[rows] = np.where(better, at, angle[rows])
     return swt, angle
+
+
+def _higher(
+    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, either: tuple[NDArray[np.intp], ...]
+) -> NDArray[np.intp]:
+    """Of two instants for each extreme on a plane, both (n, X, 3), the one around which it is higher."""
+    tops = []
+    for extremes in either:
+        brackets = look.brackets(extremes)
+        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
+        tops.append(on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle))
+    return np.where(tops[1] > tops[0], either[1], either[0])
 
 
 def _zoomed(

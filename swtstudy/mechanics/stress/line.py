@@ -19,6 +19,9 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
 
+#: A front or an edge whose coordinate is nearer than this to that of r, over the largest one, is at r.
+ARRIVED = 2e-15
+
 
 class SurfaceLine:
     """n × X positions on the surface line of n points, ready for any instants.
@@ -36,6 +39,10 @@ class SurfaceLine:
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
         self.cycle, self.coordinate, self.position = cycle, coordinate, position
         self.primitives = coordinate.profile.primitives(position, digits)
+        # The stress shows the square root of the distance at which rounding leaves what arrives at r.
+        self.at = coordinate.of(position)[:, :, None]
+        next_to_r = coordinate.of(position + np.spacing(position))[:, :, None]
+        self.arrived = ARRIVED * cycle.load.largest_normal[:, None, None] + next_to_r - self.at
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         #: Shape (3, n, X, i·d): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
@@ -84,7 +91,7 @@ class SurfaceLine:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
         profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
-        edge, r = nodes.spread(edge_radius), self.position[:, :, None]
+        edge, r = self._spread_radius(nodes, states.edge, edge_radius), self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
@@ -92,12 +99,19 @@ class SurfaceLine:
         inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
 
+    def _spread_radius(self, nodes: Nodes, coordinate: FloatArray, radius: FloatArray) -> FloatArray:
+        """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
+        spread = nodes.spread(radius)
+        arrives = np.abs(nodes.spread(coordinate) - self.at) <= self.arrived
+        np.copyto(spread, self.position[:, :, None], where=arrives)
+        return spread
+
     def _tangential(self, nodes: Nodes, states: SlipStates, at_edge: tuple[FloatArray, ...]) -> FloatArray:
         """T1, T3 and the traction, each over π, from the full-slip integrals up to the edge, (3, n, X, T)."""
         memory, (n, columns) = self.cycle.memory, self.position.shape
         place = nodes.interval * memory.start.shape[-1] + states.piece
         slope = gather(memory.slope.reshape(n, -1), place)
-        front = nodes.spread(self.coordinate.radius(states.front))
+        front = self._spread_radius(nodes, states.front, self.coordinate.radius(states.front))
         at_place, sign = nodes.spread(place), nodes.spread(states.sign)
         bend = sign - nodes.spread(_line_slope(slope))
         rows, places = np.arange(n)[:, None, None], self.base.shape[-1]
