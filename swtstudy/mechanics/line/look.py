@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,14 +103,20 @@ def extremes_and_rivals(
     """As `extreme_instants`, and another instant that may be higher once it is looked at, or the same one."""
     found, rivals = [], []
     for curve in curves(*planes.on_plane(angle)):
-        top, reach = _crests(curve, inside)
-        best = top.argmax(axis=-1)
-        apart = np.abs(np.arange(curve.shape[-1]) - best[..., None]) > 1
-        rival = np.where(apart, reach, -np.inf).argmax(axis=-1)
+        crests = _crests(curve, inside)
+        heights = curve.copy()
+        heights[..., 1:-1][crests.at] = crests.lifted
+        best = heights.argmax(axis=-1)
+        heights[..., 1:-1][crests.at] = crests.reach
+        # The rival is none of the neighbours.
+        rows, flat = np.arange(best.size), heights.reshape(best.size, -1)
+        for step in (-1, 0, 1):
+            flat[rows, np.clip(best.ravel() + step, 0, curve.shape[-1] - 1)] = -np.inf
+        rival = heights.argmax(axis=-1)
         found.append(best)
         # The best one may have been lifted too high.
         least = pick(curve, best)
-        rivals.append(np.where(pick(reach, rival) > least + LEVEL * np.abs(least), rival, best))
+        rivals.append(np.where(pick(heights, rival) > least + LEVEL * np.abs(least), rival, best))
     return np.stack(found, axis=-1), np.stack(rivals, axis=-1)
 
 
@@ -125,19 +132,34 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     inside
         Shape (…, T) or broadcast to it: which instants are not at the end of a smooth stretch.
     """
-    return _crests(curve, inside)[0]
+    crests, result = _crests(curve, inside), curve.copy()
+    result[..., 1:-1][crests.at] = crests.lifted
+    return result
 
 
-def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-    """`lifted`, and how high the smooth local maxima may really be."""
+class _Crests(NamedTuple):
+    """The c smooth local maxima of curves.
+
+    Attributes
+    ----------
+    at
+        Where they are in the curves without their first and last values.
+    lifted, reach
+        Shape (c,): the height of the parabola through each, and how high it may really be.
+    """
+
+    at: tuple[NDArray[np.intp], ...]
+    lifted: FloatArray
+    reach: FloatArray
+
+
+def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> _Crests:
     middle = curve[..., 1:-1]
     peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
     at = np.nonzero(peak)
     left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    result, reach = curve.copy(), curve.copy()
-    result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
-    reach[..., 1:-1][at] = centre + REACH * (2.0 * centre - left - right)
-    return result, reach
+    reach = centre + REACH * (2.0 * centre - left - right)
+    return _Crests(at, centre + parabola(left, centre, right)[1], reach)
 
 
 def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray], share: float) -> NDArray[np.bool_]:
