@@ -40,9 +40,10 @@ class SurfaceLine:
         self.cycle, self.coordinate, self.position = cycle, coordinate, position
         self.primitives = coordinate.profile.primitives(position, digits)
         # The stress shows the square root of the distance at which rounding leaves what arrives at r.
-        self.at = coordinate.of(position)[:, :, None]
-        next_to_r = coordinate.of(position + np.spacing(position))[:, :, None]
-        self.arrived = ARRIVED * cycle.load.largest_normal[:, None, None] + next_to_r - self.at
+        at, next_to_r = coordinate.of(position), coordinate.of(position + np.spacing(position))
+        near = ARRIVED * cycle.load.largest_normal[:, None] + next_to_r - at
+        #: Shape (n, X, 1): what is in between has arrived at r.
+        self.least, self.largest = (coordinate.radius(v)[:, :, None] for v in (at - near, at + near))
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         #: Shape (3, n, X, i·d): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
@@ -91,7 +92,7 @@ class SurfaceLine:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
         profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
-        edge, r = self._spread_radius(nodes, states.edge, edge_radius), self.position[:, :, None]
+        edge, r = self._spread_radius(nodes, edge_radius), self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
@@ -99,10 +100,10 @@ class SurfaceLine:
         inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
 
-    def _spread_radius(self, nodes: Nodes, coordinate: FloatArray, radius: FloatArray) -> FloatArray:
+    def _spread_radius(self, nodes: Nodes, radius: FloatArray) -> FloatArray:
         """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
         spread = nodes.spread(radius)
-        arrives = np.abs(nodes.spread(coordinate) - self.at) <= self.arrived
+        arrives = (spread >= self.least) & (spread <= self.largest)
         np.copyto(spread, self.position[:, :, None], where=arrives)
         return spread
 
@@ -111,7 +112,7 @@ class SurfaceLine:
         memory, (n, columns) = self.cycle.memory, self.position.shape
         place = nodes.interval * memory.start.shape[-1] + states.piece
         slope = gather(memory.slope.reshape(n, -1), place)
-        front = self._spread_radius(nodes, states.front, self.coordinate.radius(states.front))
+        front = self._spread_radius(nodes, self.coordinate.radius(states.front))
         at_place, sign = nodes.spread(place), nodes.spread(states.sign)
         bend = sign - nodes.spread(_line_slope(slope))
         rows, places = np.arange(n)[:, None, None], self.base.shape[-1]
