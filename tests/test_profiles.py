@@ -10,7 +10,7 @@ from scipy.special import struve, y0
 
 from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile, wavy_paraboloid
 from swtstudy.mechanics.indenter.struve import safe_struve, struve_functions
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES
 
 Array = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ def reached(indenter: oracle.Indenter, share: Array) -> Array:
 
 
 def test_every_profile_of_the_table_of_parameters_exists() -> None:
-    assert set(PROFILES) == set(PROFILE_SHAPES)
+    assert [*PROFILES] == [*FAMILIES]
 
 
 @every_indenter

@@ -1,7 +1,7 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES, PARAMETERS
 
 
 def parameters() -> str:
@@ -11,7 +11,7 @@ def parameters() -> str:
         for p in PARAMETERS.values()
     )
     profiles = (
-        (f"`{name}`", ", ".join(f"`{s}`" for s in shape) or "–") for name, shape in PROFILE_SHAPES.items()
+        (f"`{family.name}`", ", ".join(f"`{s}`" for s in family.shape) or "–") for family in FAMILIES.values()
     )
     return (
         table(("name", "symbol", "meaning", "allowed", "default"), rows)

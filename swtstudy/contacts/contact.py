@@ -23,7 +23,7 @@ from swtstudy.contacts.bodies import (
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -154,13 +154,13 @@ class PhysicalContact:
         if "poisson_ratio" in parameters:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         profile = parameters.get("profile", self.profile)
-        kept = PROFILE_SHAPES.get(profile, ()) if isinstance(profile, str) else ()
+        kept = family_of(profile).shape if is_profile(profile) else ()
         own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
         grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
         values = grid.fixed
-        friction, names = float(values["friction"]), PROFILE_SHAPES[str(values["profile"])]
+        friction, names = float(values["friction"]), family_of(str(values["profile"])).shape
         h = float(values["waviness_amplitude"]) * self.depth if "waviness_amplitude" in names else 0.0
         units = _shape_units(self.depth, self.radius, h)
         slip = friction * self.moduli.normal * self.depth / self.moduli.tangential

@@ -9,7 +9,7 @@ from typing import Any
 
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
-from swtstudy.parameters import PROFILE_SHAPES, SYMBOLS, profiles_with, spelled
+from swtstudy.parameters import SYMBOLS, families_with, family_of, spelled
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.sizes import wrong_size
 
@@ -86,12 +86,12 @@ def wrong_load(depth: object, normal_force: object) -> list[Mistake]:
 def wrong_lengths(lengths: Mapping[str, object], profile: str | None) -> list[Mistake]:
     """Lengths that are none, or that the profile does not have; it is None if it is a mistake itself."""
     mistakes: list[Mistake] = []
-    needed = PROFILE_SHAPES[profile] if profile else ()
+    needed = family_of(profile).shape if profile else ()
     for name, value in lengths.items():
         if name in SHAPE_COLUMNS and name not in needed:
             if value is not None and profile:
                 found = f"{literal(value)}, which the profile does not have ({profile})"
-                allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+                allowed = f"only with the profile {' or '.join(families_with(name))}"
                 mistakes.append(Mistake(name, found, allowed))
             continue
         zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")

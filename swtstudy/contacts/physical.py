@@ -25,7 +25,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 
@@ -102,7 +102,7 @@ def physical(
         "wavelength": wavelength,
     }
     young, poisson = pair(young_modulus), pair(poisson_ratio)
-    known = isinstance(profile, str) and profile in PROFILE_SHAPES
+    known = is_profile(profile)
     pure = {"friction": friction, "frequency_ratio": frequency_ratio, "phase": phase}
     grid, mistakes = read_grid(pure if known else {**pure, "profile": profile}, {})
     mistakes += wrong_bodies(young, poisson, similar)
@@ -140,7 +140,7 @@ def _contact(
         Fraction(grid.fixed["frequency_ratio"]),
         float(grid.fixed["phase"]),
         profile,
-        {name: plain_number(lengths[name]) for name in PROFILE_SHAPES[profile]},
+        {name: plain_number(lengths[name]) for name in family_of(profile).shape},
     )
 
 
