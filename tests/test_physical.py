@@ -1,7 +1,9 @@
 """Real contacts against Hertz, Cattaneo and Mindlin, and the strain–life relation itself."""
 
+import inspect
 import math
 import runpy
+from dataclasses import fields, replace
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -13,6 +15,9 @@ from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
+from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.contacts.scales import SCALES
+from swtstudy.parameters import PARAMETERS
 from swtstudy.units.moduli import Moduli
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
@@ -175,6 +180,43 @@ def test_there_and_back(parameters):
     assert again.depth == pytest.approx(0.02)
     for name, value in again.parameters().items():
         assert value == (value if isinstance(value, str) else pytest.approx(back[name]))
+
+
+def test_every_parameter_is_known_of_a_contact():
+    """The fields of a contact are rows of the table; what has a scale is measured in one that there is."""
+    own = {row.name: row for row in PARAMETERS.values() if row.name != "poisson_ratio"}
+    shapes = {name for name, row in own.items() if row.part == "shape" and row.kind == "number"}
+    about = {"moduli", "radius", "depth", "shape"}
+    assert {one.name for one in fields(PhysicalContact)} - about == {*own} - shapes
+    assert {row.scale for row in own.values()} - {""} == {*SCALES}
+    assert {scale.made_of for scale in SCALES.values()} - {""} <= shapes
+    names = set(inspect.signature(physical).parameters) - about
+    assert names == {"young_modulus", "poisson_ratio", "normal_force", "similar", "parameters"}
+
+
+@pytest.mark.parametrize("name", SCALES)
+def test_scales_grow_with_a_power_of_the_depth(name):
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **waves)
+    deeper, scale = replace(contact, depth=0.08), SCALES[name]
+    assert scale.of(deeper) / scale.of(contact) == pytest.approx(4**scale.power)
+    assert scale.made_of in ("", *contact.shape)
+
+
+def test_lengths_over_their_scales():
+    """In mm: a_H = √(50 · 0.02) = 1, √(hR) = 0.1, and μ E* δ0/G* of two equal bodies."""
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    found = physical(
+        **ALUMINIUM, depth=0.02, tangential_amplitude=0.001, normal_amplitude=0.005, **waves
+    ).parameters()
+    assert found["normal_amplitude"] == pytest.approx(0.25)
+    assert found["tangential_amplitude"] == pytest.approx(0.001 / (0.5 * 0.02) * 2 * 0.67 / 1.67)
+    assert found["waviness_amplitude"] == pytest.approx(0.01)
+    assert found["wavelength"] == pytest.approx(7.0)
+    face = {"profile": "rounded_punch", "flat_radius": 0.3}
+    found = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **face).parameters()
+    assert found["flat_radius"] == pytest.approx(0.3)
+    assert list(found) == [name for name in PARAMETERS if name in found]
 
 
 def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
