@@ -7,7 +7,7 @@ profile whose shape is plain, the phase of a load that stands still).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,8 +24,11 @@ def _numbers(part: str) -> tuple[str, ...]:
     return tuple(name for name, row in PARAMETERS.items() if row.part == part and row.kind == "number")
 
 
-#: Columns that make the load, ω2/ω1 = p/q.
-LOAD_COLUMNS = ("p", "q", *_numbers("load"))
+#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
+RATIO_COLUMNS = ("p", "q")
+LOAD_COLUMNS = (*RATIO_COLUMNS, *_numbers("load"))
+#: Columns that points have in common which are solved in one call.
+SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
@@ -38,6 +41,11 @@ _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
 DIGITS = 12
+
+
+def select(table: FloatArray, names: Sequence[str]) -> FloatArray:
+    """The columns of these names, shape (n, len(names))."""
+    return table[:, [_COLUMN[name] for name in names]]
 
 
 def canonical_number(value: float) -> float:
