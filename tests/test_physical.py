@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from oracles.profiles import INDENTERS
 from scipy.integrate import trapezoid
 
 import swtstudy
@@ -157,9 +158,8 @@ def test_a_body_that_is_not_known_is_asked_for(call, words):
     [
         {},
         {"frequency_ratio": Fraction(3, 2), "phase": 1.0, "friction": 0.7, "tangential_amplitude": 0.4},
-        {"profile": "rounded_punch", "flat_radius": 0.5},
         {"profile": "truncated_paraboloid", "flat_radius": 1.5, "normal_amplitude": 0},
-        {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5},
+        *({"profile": one.profile, "normal_amplitude": 0.5, **one.shape} for one in INDENTERS),
     ],
 )
 def test_there_and_back(parameters):
