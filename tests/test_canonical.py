@@ -83,7 +83,7 @@ def test_a_profile_keeps_its_number():
 
 def test_columns_are_selected_by_name():
     table = np.arange(2.0 * len(COLUMNS)).reshape(2, -1)
-    names = ("friction", "profile", "q")
+    names = ("q", "friction", "profile")
     expected = np.stack([table[:, COLUMNS.index(name)] for name in names], axis=1)
     np.testing.assert_array_equal(select(table, names), expected)
 
@@ -127,7 +127,9 @@ def test_a_plain_shape_is_the_paraboloid(indenter):
 def test_what_does_not_matter_makes_no_new_point():
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
     assert count(profile=profiles, flat_radius=[0, 0.5]) == 3  # b = 0 is the paraboloid
-    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2]) == 1
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0}
+    assert count(wavy, wavelength=[5, 6]) == 1
+    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2, "1/2"]) == 1
 
 
 def test_groups_are_the_distinct_rows():

@@ -249,8 +249,14 @@ def test_pressures_of_other_profiles():
         p, r = -field.sigma_zz.values * rounded.stress_scale, field.x.values * rounded.length_scale
         assert trapezoid(2 * np.pi * r * p, r) == pytest.approx(rounded.normal_force, rel=3e-3)
         assert p.max() == pytest.approx(rounded.peak_pressure, rel=2e-3)
-    blunt = made.with_parameters(profile="rounded_punch", flat_radius=0)
-    assert blunt.peak_pressure == pytest.approx(made.peak_pressure, rel=1e-6)
+    for profile in ("rounded_punch", "truncated_paraboloid"):
+        blunt = made.with_parameters(profile=profile, flat_radius=0)
+        assert blunt.peak_pressure == pytest.approx(made.peak_pressure, rel=1e-6)
+
+
+def test_a_contact_without_friction_does_not_move():
+    contact = physical(**{**ALUMINIUM, "friction": 0}, depth=0.02, tangential_amplitude=0)
+    assert contact.parameters()["tangential_amplitude"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -308,6 +314,13 @@ def test_mistakes_are_named(changes, words):
             [
                 "youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod",
                 "radius: found nothing; allowed: a positive length",
+            ],
+        ),
+        (
+            {"profile": "wavy_paraboloid", "waviness_amplitude": 0, "wavelength": 0},
+            [
+                f"{name}: found 0; allowed: a positive length (this profile needs it)"
+                for name in ("waviness_amplitude", "wavelength")
             ],
         ),
         ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),
