@@ -23,7 +23,7 @@ from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
 from swtstudy.mechanics.points import Points
-from swtstudy.parameters import FAMILIES, PARAMETERS
+from swtstudy.parameters import FAMILIES, PARAMETERS, Family
 from swtstudy.runner.cutting import chunks
 
 
@@ -122,6 +122,16 @@ def test_a_plain_shape_is_the_paraboloid(indenter):
     # Whatever else the shape has.
     axes = {other: [length, 1.1 * length] for other, length in indenter.shape.items() if other != name}
     assert count({"profile": indenter.profile, name: value}, **axes) == 1
+
+
+def test_a_plain_value_may_be_any(monkeypatch):
+    """As the exponent 2 of a power law would be."""
+    family = Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.5))
+    monkeypatch.setitem(FAMILIES, "rounded_punch", family)
+    profiles = ["paraboloid", "rounded_punch"]
+    table = unique_points(grid_of(profile=profiles, flat_radius=[0, 0.5, 1])).table
+    found = select(table, ("profile", "flat_radius")).tolist()
+    assert found == [[code_of("paraboloid"), 0], *([code_of("rounded_punch"), b] for b in (0, 1))]
 
 
 def test_what_does_not_matter_makes_no_new_point():

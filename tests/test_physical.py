@@ -219,6 +219,20 @@ def test_lengths_over_their_scales():
     assert list(found) == [name for name in PARAMETERS if name in found]
 
 
+def test_a_shape_that_is_no_length_is_the_number_itself(monkeypatch):
+    """As the exponent of a power law would be."""
+    monkeypatch.setitem(PARAMETERS, "flat_radius", replace(PARAMETERS["flat_radius"], scale=""))
+    pure = {**ALUMINIUM, "tangential_amplitude": 0.001, "profile": "rounded_punch"}
+    for load in ({"depth": 0.04}, {"normal_force": 20.0}):
+        contact = physical(**pure, **load, flat_radius=0.5)
+        assert contact.parameters()["flat_radius"] == contact.shape["flat_radius"] == 0.5
+        assert contact.with_parameters(flat_radius=1.5).shape == {"flat_radius": 1.5}
+    with pytest.raises(ValueError, match="flat_radius: found nothing; allowed: a number ≥ 0"):
+        physical(**pure, depth=0.04)
+    with pytest.raises(ValueError, match=r"flat_radius: found 0\.5, which the profile does not have"):
+        physical(**{**pure, "profile": "paraboloid"}, depth=0.04, flat_radius=0.5)
+
+
 def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
     wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
     contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **wavy)
