@@ -1,13 +1,14 @@
-"""The one table of the study's non-dimensional parameters (eq. 20, Table 1 of the paper).
+"""The tables of the study's non-dimensional parameters (eq. 20, Table 1 of the paper) and of indenters.
 
 Validation, coordinate attributes, axis labels, the command line's help and the documentation all read
-it; none of them repeats a name, a symbol, a default or a range.
+them; none of them repeats a name, a symbol, a default or a range.
 """
 
 from __future__ import annotations
 
 import unicodedata
 from dataclasses import dataclass
+from typing import TypeGuard
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,8 @@ class Parameter:
         What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
     units
         CF units: "1", or "rad" for the phase.
+    scale
+        What it is measured in where it is a length, a key of `swtstudy.contacts.scales.SCALES`; else empty.
     """
 
     name: str
@@ -49,12 +52,13 @@ class Parameter:
     kind: str = "number"
     part: str = "load"
     units: str = "1"
+    scale: str = ""
 
     @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
         if self.kind == "profile":
-            return "one of " + ", ".join(PROFILE_SHAPES)
+            return "one of " + ", ".join(FAMILIES)
         interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"
         if self.kind == "ratio":
             return f"a positive rational p/q with p, q ≤ {self.upper:g}"
@@ -79,6 +83,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.75,
             0.0,
             10.0,
+            scale="δ0",
         ),
         Parameter(
             "frequency_ratio",
@@ -99,12 +104,23 @@ PARAMETERS: dict[str, Parameter] = {
             5 / 6,
             0.0,
             100.0,
+            scale="μ E* δ0/G*",
         ),
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
         Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
-        Parameter("flat_radius", r"b/a_H", "b", "radius of the punch face", None, 0.0, 20.0, part="shape"),
+        Parameter(
+            "flat_radius",
+            r"b/a_H",
+            "b",
+            "radius of the punch face",
+            None,
+            0.0,
+            20.0,
+            part="shape",
+            scale="a_H",
+        ),
         Parameter(
             "waviness_amplitude",
             r"h/\delta_0",
@@ -114,6 +130,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             10.0,
             part="shape",
+            scale="δ0",
         ),
         Parameter(
             "wavelength",
@@ -125,6 +142,7 @@ PARAMETERS: dict[str, Parameter] = {
             1000.0,
             open_lower=True,
             part="shape",
+            scale="√(hR)",
         ),
     )
 }
@@ -132,13 +150,54 @@ PARAMETERS: dict[str, Parameter] = {
 #: Names by letter.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in PARAMETERS.items()}
 
-#: Every profile with the shape parameters κ_i that it has (eqs. 3–6).
-PROFILE_SHAPES: dict[str, tuple[str, ...]] = {
-    "paraboloid": (),
-    "rounded_punch": ("flat_radius",),
-    "truncated_paraboloid": ("flat_radius",),
-    "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
+
+@dataclass(frozen=True)
+class Family:
+    """One family of indenters (eqs. 3–6); its class is in `swtstudy.mechanics.indenter.PROFILES`.
+
+    Attributes
+    ----------
+    name
+        Value of the parameter ``profile``.
+    shape
+        The shape parameters κ_i that it has.
+    plain
+        The shape parameter and its value that make it the `PLAIN` family, whatever the others are; None for
+        none.
+    """
+
+    name: str
+    shape: tuple[str, ...] = ()
+    plain: tuple[str, float] | None = None
+
+
+FAMILIES: dict[str, Family] = {
+    family.name: family
+    for family in (
+        Family("paraboloid"),
+        Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.0)),
+        Family("truncated_paraboloid", ("flat_radius",), plain=("flat_radius", 0.0)),
+        Family("wavy_paraboloid", ("waviness_amplitude", "wavelength"), plain=("waviness_amplitude", 0.0)),
+    )
 }
+
+#: The family that others are at their plain shape.
+PLAIN = "paraboloid"
+
+
+def is_profile(raw: object) -> TypeGuard[str]:
+    """Whether something is the name of a profile."""
+    return isinstance(raw, str) and raw in FAMILIES
+
+
+def family_of(profile: str) -> Family:
+    """The family of the profile of a name."""
+    return FAMILIES[profile]
+
+
+def families_with(name: str) -> list[str]:
+    """Names of the families that have a shape parameter."""
+    return [family.name for family in FAMILIES.values() if name in family.shape]
 
 
 def spelled(symbol: str) -> str:
@@ -163,8 +222,3 @@ SYMBOLS: dict[str, tuple[str, str]] = {
     for parameter in PARAMETERS.values()
     for symbol in (parameter.letter, parameter.symbol, parameter.symbol.split("/")[0])
 }
-
-
-def profiles_with(name: str) -> list[str]:
-    """The profiles that have a shape parameter."""
-    return [profile for profile, names in PROFILE_SHAPES.items() if name in names]

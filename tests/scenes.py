@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from collections.abc import Callable
 from math import gcd
 
 import numpy as np
@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.indenter import check_shape
+from swtstudy.parameters import FAMILIES, family_of
 
-PROFILE_NAMES = ("paraboloid", "rounded_punch", "truncated_paraboloid", "wavy_paraboloid")
+PROFILE_NAMES = tuple(FAMILIES)
 
 
 def points(
@@ -34,10 +35,7 @@ def points(
 
 def take(batch: Points, index: ArrayLike) -> Points:
     """The points at ``index``."""
-    at = np.atleast_1d(index)
-    names = [field.name for field in fields(batch) if field.name not in ("profile", "shape")]
-    shape = {name: values[at] for name, values in batch.shape.items()}
-    return replace(batch, **{name: getattr(batch, name)[at] for name in names}, shape=shape)
+    return batch.take(np.atleast_1d(index))
 
 
 def random_points(seed: int, count: int, profile: str = "paraboloid", largest_term: int = 5) -> Points:
@@ -59,18 +57,19 @@ def random_points(seed: int, count: int, profile: str = "paraboloid", largest_te
     )
 
 
+#: How the tests draw a shape parameter, among those of compact contacts.
+DRAWN: dict[str, Callable[[np.random.Generator, int], NDArray[np.float64]]] = {
+    "flat_radius": lambda rng, count: rng.uniform(0.05, 2.0, count),
+    "waviness_amplitude": lambda rng, count: 10.0 ** rng.uniform(-3.5, -1.0, count),
+    "wavelength": lambda rng, count: rng.uniform(3.6, 10.0, count),
+}
+
+
 def random_shape(
     rng: np.random.Generator, count: int, profile: str, normal_amplitude: NDArray[np.float64]
 ) -> dict[str, ArrayLike]:
     """Shape parameters of a compact contact."""
-    if profile == "paraboloid":
-        return {}
-    if profile != "wavy_paraboloid":
-        return {"flat_radius": rng.uniform(0.05, 2.0, count)}
-    shape = {
-        "waviness_amplitude": 10.0 ** rng.uniform(-3.5, -1.0, count),
-        "wavelength": rng.uniform(3.6, 10.0, count),
-    }
-    for h, wavelength, d in zip(*shape.values(), normal_amplitude, strict=True):
-        assert check_shape(profile, {"waviness_amplitude": h, "wavelength": wavelength}, d) is None
+    shape = {name: DRAWN[name](rng, count) for name in family_of(profile).shape}
+    for k, d in enumerate(normal_amplitude):
+        assert check_shape(profile, {name: values[k] for name, values in shape.items()}, d) is None
     return dict(shape)

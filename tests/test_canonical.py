@@ -1,14 +1,29 @@
+from dataclasses import fields
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from oracles.profiles import INDENTERS
 
 from swtstudy.grid.blocks import block_ends
-from swtstudy.grid.canonical import COLUMNS, LOAD_COLUMNS, describe_point, group_rows
+from swtstudy.grid.canonical import (
+    COLUMNS,
+    LOAD_COLUMNS,
+    NUMBERS,
+    RATIO_COLUMNS,
+    SHARED_COLUMNS,
+    describe_point,
+    group_rows,
+    points_from,
+    select,
+)
+from swtstudy.grid.codes import NAMES, code_of, name_of
 from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
-from swtstudy.parameters import PARAMETERS
+from swtstudy.mechanics.points import Points
+from swtstudy.parameters import FAMILIES, PARAMETERS, Family
 from swtstudy.runner.cutting import chunks
 
 
@@ -43,6 +58,36 @@ def test_the_columns_are_the_rows_of_the_table_of_parameters():
     )
 
 
+def test_a_point_of_the_solver_has_every_column_under_its_name():
+    assert {one.name for one in fields(Points)} == {"profile", "shape", *RATIO_COLUMNS, *NUMBERS}
+    for family in FAMILIES.values():
+        row = np.arange(2.0, 2.0 + len(COLUMNS))
+        row[COLUMNS.index("profile")] = code_of(family.name)
+        points = points_from(row[None])
+        assert points.profile == family.name
+        assert (*points.shape,) == family.shape
+        for name in (*RATIO_COLUMNS, *NUMBERS, *family.shape):
+            values = points.shape[name] if name in points.shape else getattr(points, name)
+            assert values == [COLUMNS.index(name) + 2]
+        words = dict(part.split("=") for part in describe_point(row).split(", "))
+        assert {*words} == {"profile", "frequency_ratio", *NUMBERS, *family.shape}
+
+
+def test_a_profile_keeps_its_number():
+    """Parts of archives that were written before count on these."""
+    first = ("paraboloid", "rounded_punch", "truncated_paraboloid", "wavy_paraboloid")
+    assert first == NAMES[:4]
+    assert [code_of(name) for name in first] == [0.0, 1.0, 2.0, 3.0]
+    assert {name_of(code_of(name)) for name in FAMILIES} == {*FAMILIES} == {*NAMES}
+
+
+def test_columns_are_selected_by_name():
+    table = np.arange(2.0 * len(COLUMNS)).reshape(2, -1)
+    names = ("q", "friction", "profile")
+    expected = np.stack([table[:, COLUMNS.index(name)] for name in names], axis=1)
+    np.testing.assert_array_equal(select(table, names), expected)
+
+
 PHASES = [i * np.pi / 72 for i in range(145)]  # 2.5° steps over 0…2π
 
 
@@ -66,12 +111,35 @@ def test_the_phase_folds_whatever_its_rounding_error(p, q, numerator, turns, den
     assert 0 <= first[0, COLUMNS.index("phase")] < period
 
 
+@pytest.mark.parametrize("indenter", [one for one in INDENTERS if FAMILIES[one.profile].plain], ids=str)
+def test_a_plain_shape_is_the_paraboloid(indenter):
+    name, value = FAMILIES[indenter.profile].plain
+    plain, _ = grid_of({"profile": indenter.profile, **indenter.shape, name: value}).canonical()
+    assert (plain == grid_of().canonical()[0]).all()
+    near = PARAMETERS[name].lower + 1e-9 if value == PARAMETERS[name].lower else value * (1 + 1e-9)
+    other, _ = grid_of({"profile": indenter.profile, **indenter.shape, name: near}).canonical()
+    assert other[0, COLUMNS.index(name)] == near
+    # Whatever else the shape has.
+    axes = {other: [length, 1.1 * length] for other, length in indenter.shape.items() if other != name}
+    assert count({"profile": indenter.profile, name: value}, **axes) == 1
+
+
+def test_a_plain_value_may_be_any(monkeypatch):
+    """As the exponent 2 of a power law would be."""
+    family = Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.5))
+    monkeypatch.setitem(FAMILIES, "rounded_punch", family)
+    profiles = ["paraboloid", "rounded_punch"]
+    table = unique_points(grid_of(profile=profiles, flat_radius=[0, 0.5, 1])).table
+    found = select(table, ("profile", "flat_radius")).tolist()
+    assert found == [[code_of("paraboloid"), 0], *([code_of("rounded_punch"), b] for b in (0, 1))]
+
+
 def test_what_does_not_matter_makes_no_new_point():
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
     assert count(profile=profiles, flat_radius=[0, 0.5]) == 3  # b = 0 is the paraboloid
     wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0}
     assert count(wavy, wavelength=[5, 6]) == 1
-    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2]) == 1
+    assert count({"normal_amplitude": 0}, phase=[0, 1], frequency_ratio=[1, 2, "1/2"]) == 1
 
 
 def test_groups_are_the_distinct_rows():
@@ -116,7 +184,7 @@ def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monke
     axes = {"phase": phases, "friction": [i / 25 for i in range(1, 26)], "frequency_ratio": [1, "1/4"]}
     table = unique_points(grid_of(**axes)).table
     blocks = np.split(table, block_ends(table)[:-1])
-    assert all(len(np.unique(block[:, :3], axis=0)) == 1 for block in blocks)
+    assert all(len(np.unique(select(block, SHARED_COLUMNS), axis=0)) == 1 for block in blocks)
     # Two and three loads with a ratio of 1; with 1/4 one, and cuts where that would be too small a block.
     assert [len(block) for block in blocks] == [50, 75, 25, 25, 43, 32]
     assert sum(map(len, blocks)) == len(table)

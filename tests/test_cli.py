@@ -449,13 +449,13 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 
-@pytest.mark.parametrize("profile", swtstudy.parameters.PROFILE_SHAPES)
+@pytest.mark.parametrize("profile", swtstudy.parameters.FAMILIES)
 def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
     monkeypatch.chdir(tmp_path)
     call("new", "full")
     text = Path("full.toml").read_text().replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
     names = {name for name, row in swtstudy.parameters.PARAMETERS.items() if row.default is not None}
-    names |= {*swtstudy.parameters.PROFILE_SHAPES[profile]}
+    names |= {*swtstudy.parameters.FAMILIES[profile].shape}
     for name in swtstudy.parameters.PARAMETERS:
         value = swtstudy.parameters.PARAMETERS[name].default or {"wavelength": 7}.get(name, 0.01)
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]

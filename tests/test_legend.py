@@ -12,7 +12,7 @@ from matplotlib.transforms import Bbox
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.scale import hue_scale
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES
 from swtstudy.wording import place_words
 
 PHASE = np.linspace(0, 2, 5)
@@ -57,9 +57,9 @@ def test_any_number_of_entries_fits(below):
 
 
 def test_names_have_a_legend():
-    dataset = made_up(lambda profile, phase: phase + 0.0, profile=[*PROFILE_SHAPES], phase=PHASE)
+    dataset = made_up(lambda profile, phase: phase + 0.0, profile=[*FAMILIES], phase=PHASE)
     figure = dataset.swt.panels("phase", "profile")
-    assert_whole(figure, [name.replace("_", " ") for name in PROFILE_SHAPES])
+    assert_whole(figure, [name.replace("_", " ") for name in FAMILIES])
 
 
 def test_names_have_no_scale_however_many():

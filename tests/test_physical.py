@@ -1,7 +1,9 @@
 """Real contacts against Hertz, Cattaneo and Mindlin, and the strain–life relation itself."""
 
+import inspect
 import math
 import runpy
+from dataclasses import fields, replace
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -9,10 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from oracles.profiles import INDENTERS
 from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
+from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.contacts.scales import SCALES
+from swtstudy.parameters import PARAMETERS
 from swtstudy.units.moduli import Moduli
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
@@ -152,9 +158,8 @@ def test_a_body_that_is_not_known_is_asked_for(call, words):
     [
         {},
         {"frequency_ratio": Fraction(3, 2), "phase": 1.0, "friction": 0.7, "tangential_amplitude": 0.4},
-        {"profile": "rounded_punch", "flat_radius": 0.5},
         {"profile": "truncated_paraboloid", "flat_radius": 1.5, "normal_amplitude": 0},
-        {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5},
+        *({"profile": one.profile, "normal_amplitude": 0.5, **one.shape} for one in INDENTERS),
     ],
 )
 def test_there_and_back(parameters):
@@ -175,6 +180,57 @@ def test_there_and_back(parameters):
     assert again.depth == pytest.approx(0.02)
     for name, value in again.parameters().items():
         assert value == (value if isinstance(value, str) else pytest.approx(back[name]))
+
+
+def test_every_parameter_is_known_of_a_contact():
+    """The fields of a contact are rows of the table; what has a scale is measured in one that there is."""
+    own = {row.name: row for row in PARAMETERS.values() if row.name != "poisson_ratio"}
+    shapes = {name for name, row in own.items() if row.part == "shape" and row.kind == "number"}
+    about = {"moduli", "radius", "depth", "shape"}
+    assert {one.name for one in fields(PhysicalContact)} - about == {*own} - shapes
+    assert {row.scale for row in own.values()} - {""} == {*SCALES}
+    assert {scale.made_of for scale in SCALES.values()} - {""} <= shapes
+    names = set(inspect.signature(physical).parameters) - about
+    assert names == {"young_modulus", "poisson_ratio", "normal_force", "similar", "parameters"}
+
+
+@pytest.mark.parametrize("name", SCALES)
+def test_scales_grow_with_a_power_of_the_depth(name):
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **waves)
+    deeper, scale = replace(contact, depth=0.08), SCALES[name]
+    assert scale.of(deeper) / scale.of(contact) == pytest.approx(4**scale.power)
+    assert scale.made_of in ("", *contact.shape)
+
+
+def test_lengths_over_their_scales():
+    """In mm: a_H = √(50 · 0.02) = 1, √(hR) = 0.1, and μ E* δ0/G* of two equal bodies."""
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
+    found = physical(
+        **ALUMINIUM, depth=0.02, tangential_amplitude=0.001, normal_amplitude=0.005, **waves
+    ).parameters()
+    assert found["normal_amplitude"] == pytest.approx(0.25)
+    assert found["tangential_amplitude"] == pytest.approx(0.001 / (0.5 * 0.02) * 2 * 0.67 / 1.67)
+    assert found["waviness_amplitude"] == pytest.approx(0.01)
+    assert found["wavelength"] == pytest.approx(7.0)
+    face = {"profile": "rounded_punch", "flat_radius": 0.3}
+    found = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **face).parameters()
+    assert found["flat_radius"] == pytest.approx(0.3)
+    assert list(found) == [name for name in PARAMETERS if name in found]
+
+
+def test_a_shape_that_is_no_length_is_the_number_itself(monkeypatch):
+    """As the exponent of a power law would be."""
+    monkeypatch.setitem(PARAMETERS, "flat_radius", replace(PARAMETERS["flat_radius"], scale=""))
+    pure = {**ALUMINIUM, "tangential_amplitude": 0.001, "profile": "rounded_punch"}
+    for load in ({"depth": 0.04}, {"normal_force": 20.0}):
+        contact = physical(**pure, **load, flat_radius=0.5)
+        assert contact.parameters()["flat_radius"] == contact.shape["flat_radius"] == 0.5
+        assert contact.with_parameters(flat_radius=1.5).shape == {"flat_radius": 1.5}
+    with pytest.raises(ValueError, match="flat_radius: found nothing; allowed: a number ≥ 0"):
+        physical(**pure, depth=0.04)
+    with pytest.raises(ValueError, match=r"flat_radius: found 0\.5, which the profile does not have"):
+        physical(**{**pure, "profile": "paraboloid"}, depth=0.04, flat_radius=0.5)
 
 
 def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
@@ -207,8 +263,14 @@ def test_pressures_of_other_profiles():
         p, r = -field.sigma_zz.values * rounded.stress_scale, field.x.values * rounded.length_scale
         assert trapezoid(2 * np.pi * r * p, r) == pytest.approx(rounded.normal_force, rel=3e-3)
         assert p.max() == pytest.approx(rounded.peak_pressure, rel=2e-3)
-    blunt = made.with_parameters(profile="rounded_punch", flat_radius=0)
-    assert blunt.peak_pressure == pytest.approx(made.peak_pressure, rel=1e-6)
+    for profile in ("rounded_punch", "truncated_paraboloid"):
+        blunt = made.with_parameters(profile=profile, flat_radius=0)
+        assert blunt.peak_pressure == pytest.approx(made.peak_pressure, rel=1e-6)
+
+
+def test_a_contact_without_friction_does_not_move():
+    contact = physical(**{**ALUMINIUM, "friction": 0}, depth=0.02, tangential_amplitude=0)
+    assert contact.parameters()["tangential_amplitude"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -266,6 +328,13 @@ def test_mistakes_are_named(changes, words):
             [
                 "youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod",
                 "radius: found nothing; allowed: a positive length",
+            ],
+        ),
+        (
+            {"profile": "wavy_paraboloid", "waviness_amplitude": 0, "wavelength": 0},
+            [
+                f"{name}: found 0; allowed: a positive length (this profile needs it)"
+                for name in ("waviness_amplitude", "wavelength")
             ],
         ),
         ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which the profile does not have (paraboloid)"]),

@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
+import inspect
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from oracles import profiles as oracle
+from scenes import DRAWN, points
 from scipy.special import struve, y0
 
-from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile, wavy_paraboloid
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.indenter import (
+    PROFILES,
+    Profile,
+    check_shape,
+    compact_shapes,
+    make_profile,
+    too_small,
+    wavy_paraboloid,
+)
 from swtstudy.mechanics.indenter.struve import safe_struve, struve_functions
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family
 
 Array = NDArray[np.float64]
 
 #: Largest depth reached: δ0 + δA with δA = δ0.
 DEEPEST = 2.0
-INDENTERS = {
-    "paraboloid": oracle.paraboloid(),
-    "rounded_small_face": oracle.rounded_punch(0.05),
-    "rounded": oracle.rounded_punch(0.5),
-    "rounded_large_face": oracle.rounded_punch(2.0),
-    "truncated_small_face": oracle.truncated_paraboloid(0.05),
-    "truncated": oracle.truncated_paraboloid(0.5),
-    "truncated_large_face": oracle.truncated_paraboloid(2.0),
-    "wavy": oracle.wavy_paraboloid(0.01, 5.0),
-    "wavy_steep": oracle.wavy_paraboloid(0.1, 3.6),
-    "wavy_fine": oracle.wavy_paraboloid(5e-4, 4.5),
-}
-every_indenter = pytest.mark.parametrize("indenter", INDENTERS.values(), ids=INDENTERS.keys())
+every_indenter = pytest.mark.parametrize("indenter", oracle.INDENTERS, ids=str)
+every_family = pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
+every_plain_shape = pytest.mark.parametrize(
+    "indenter", [one for one in oracle.INDENTERS if FAMILIES[one.profile].plain], ids=str
+)
 
 
 def batch(indenter: oracle.Indenter, count: int = 1, depth: float = DEEPEST) -> Profile:
@@ -43,8 +47,98 @@ def reached(indenter: oracle.Indenter, share: Array) -> Array:
     return b + (largest - b) * share
 
 
-def test_every_profile_of_the_table_of_parameters_exists() -> None:
-    assert set(PROFILES) == set(PROFILE_SHAPES)
+@every_family
+def test_a_family_is_a_row_a_class_and_an_oracle(family: Family) -> None:
+    """Nothing here may be left to itself: each family is looked at by all tests of this file."""
+    assert oracle.ORACLES.get(family.name), f"{family.name} has no oracle in tests/oracles/profiles.py"
+    assert family.name in PROFILES, f"{family.name} has no class in swtstudy/mechanics/indenter"
+    of_class = list(inspect.signature(PROFILES[family.name]).parameters)
+    assert of_class == ["largest_depth", *family.shape]
+    assert {*family.shape} <= {name for name, row in PARAMETERS.items() if row.part == "shape"}
+    for indenter in oracle.ORACLES[family.name]:
+        assert (indenter.profile, (*indenter.shape,)) == (family.name, family.shape)
+    if family.plain:
+        name, value = family.plain
+        assert name in family.shape
+        assert PARAMETERS[name].lower <= value <= PARAMETERS[name].upper
+
+
+def test_the_tables_of_families_are_of_the_same_families() -> None:
+    assert [*PROFILES] == [*FAMILIES] == [*oracle.ORACLES]
+    assert FAMILIES[PLAIN] == Family(PLAIN)
+    assert PARAMETERS["profile"].default == PLAIN
+    shapes = {name for family in FAMILIES.values() for name in family.shape}
+    assert shapes | {"profile"} == {name for name, row in PARAMETERS.items() if row.part == "shape"}
+
+
+@every_indenter
+def test_edges_of_faces(indenter: oracle.Indenter) -> None:
+    """The stress has no bound where m = g′ w does not vanish at the edge of a face."""
+    profile = batch(indenter)
+    assert profile.flat_radius == indenter.flat_radius
+    assert profile.has_singular_edge == (indenter.flat_radius > 0.0 and indenter.weighted_slope(0.0) > 0.0)
+    assert bool(profile.singular_approach.size) == profile.has_singular_edge
+
+
+@every_indenter
+def test_profiles_that_are_taken(indenter: oracle.Indenter) -> None:
+    """A part of a batch, in another order: each profile is what it was, of other depths and shapes."""
+    depths = np.array([2.0, 0.7, 1.3])
+    shape = {name: value * np.array([1.0, 1.1, 1.2]) for name, value in indenter.shape.items()}
+    whole, index = make_profile(indenter.profile, shape, depths), np.array([2, 0, 2])
+    part = whole.take(index)
+    assert type(part) is type(whole)
+    np.testing.assert_array_equal(part.largest_depth, depths[index])
+    radius = whole.radius(depths[:, None] * np.linspace(0.1, 1.0, 7))
+    for name in ("depth", "weighted_slope", "half_load"):
+        found, expected = (getattr(one, name)(r) for one, r in ((part, radius[index]), (whole, radius)))
+        np.testing.assert_allclose(found, expected[index], rtol=1e-13)
+    np.testing.assert_allclose(part.radius(depths[index, None]), radius[index, -1:], rtol=1e-12)
+
+
+@every_indenter
+def test_depth_and_weighted_slope_in_one(indenter: oracle.Indenter) -> None:
+    profile, xi = batch(indenter), reached(indenter, np.linspace(0.0, 1.0, 9))
+    both = profile.depth_and_weighted_slope(xi)
+    np.testing.assert_array_equal(both, (profile.depth(xi), profile.weighted_slope(xi)))
+
+
+@every_family
+def test_shapes_that_are_not_refused_are_compact(family: Family) -> None:
+    """g′ ≥ 0 in the contact; `compact` and `check` refuse the same ones, and the message names them."""
+    rng, depth = np.random.default_rng(0), 1.75
+    shape = {name: DRAWN[name](rng, 200) * 10.0 ** rng.uniform(-1.0, 0.3, 200) for name in family.shape}
+    compact = compact_shapes(family.name, shape, depth - 1.0)
+    for k in range(200 if family.shape else 0):
+        one = {name: float(values[k]) for name, values in shape.items()}
+        message = check_shape(family.name, one, depth - 1.0)
+        assert (message is None) == compact[k]
+        for name, value in one.items() if message else ():
+            assert f"{name} {value:g}" in message
+    kept = {name: values[compact] for name, values in shape.items()}
+    count = int(compact.sum()) if family.shape else 1
+    profile = make_profile(family.name, kept, np.full(count, depth))
+    b, largest = profile.flat_radius[:, None], profile.radius(np.full((count, 1), depth))
+    assert np.all(profile.weighted_slope(b + (largest - b) * np.linspace(1e-3, 1.0, 400)) >= -1e-9)
+
+
+@every_family
+def test_what_is_too_small_is_refused_just_below_its_limit(family: Family) -> None:
+    """For shapes at a hundredth of the usual ones, if one of their parameters has a limit at all."""
+    for indenter in oracle.ORACLES[family.name]:
+        for depth in (0.0, 1.75):
+            small = {name: value / 100.0 for name, value in indenter.shape.items()}
+            limit = too_small(family.name, small, depth)
+            if limit is None:
+                assert compact_shapes(family.name, {n: np.array([v]) for n, v in small.items()}, depth - 1.0)
+                continue
+            name, _ = limit
+            low, high = small[name], 100.0 * indenter.shape[name]
+            while high - low > 1e-9 * high:
+                middle = 0.5 * (low + high)
+                refused = too_small(family.name, {**small, name: middle}, depth) is not None
+                low, high = (middle, high) if refused else (low, middle)
+            assert too_small(family.name, {**small, name: low}, depth) == (name, pytest.approx(high))
 
 
 @every_indenter
@@ -108,7 +202,7 @@ def stress_positions(indenter: oracle.Indenter) -> Array:
     return np.unique(np.concatenate([around_face[around_face > 0.0], around_edges, inside]))
 
 
-@pytest.mark.parametrize("indenter", [pytest.param(v, id=k) for k, v in INDENTERS.items()])
+@every_indenter
 def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     position = stress_positions(indenter)
     radius = np.append(position, batch(indenter).radius(np.array([[0.6]]))[0])
@@ -129,10 +223,22 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
             assert outer[1, k, j] == pytest.approx(load, abs=(1e-5 if near_axis else 1e-9) * largest)
 
 
+@every_plain_shape
+def test_s_of_a_plain_shape_is_that_of_the_paraboloid(indenter: oracle.Indenter) -> None:
+    name, value = FAMILIES[indenter.profile].plain or ("", 0.0)
+    load = {"normal_amplitude": [0.75, 0.3], "phase": [1.0, 2.5], "friction": [0.3, 0.9]}
+    plain = solve_points(points(indenter.profile, **load, **{**indenter.shape, name: value}), 1e-5)
+    expected = solve_points(points(PLAIN, **load), 1e-5)
+    np.testing.assert_allclose(plain.s, expected.s, rtol=3e-5)
+    np.testing.assert_allclose(np.abs(plain.critical_x), np.abs(expected.critical_x), rtol=1e-3)
+
+
 LIMITS = [
-    ("rounded_punch", {"flat_radius": 0.0}, 1e-12),
-    ("truncated_paraboloid", {"flat_radius": 0.0}, 1e-12),
-    ("wavy_paraboloid", {"waviness_amplitude": 0.0, "wavelength": 5.0}, 1e-12),
+    *(
+        (one.profile, {**one.shape, plain[0]: plain[1]}, 1e-12)
+        for one in oracle.INDENTERS
+        if (plain := FAMILIES[one.profile].plain)
+    ),
     # g differs by (π/2) b ξ, by b²/2 and by (π/2) h kξ H₀ ~ √(h kξ) h.
     ("rounded_punch", {"flat_radius": 1e-7}, 1e-6),
     ("truncated_paraboloid", {"flat_radius": 1e-4}, 1e-6),
@@ -143,7 +249,7 @@ LIMITS = [
 @pytest.mark.parametrize(("name", "shape", "tolerance"), LIMITS)
 def test_the_paraboloid_is_the_limit(name: str, shape: dict[str, float], tolerance: float) -> None:
     deepest = np.array([DEEPEST])
-    limit = make_profile("paraboloid", {}, deepest)
+    limit = make_profile(PLAIN, {}, deepest)
     profile = make_profile(name, {key: np.array([value]) for key, value in shape.items()}, deepest)
     depth = np.linspace(0.01, DEEPEST, 50)[None]
     radius = limit.radius(depth)

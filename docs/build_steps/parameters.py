@@ -1,23 +1,28 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family
 
 
 def parameters() -> str:
     """Every parameter, and the profiles with the shape parameters that they need."""
     rows = (
-        (f"`{p.name}`", f"${p.symbol}$", p.meaning, p.allowed, _default(p.default))
+        (f"`{p.name}`", f"${p.symbol}$", p.meaning, p.allowed, _default(p.default), p.scale or "–")
         for p in PARAMETERS.values()
     )
     profiles = (
-        (f"`{name}`", ", ".join(f"`{s}`" for s in shape) or "–") for name, shape in PROFILE_SHAPES.items()
+        (f"`{family.name}`", ", ".join(f"`{s}`" for s in family.shape) or "–", _plain(family))
+        for family in FAMILIES.values()
     )
     return (
-        table(("name", "symbol", "meaning", "allowed", "default"), rows)
+        table(("name", "symbol", "meaning", "allowed", "default", "in a real contact a length over"), rows)
         + "\n"
-        + table(("profile", "needs"), profiles)
+        + table(("profile", "needs", f"is the {PLAIN} at"), profiles)
     )
+
+
+def _plain(family: Family) -> str:
+    return f"`{family.plain[0]}` = {family.plain[1]:g}" if family.plain else "–"
 
 
 def _default(value: float | str | None) -> str:

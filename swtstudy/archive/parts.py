@@ -23,7 +23,8 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy.files import replacing
-from swtstudy.grid.canonical import COLUMNS, PROFILES, group_rows
+from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.codes import NAMES
 from swtstudy.mechanics.points import Solution
 from swtstudy.records.records import Records, Run, join
 
@@ -37,7 +38,7 @@ _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 _GATHERED = 32
 
 #: What the numbers in a table mean; parts of another layout are of no use.
-_LAYOUT = {"columns": list(COLUMNS), "profiles": list(PROFILES)}
+_LAYOUT = {"columns": list(COLUMNS), "profiles": list(NAMES)}
 
 
 def parts_folder(path: Path) -> Path:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.audit.point import VERDICTS, Finding
-from swtstudy.grid.canonical import COLUMNS, PROFILES
+from swtstudy.grid.canonical import COLUMNS
+from swtstudy.grid.codes import code_of, name_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Datase
     import xarray as xr
 
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
-    names = np.array([PROFILES[int(code)] for code in rows[:, COLUMNS.index("profile")]], dtype=object)
+    names = np.array([name_of(code) for code in rows[:, COLUMNS.index("profile")]], dtype=object)
     coordinates["profile"] = ("sample", names)
     columns = {name: np.array([getattr(f, name) for f in findings], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
@@ -87,7 +88,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 
 def canonical_rows(dataset: xr.Dataset) -> FloatArray:
     """The audited canonical points, shape (n, len(COLUMNS))."""
-    codes = [PROFILES.index(name) for name in dataset["profile"].values]
+    codes = [code_of(name) for name in dataset["profile"].values]
     columns = [codes if name == "profile" else dataset[name].values for name in COLUMNS]
     return np.stack(columns, axis=-1).astype(float)
 

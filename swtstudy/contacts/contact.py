@@ -20,10 +20,11 @@ from swtstudy.contacts.bodies import (
     cycles_from,
     swt_from,
 )
+from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class PhysicalContact:
     normal_amplitude, tangential_amplitude
         δA and uA, lengths.
     shape
-        Lengths of the profile by name: flat_radius b; waviness_amplitude h, wavelength λ.
+        What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths.
     """
 
     moduli: Moduli
@@ -70,6 +71,11 @@ class PhysicalContact:
     def length_scale(self) -> float:
         """a_H = √(R δ0)."""
         return math.sqrt(self.radius * self.depth)
+
+    @property
+    def slip_scale(self) -> float:
+        """μ E* δ0/G*: the tangential displacement at which a contact of constant depth slides as a whole."""
+        return self.friction * self.moduli.normal * self.depth / self.moduli.tangential
 
     @property
     def stress_scale(self) -> float:
@@ -105,20 +111,22 @@ class PhysicalContact:
     @property
     def peak_pressure(self) -> float:
         """Largest pressure at the mean depth, p0 of a paraboloid; inf at the edge of a truncated one."""
-        if self.profile == "truncated_paraboloid" and self.shape["flat_radius"] > 0.0:
+        profile = self._profile()
+        if profile.has_singular_edge and profile.flat_radius[0] > 0.0:
             return math.inf
-        edge = self._profile().radius(np.ones((1, 1)))
+        edge = profile.radius(np.ones((1, 1)))
         r = edge * np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII))[None]
-        outer = self._profile().primitives(r, _DIGITS).outer(edge[:, :, None])[0]
+        outer = profile.primitives(r, _DIGITS).outer(edge[:, :, None])[0]
         return self.stress_scale * float(outer.max()) / math.pi
 
     def _profile(self) -> Profile:
-        shape = {name: np.array([value]) for name, value in self._shape_parameters().items()}
+        shape = {name: np.array([value]) for name, value in self.shape_parameters.items()}
         return make_profile(self.profile, shape, np.ones(1))
 
-    def _shape_parameters(self) -> dict[str, float]:
-        units = _shape_units(self.depth, self.radius, self.shape.get("waviness_amplitude", 0.0))
-        return {name: value / units[name] if value else 0.0 for name, value in self.shape.items()}
+    @property
+    def shape_parameters(self) -> dict[str, float]:
+        """The non-dimensional parameters of its profile."""
+        return {name: number_of(name, value, self) for name, value in self.shape.items()}
 
     def parameters(self, body: int = 0) -> dict[str, Any]:
         """The non-dimensional parameters, for `swtstudy.solve` and all others.
@@ -129,19 +137,8 @@ class PhysicalContact:
             0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
             and the stress beneath them on that of the body itself alone.
         """
-        body = checked_body(body)
-        slip = self.friction * self.moduli.normal * self.depth
-        tangential = self.moduli.tangential * self.tangential_amplitude
-        return {
-            "poisson_ratio": self.moduli.poisson[body],
-            "friction": self.friction,
-            "normal_amplitude": self.normal_amplitude / self.depth,
-            "frequency_ratio": self.frequency_ratio,
-            "tangential_amplitude": tangential / slip if slip else tangential and math.inf,
-            "phase": self.phase,
-            "profile": self.profile,
-            **self._shape_parameters(),
-        }
+        own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
+        return {name: number_of(name, own[name], self) for name in PARAMETERS if name in own}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
@@ -154,26 +151,21 @@ class PhysicalContact:
         if "poisson_ratio" in parameters:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         profile = parameters.get("profile", self.profile)
-        kept = PROFILE_SHAPES.get(profile, ()) if isinstance(profile, str) else ()
+        kept = family_of(profile).shape if is_profile(profile) else ()
         own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
         grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
-        values = grid.fixed
-        friction, names = float(values["friction"]), PROFILE_SHAPES[str(values["profile"])]
-        h = float(values["waviness_amplitude"]) * self.depth if "waviness_amplitude" in names else 0.0
-        units = _shape_units(self.depth, self.radius, h)
-        slip = friction * self.moduli.normal * self.depth / self.moduli.tangential
-        return replace(
-            self,
-            friction=friction,
-            normal_amplitude=float(values["normal_amplitude"]) * self.depth,
-            tangential_amplitude=float(values["tangential_amplitude"]) * slip,
-            frequency_ratio=Fraction(values["frequency_ratio"]),
-            phase=float(values["phase"]),
-            profile=str(values["profile"]),
-            shape={name: float(values[name]) * units[name] for name in names},
-        )
+        own = {name: value for name, value in grid.fixed.items() if name in vars(self)}
+        pure: dict[str, Any] = {name: value for name, value in own.items() if not PARAMETERS[name].scale}
+        contact = replace(self, **pure, shape={})
+        # In the order of the table: a length may be measured in the one before it.
+        for name, value in grid.fixed.items():
+            if name in own and name not in pure:
+                contact = replace(contact, **{name: length_of(name, value, contact)})
+            elif name in family_of(contact.profile).shape:
+                contact = replace(contact, shape={**contact.shape, name: length_of(name, value, contact)})
+        return contact
 
     def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
         """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
@@ -259,12 +251,3 @@ class PhysicalContact:
             A ValueError, as of `swt`, or if the constants are none.
         """
         return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
-
-
-def _shape_units(depth: float, radius: float, h: float) -> dict[str, float]:
-    """What the lengths of a profile are measured in."""
-    return {
-        "flat_radius": math.sqrt(radius * depth),
-        "waviness_amplitude": depth,
-        "wavelength": math.sqrt(h * radius),
-    }

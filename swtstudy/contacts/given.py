@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.contacts.scales import may_vanish
 from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
-from swtstudy.parameters import PROFILE_SHAPES, SYMBOLS, profiles_with, spelled
+from swtstudy.parameters import PARAMETERS, SYMBOLS, families_with, family_of, spelled
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.sizes import wrong_size
 
@@ -39,7 +39,7 @@ def with_unknown(
     unknown: Iterable[str], known: Iterable[str], lacking: Collection[str], mistakes: Iterable[Mistake]
 ) -> list[Mistake]:
     """The unknown keywords, and the other mistakes; what is lacking since it is misspelt counts once."""
-    known = [name for name in known if name != "unknown"]
+    known = list(known)
     found = [
         Mistake(name, f"unknown parameter {literal(name)}", nearest(name, known, _SYMBOLS))
         for name in unknown
@@ -83,19 +83,21 @@ def wrong_load(depth: object, normal_force: object) -> list[Mistake]:
     return wrong_size(name, value, "a positive number")
 
 
-def wrong_lengths(lengths: Mapping[str, object], profile: str | None) -> list[Mistake]:
-    """Lengths that are none, or that the profile does not have; it is None if it is a mistake itself."""
+def wrong_sizes(sizes: Mapping[str, object], profile: str | None) -> list[Mistake]:
+    """Lengths that are none, or shapes that the profile does not have; None stands for a wrong profile."""
     mistakes: list[Mistake] = []
-    needed = PROFILE_SHAPES[profile] if profile else ()
-    for name, value in lengths.items():
-        if name in SHAPE_COLUMNS and name not in needed:
+    needed = family_of(profile).shape if profile else ()
+    for name, value in sizes.items():
+        row = PARAMETERS.get(name)  # R is no parameter
+        if row is not None and row.part == "shape" and name not in needed:
             if value is not None and profile:
                 found = f"{literal(value)}, which the profile does not have ({profile})"
-                allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+                allowed = f"only with the profile {' or '.join(families_with(name))}"
                 mistakes.append(Mistake(name, found, allowed))
             continue
-        zero = name in ("normal_amplitude", "tangential_amplitude", "flat_radius")
-        allowed = "a length ≥ 0" if zero else "a positive length"
+        zero = row is not None and may_vanish(row)
+        kind = "length" if row is None or row.scale else "number"
+        allowed = f"a {kind} ≥ 0" if zero else f"a positive {kind}"
         allowed += " (this profile needs it)" * (name in needed)
         mistakes += wrong_size(name, value, allowed, zero=zero)
     return mistakes

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from fractions import Fraction
-
-import numpy as np
+from typing import Any
 
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.given import (
@@ -18,15 +15,25 @@ from swtstudy.contacts.given import (
     pair_of_numbers,
     with_unknown,
     wrong_bodies,
-    wrong_lengths,
     wrong_load,
+    wrong_sizes,
 )
-from swtstudy.grid.grid import Grid
+from swtstudy.contacts.scales import least_depths, length_of
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.indenter.wavy_paraboloid import smallest_compact_wavelength
+from swtstudy.grid.values import read_value
+from swtstudy.mechanics.indenter import too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
+
+#: Parameters of a contact with what they are unless given, None for those that must be: a real contact has
+#: no usual friction and tangential amplitude. The Poisson ratio is that of the bodies.
+_DEFAULTS: dict[str, Any] = {
+    **{name: row.default for name, row in PARAMETERS.items() if name != "poisson_ratio"},
+    **{"friction": None, "tangential_amplitude": None, "normal_amplitude": 0.0},
+}
+#: Those that are no lengths, whatever the profile.
+_PURE = [name for name in _DEFAULTS if not PARAMETERS[name].scale and PARAMETERS[name].part != "shape"]
 
 
 def physical(
@@ -34,45 +41,29 @@ def physical(
     young_modulus: float | tuple[float, float] | None = None,
     poisson_ratio: float | tuple[float, float] | None = None,
     radius: float | None = None,
-    friction: float | None = None,
-    tangential_amplitude: float | None = None,
     depth: float | None = None,
     normal_force: float | None = None,
-    normal_amplitude: float = 0.0,
-    frequency_ratio: object = 1,
-    phase: object = 0.0,
-    profile: str = "paraboloid",
-    flat_radius: float | None = None,
-    waviness_amplitude: float | None = None,
-    wavelength: float | None = None,
     similar: float = SIMILAR,
-    **unknown: object,
+    **parameters: object,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Parameters
     ----------
     young_modulus, poisson_ratio
-        Of both bodies: one value for two equal bodies, or a pair. These, radius, friction and
-        tangential_amplitude must be given.
+        Of both bodies: one value for two equal bodies, or a pair. These and radius must be given.
     radius
         R of the relative curvature, 1/R = 1/R1 + 1/R2.
-    friction
-        μ.
-    tangential_amplitude
-        uA, amplitude of the relative tangential displacement of the bodies far from the contact.
     depth, normal_force
         One of them: the mean indentation depth δ0, or the normal force at that depth.
-    normal_amplitude
-        δA, amplitude of the indentation depth.
-    frequency_ratio, phase, profile
-        As for `swtstudy.solve`.
-    flat_radius, waviness_amplitude, wavelength
-        b, h, λ: lengths of profiles that have them.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar (eq. 1).
-    **unknown
-        A mistake that names the keyword that was meant.
+    **parameters
+        The other names of `swtstudy.parameters.PARAMETERS`, single values. Those with a scale are lengths:
+        tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
+        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; and
+        flat_radius b, waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio,
+        phase and profile are as for `swtstudy.solve`.
 
     Returns
     -------
@@ -93,54 +84,60 @@ def physical(
     >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
     (296, 0.568)
     """
-    lengths = {
-        "radius": radius,
-        "normal_amplitude": normal_amplitude,
-        "tangential_amplitude": tangential_amplitude,
-        "flat_radius": flat_radius,
-        "waviness_amplitude": waviness_amplitude,
-        "wavelength": wavelength,
+    own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "radius": radius}
+    given: dict[str, Any] = {
+        **own,
+        **{name: parameters.get(name, default) for name, default in _DEFAULTS.items()},
+        **{"depth": depth, "normal_force": normal_force, "similar": similar},
     }
-    young, poisson = pair(young_modulus), pair(poisson_ratio)
-    known = isinstance(profile, str) and profile in PROFILE_SHAPES
-    pure = {"friction": friction, "frequency_ratio": frequency_ratio, "phase": phase}
-    grid, mistakes = read_grid(pure if known else {**pure, "profile": profile}, {})
-    mistakes += wrong_bodies(young, poisson, similar)
-    mistakes += wrong_load(depth, normal_force)
-    mistakes += wrong_lengths(lengths, profile if known else None)
-    own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "friction": friction}
-    lacking = [name for name, value in {**own, **lengths}.items() if value is None]
-    mistakes = with_unknown(unknown, list(inspect.signature(physical).parameters), lacking, mistakes)
-    if grid is None or mistakes:
+    needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None)]
+    lacking = [name for name in needed if given[name] is None]
+    unknown = [name for name in parameters if name not in given]
+    mistakes = with_unknown(unknown, given, lacking, _mistakes(given))
+    if mistakes:
         raise StudyError(mistakes)
-    if float(grid.fixed["friction"]) == 0.0 and tangential_amplitude:
-        found = f"{literal(tangential_amplitude)} without friction"
-        raise StudyError([Mistake("tangential_amplitude", found, "0, since the contact slides at once")])
-    bodies = Moduli(pair_of_numbers(young), pair_of_numbers(poisson))
-    contact = _contact(bodies, grid, profile, lengths, 1.0 if depth is None else plain_number(depth))
+    contact = _contact(given)
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
     _, mistakes = read_grid(contact.parameters(), {})
     if mistakes:
-        raise StudyError(in_own_values(mistake, lengths) for mistake in mistakes)
+        raise StudyError(in_own_values(mistake, _sizes(given)) for mistake in mistakes)
     return contact
 
 
-def _contact(
-    bodies: Moduli, grid: Grid, profile: str, lengths: Mapping[str, object], depth: float
-) -> PhysicalContact:
-    """The contact at a depth, from what has no mistakes."""
+def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The lengths, and the shape of any profile."""
+    names = [name for name in _DEFAULTS if name not in (*_PURE, "profile")]
+    return {name: given[name] for name in ("radius", *names)}
+
+
+def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
+    """What is wrong with each of the keywords."""
+    profile = given["profile"] if is_profile(given["profile"]) else None
+    pure = {name: given[name] for name in _PURE}
+    _, mistakes = read_grid(pure if profile else {**pure, "profile": given["profile"]}, {})
+    young, poisson = pair(given["young_modulus"]), pair(given["poisson_ratio"])
+    mistakes += wrong_bodies(young, poisson, given["similar"])
+    mistakes += wrong_load(given["depth"], given["normal_force"])
+    mistakes += wrong_sizes(_sizes(given), profile)
+    tangential = given["tangential_amplitude"]
+    if not mistakes and plain_number(given["friction"]) == 0.0 and tangential:
+        found, allowed = f"{literal(tangential)} without friction", "0, since the contact slides at once"
+        mistakes.append(Mistake("tangential_amplitude", found, allowed))
+    return mistakes
+
+
+def _contact(given: Mapping[str, Any]) -> PhysicalContact:
+    """The contact from what has no mistakes, at the depth 1 if that is not given."""
+    values: dict[str, Any] = {name: plain_number(value) for name, value in _sizes(given).items()}
+    values |= {name: read_value(PARAMETERS[name], given[name]) for name in _PURE}
+    young, poisson = (pair_of_numbers(pair(given[name])) for name in ("young_modulus", "poisson_ratio"))
     return PhysicalContact(
-        bodies,
-        plain_number(lengths["radius"]),
-        depth,
-        float(grid.fixed["friction"]),
-        plain_number(lengths["normal_amplitude"]),
-        plain_number(lengths["tangential_amplitude"]),
-        Fraction(grid.fixed["frequency_ratio"]),
-        float(grid.fixed["phase"]),
-        profile,
-        {name: plain_number(lengths[name]) for name in PROFILE_SHAPES[profile]},
+        Moduli(young, poisson),
+        depth=1.0 if given["depth"] is None else plain_number(given["depth"]),
+        profile=given["profile"],
+        shape={name: values[name] for name in family_of(given["profile"]).shape},
+        **{n: value for n, value in values.items() if n == "radius" or PARAMETERS[n].part != "shape"},
     )
 
 
@@ -148,15 +145,7 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
     """Indentation depth at a normal force, which rises with it."""
     from scipy.optimize import brentq
 
-    if "wavelength" in contact.shape:
-        h, wavelength = contact.shape["waviness_amplitude"], contact.shape["wavelength"]
-        least = float(smallest_compact_wavelength(np.array(math.pi))) * math.sqrt(h * contact.radius)
-        if wavelength < least:
-            found = f"{wavelength!r} at waviness_amplitude {h!r}"
-            allowed = (
-                f"at least {least:.4g}: with shorter waves no contact is compact, however small its depth"
-            )
-            raise StudyError([Mistake("wavelength", found, allowed)])
+    _refuse_at_any_depth(contact)
 
     def excess(logarithm: float) -> float:
         # In logarithms: a force out of the range of numbers is too large or too small like others.
@@ -164,12 +153,11 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
         scale = math.log(contact.moduli.normal) + 0.5 * math.log(contact.radius) + 1.5 * logarithm
         return math.log(factor) + scale - math.log(force)
 
-    least = _least_depth(contact)
+    name, least = max(least_depths(contact).items(), key=lambda item: item[1], default=("", 0.0))
     if least > 0.0 and excess(math.log(least)) > 0.0:
-        (name, length) = next(iter(contact.shape.items()))
-        most = PARAMETERS[name].upper
-        allowed = f"a length of at most {most:g} {'a_H' if name == 'flat_radius' else 'δ0'} at this force"
-        raise StudyError([Mistake(name, f"{length!r} at normal_force {force!r}", allowed)])
+        row = PARAMETERS[name]
+        allowed = f"a length of at most {row.upper:g} {row.scale} at this force"
+        raise StudyError([Mistake(name, f"{contact.shape[name]!r} at normal_force {force!r}", allowed)])
     # Hertz's depth, and from there outwards.
     hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
     low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
@@ -180,8 +168,13 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
 
 
-def _least_depth(contact: PhysicalContact) -> float:
-    """The depth below which b/a_H or h/δ0 is out of its range."""
-    b, h = (contact.shape.get(name, 0.0) for name in ("flat_radius", "waviness_amplitude"))
-    face = (b / PARAMETERS["flat_radius"].upper) ** 2 / contact.radius
-    return max(face, h / PARAMETERS["waviness_amplitude"].upper)
+def _refuse_at_any_depth(contact: PhysicalContact) -> None:
+    """Raise if the contact is not compact however small its depth."""
+    limit = too_small(contact.profile, contact.shape_parameters, 0.0)
+    if limit is None:
+        return
+    name, number = limit
+    others = ", ".join(f"{other} {value!r}" for other, value in contact.shape.items() if other != name)
+    found = f"{contact.shape[name]!r}{' at ' * bool(others)}{others}"
+    least = f"at least {length_of(name, number, contact):.4g}"
+    raise StudyError([Mistake(name, found, f"{least}: with less no contact is compact, at whatever depth")])

@@ -15,7 +15,7 @@ from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.body.nonlocal_swt import at_distance, critical_direction, line_mean, volume_mean
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, family_of
 from swtstudy.solving import solve
 
 _CELLS = 60
@@ -57,7 +57,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     for index in map(tuple, np.argwhere(np.isfinite(dataset.critical_x.values))):
         one = dataset.isel(dict(zip(dims, index, strict=True)))
         # A grid of several profiles has the shape parameters of all of them.
-        others = {*SHAPE_COLUMNS} - {*PROFILE_SHAPES[one.profile.item()]}
+        others = {*SHAPE_COLUMNS} - {*family_of(one.profile.item()).shape}
         values = {name: one[name].item() for name in PARAMETERS if name in one.coords and name not in others}
         volume[index], point[index], line[index] = _of_point(values, float(one.critical_x), distance)
     meaning = {"long_name": "critical distance, in units of a_H", "units": "1", "symbol": r"\ell/a_H"}

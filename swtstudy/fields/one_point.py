@@ -12,7 +12,7 @@ from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import StudyError
-from swtstudy.parameters import PROFILE_SHAPES
+from swtstudy.parameters import family_of
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -41,7 +41,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         profile=profile,
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
-        shape={name: number(name) for name in PROFILE_SHAPES[profile]},
+        shape={name: number(name) for name in family_of(profile).shape},
         **{name: number(name) for name in NUMBERS},
     )
 

@@ -16,7 +16,7 @@ from swtstudy.figures.inspection_panels import (
 )
 from swtstudy.figures.style import Style, styled
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import PARAMETERS, family_of
 from swtstudy.wording import place_words, value_words
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 
 def _headline(dataset: xr.Dataset) -> str:
     profile = str(dataset.profile.item())
-    names = [*PROFILE_SHAPES[profile], *(n for n, p in PARAMETERS.items() if p.default is not None)]
+    names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.default is not None)]
     values = [place_words(name, dataset[name].item()) for name in names if name != "profile"]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.grid.canonical import COLUMNS
+from swtstudy.grid.canonical import LOAD_COLUMNS, SHARED_COLUMNS, select
 from swtstudy.grid.cost import weights
 from swtstudy.mechanics.points import FloatArray, IntArray
-
-_Q, _PHASE = COLUMNS.index("q"), COLUMNS.index("phase")
-#: Columns that the points of a block share: profile and frequency ratio.
-_FAMILY = slice(0, _Q + 1)
 
 #: Points in a block, times their weight: about a second of work. In small blocks each point costs more.
 _BLOCK_SIZE = 512
@@ -28,10 +24,10 @@ def block_ends(table: FloatArray) -> IntArray:
     A block has one profile and one frequency ratio, and ends between two loads where it can: points with
     the same load share their contact solution.
     """
-    load_end = _stretch_ends(table[:, : _PHASE + 1])
+    load_end = _stretch_ends(table, ("profile", *LOAD_COLUMNS))
     load_begin = np.append(0, load_end)
     ends, begin = [], 0
-    for end in _stretch_ends(table[:, _FAMILY]).tolist():
+    for end in _stretch_ends(table, SHARED_COLUMNS).tolist():
         length = end - begin
         size = max(_BLOCK_SIZE // int(weights(table[begin:end]).max(initial=1)), _SMALLEST_BLOCK)
         share = 2 if length >= _WORTH_SHARING else 1
@@ -44,6 +40,7 @@ def block_ends(table: FloatArray) -> IntArray:
     return np.concatenate(ends)
 
 
-def _stretch_ends(columns: FloatArray) -> IntArray:
+def _stretch_ends(table: FloatArray, names: tuple[str, ...]) -> IntArray:
+    columns = select(table, names)
     changes = np.flatnonzero((columns[1:] != columns[:-1]).any(axis=1)) + 1
     return np.append(changes, len(columns))

@@ -2,49 +2,50 @@
 
 Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one
 onto the other, or if they differ only in parameters that do not matter (the shape of another profile, a
-punch face of radius 0, the phase of an oscillation of amplitude 0).
+profile whose shape is plain, the phase of a load that stands still).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.grid.codes import code_of, name_of
+from swtstudy.parameters import PARAMETERS, PLAIN, family_of
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
-
-PROFILES = tuple(PROFILE_SHAPES)
-SHAPE_COLUMNS = tuple(dict.fromkeys(name for shape in PROFILE_SHAPES.values() for name in shape))
 
 
 def _numbers(part: str) -> tuple[str, ...]:
     return tuple(name for name, row in PARAMETERS.items() if row.part == part and row.kind == "number")
 
 
-#: Columns that make the load, ω2/ω1 = p/q.
-LOAD_COLUMNS = ("p", "q", *_numbers("load"))
+#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
+RATIO_COLUMNS = ("p", "q")
+LOAD_COLUMNS = (*RATIO_COLUMNS, *_numbers("load"))
+#: Columns that points have in common which are solved in one call.
+SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
+#: Shape parameters, of whichever profile.
+SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
 NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
-#: Columns of a table of canonical points, in the order in which they are sorted; the profile is an index into
-#: `PROFILES`.
+#: Columns of a table of canonical points, in the order in which they are sorted; for the profile see
+#: `swtstudy.grid.codes`.
 COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
 DIGITS = 12
 
-#: The parameter of a shape whose value 0 makes the profile a paraboloid.
-_VANISHING = {
-    "rounded_punch": "flat_radius",
-    "truncated_paraboloid": "flat_radius",
-    "wavy_paraboloid": "waviness_amplitude",
-}
+
+def select(table: FloatArray, names: Sequence[str]) -> FloatArray:
+    """The columns of these names, shape (n, len(names))."""
+    return table[:, [_COLUMN[name] for name in names]]
 
 
 def canonical_number(value: float) -> float:
@@ -67,27 +68,37 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    from swtstudy.mechanics.load.symmetry import fold_phase
-
     table = np.stack(np.broadcast_arrays(*(np.asarray(columns[name], float) for name in COLUMNS)), axis=-1)
-    for code, profile in enumerate(PROFILES):
-        vanishing = _VANISHING.get(profile)
-        if vanishing is not None:
-            flat = (table[:, 0] == code) & (table[:, _COLUMN[vanishing]] == 0)
-            table[flat, 0] = PROFILES.index("paraboloid")
-    for code, profile in enumerate(PROFILES):
-        unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in PROFILE_SHAPES[profile]]
-        table[np.ix_(table[:, 0] == code, unused)] = 0
-    # A load that does not oscillate in the normal direction has neither a phase nor a frequency ratio.
-    table[np.ix_(table[:, _COLUMN["normal_amplitude"]] == 0, [_COLUMN["phase"]])] = 0
-    constant = table[:, _COLUMN["normal_amplitude"]] == 0
-    table[np.ix_(constant, [_COLUMN["p"], _COLUMN["q"]])] = 1
+    _make_profiles_canonical(table)
+    return table, _make_loads_canonical(table)
+
+
+def _make_profiles_canonical(table: FloatArray) -> None:
+    profile = table[:, _COLUMN["profile"]]
+    for code in np.unique(profile):
+        plain = family_of(name_of(code)).plain
+        if plain is not None:
+            name, value = plain
+            profile[(profile == code) & (table[:, _COLUMN[name]] == value)] = code_of(PLAIN)
+    for code in np.unique(profile):
+        shape = family_of(name_of(code)).shape
+        unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in shape]
+        table[np.ix_(profile == code, unused)] = 0
+
+
+def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
+    """Returns where x is mirrored."""
+    from swtstudy.mechanics.load.symmetry import fold_phase, without_what_stands_still
+
     p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
+    amplitude, phase = (table[:, _COLUMN[name]] for name in ("normal_amplitude", "phase"))
+    phase, p, q = without_what_stands_still(amplitude, phase, p, q)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
-    folded, mirrored = fold_phase(table[:, _COLUMN["phase"]] + nudge, p, q)
+    folded, mirrored = fold_phase(phase + nudge, p, q)
+    table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
     table[:, _COLUMN["phase"]] = np.maximum(np.round((folded - nudge) / np.pi, DIGITS), 0.0) * np.pi
-    return table, mirrored
+    return mirrored
 
 
 def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
@@ -118,20 +129,20 @@ def points_from(table: FloatArray) -> Points:
     """A batch for the solver from canonical rows that share one profile."""
     from swtstudy.mechanics.points import Points
 
-    profile = PROFILES[int(table[0, 0])]
+    profile = name_of(table[0, _COLUMN["profile"]])
     return Points(
         profile=profile,
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
-        shape={name: table[:, _COLUMN[name]].copy() for name in PROFILE_SHAPES[profile]},
+        shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
 
 def describe_point(row: FloatArray) -> str:
     """A canonical row in words, for messages: only what matters for its profile."""
-    profile = PROFILES[int(row[0])]
+    profile = name_of(row[_COLUMN["profile"]])
     parts = [f"profile={profile}"]
-    parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in PROFILE_SHAPES[profile]]
+    parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in family_of(profile).shape]
     parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
     return ", ".join([*parts, *(f"{name}={row[_COLUMN[name]]:.6g}" for name in NUMBERS)])

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.grid.canonical import COLUMNS
+from swtstudy.grid.canonical import RATIO_COLUMNS, select
 from swtstudy.mechanics.points import FloatArray, IntArray
-
-_P, _Q = COLUMNS.index("p"), COLUMNS.index("q")
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
@@ -15,7 +13,7 @@ SECONDS_PER_WEIGHT = 4e-3
 
 def weights(table: FloatArray) -> IntArray:
     """Rough relative cost of points: long cycles cost more."""
-    return (table[:, _P] + table[:, _Q]).astype(np.int64)
+    return select(table, RATIO_COLUMNS).sum(axis=1).astype(np.int64)
 
 
 def duration(seconds: float) -> str:

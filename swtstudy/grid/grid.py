@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import COLUMNS, PROFILES, canonical_number, canonical_points
+from swtstudy.grid.canonical import COLUMNS, canonical_number, canonical_points
+from swtstudy.grid.codes import code_of
 from swtstudy.grid.values import Value, read_value
 from swtstudy.parameters import PARAMETERS
 
@@ -72,7 +73,7 @@ class Grid:
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
     if isinstance(value, str):
-        return float(PROFILES.index(value))
+        return code_of(value)
     if isinstance(value, Fraction):
         return float({"p": value.numerator, "q": value.denominator}.get(name, value))
     # A phase is rounded in units of π once it is folded, not here.

@@ -15,7 +15,7 @@ from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES, PARAMETERS
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -95,7 +95,7 @@ def _read(name: str, raw: object, key: str, report: Report) -> Value | None:
 
 def _allowed(name: str, raw: object) -> str:
     if PARAMETERS[name].kind == "profile" and isinstance(raw, str):
-        return nearest(raw, PROFILE_SHAPES)
+        return nearest(raw, FAMILIES)
     return PARAMETERS[name].allowed
 
 

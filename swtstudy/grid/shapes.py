@@ -12,7 +12,7 @@ from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mistakes import Report, literal
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, profiles_with
+from swtstudy.parameters import PARAMETERS, families_with, family_of
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -43,19 +43,19 @@ def check_shapes_given(
     needed = shapes_needed(profiles)
     for name in needed:
         if name not in fixed and name not in axes:
-            owners = ", ".join(profile for profile in profiles if name in PROFILE_SHAPES[profile])
+            owners = ", ".join(profile for profile in profiles if name in family_of(profile).shape)
             report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
     for name in SHAPE_COLUMNS:
         if name in needed or not sound or not (name in fixed or name in axes):
             continue
         found = literal(fixed[name]) if name in fixed else "an axis"
-        allowed = f"only with the profile {' or '.join(profiles_with(name))}"
+        allowed = f"only with the profile {' or '.join(families_with(name))}"
         report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
 
 
 def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
     """The shape parameters that at least one of the profiles has."""
-    return tuple(n for n in SHAPE_COLUMNS if any(n in PROFILE_SHAPES.get(p, ()) for p in profiles))
+    return tuple(n for n in SHAPE_COLUMNS if any(n in family_of(p).shape for p in profiles))
 
 
 def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
@@ -63,7 +63,7 @@ def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None
     # The largest contact of the study is the hardest to keep compact.
     normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
     for profile in map(str, grid.values("profile")):
-        names = PROFILE_SHAPES[profile]
+        names = family_of(profile).shape
         axes = [np.array(grid.values(name), float) for name in names]
         if not names:
             continue
@@ -92,7 +92,7 @@ def _refused(
     for start in range(0, math.prod(lengths), _SLAB):
         places = np.unravel_index(np.arange(start, min(start + _SLAB, math.prod(lengths))), lengths)
         values = [axis[place] for axis, place in zip(axes, places, strict=True)]
-        shape = dict(zip(PROFILE_SHAPES[profile], values, strict=True))
+        shape = dict(zip(family_of(profile).shape, values, strict=True))
         wrong = np.flatnonzero(~compact_shapes(profile, shape, normal_amplitude))
         if wrong.size and first is None:
             first = tuple(float(value[wrong[0]]) for value in values)

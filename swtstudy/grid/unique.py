@@ -7,12 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import COLUMNS, group_rows
+from swtstudy.grid.canonical import COLUMNS, LOAD_COLUMNS, group_rows, select
 from swtstudy.grid.grid import Grid
 from swtstudy.mechanics.points import FloatArray, IntArray
-
-#: Columns that make the load.
-_LOAD = slice(COLUMNS.index("p"), COLUMNS.index("phase") + 1)
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
 LARGEST_GRID = 50_000_000
@@ -63,4 +60,4 @@ def unique_points(grid: Grid) -> UniquePoints:
 
 def loads(table: FloatArray) -> int:
     """Number of distinct loads, each of which needs one contact solution."""
-    return len(group_rows(table[:, _LOAD])[0])
+    return len(group_rows(select(table, LOAD_COLUMNS))[0])

@@ -8,7 +8,7 @@ from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
-from swtstudy.parameters import PROFILE_SHAPES, Parameter
+from swtstudy.parameters import Parameter, is_profile
 
 #: A checked value: a float, an exact frequency ratio, or the name of a profile.
 Value = float | Fraction | str
@@ -51,8 +51,8 @@ def read_value(parameter: Parameter, raw: object) -> Value:
 
 
 def _read_profile(raw: object) -> str:
-    if isinstance(raw, str) and raw in PROFILE_SHAPES:
-        return str(raw)
+    if is_profile(raw):
+        return raw
     raise ValueError("no such profile" if isinstance(raw, str) else "not a name")
 
 

@@ -21,7 +21,7 @@ class Points:
     Attributes
     ----------
     profile
-        Name of the profile, a key of `swtstudy.parameters.PROFILE_SHAPES`.
+        Name of the profile, a key of `swtstudy.parameters.FAMILIES`.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
         Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad.
     p, q

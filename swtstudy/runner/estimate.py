@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.blocks import block_ends
-from swtstudy.grid.canonical import group_rows
+from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import Chunk, Solver, solve_chunk
@@ -40,7 +40,7 @@ def estimate(
     rows = np.flatnonzero(missing)
     if not len(rows):
         return 0.0
-    _, kind = group_rows(table[rows][:, :3])
+    _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends = block_ends(table)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.grid.canonical import COLUMNS, points_from
+from swtstudy.grid.canonical import SHARED_COLUMNS, points_from, select
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.indenter import make_profile
@@ -16,8 +16,6 @@ from swtstudy.mechanics.points import FloatArray, Points
 
 if TYPE_CHECKING:
     import xarray as xr
-
-_GROUP = [COLUMNS.index(name) for name in ("profile", "p", "q")]
 
 
 def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
@@ -31,7 +29,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     """
     rows, _ = grid_of(dataset).canonical()
     radius = np.empty(len(rows))
-    _, group = np.unique(rows[:, _GROUP], axis=0, return_inverse=True)
+    _, group = np.unique(select(rows, SHARED_COLUMNS), axis=0, return_inverse=True)
     for family in range(int(group.max()) + 1):
         members = np.flatnonzero(group.ravel() == family)
         radius[members] = _radius(points_from(rows[members]))

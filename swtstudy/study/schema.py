@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES, Parameter, profiles_with
+from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter, families_with
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
@@ -86,7 +86,7 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     if parameter.default is not None:
         entry["default"] = parameter.default
     if parameter.kind == "profile":
-        return entry | {"enum": list(PROFILE_SHAPES)}
+        return entry | {"enum": list(FAMILIES)}
     lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
@@ -103,7 +103,7 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
 
 
 def _words(parameter: Parameter) -> str:
-    owners = [profile.replace("_", " ") for profile in profiles_with(parameter.name)]
+    owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
     return f"{parameter.meaning}: {parameter.allowed}{of}"
 

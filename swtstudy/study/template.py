@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.parameters import PARAMETERS, PROFILE_SHAPES
+from swtstudy.parameters import FAMILIES, PARAMETERS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 
@@ -42,10 +42,10 @@ hue = "normal_amplitude"
 
 
 def _fixed() -> str:
-    lines = ['profile = "paraboloid"']
-    for profile, names in PROFILE_SHAPES.items():
-        needs = f", needs {' and '.join(names)}" if names else ""
-        lines.append(f"#   {quoted(profile)}{needs}")
+    lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
+    for family in FAMILIES.values():
+        needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
+        lines.append(f"#   {quoted(family.name)}{needs}")
     for name, parameter in PARAMETERS.items():
         if name == "profile" or name in _USED:
             continue

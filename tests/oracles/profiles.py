@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 from scipy.integrate import quad
@@ -29,6 +29,9 @@ class Indenter:
     f_slope: Callable[[float], float]
     weighted_slope: Callable[[float], float]
     flat_radius: float = 0.0
+
+    def __str__(self) -> str:
+        return "-".join([self.profile, *(f"{value:g}" for value in self.shape.values())])
 
     def depth(self, xi: float) -> float:
         """g(ξ) of eq. (11), with r = ξ sin θ."""
@@ -136,3 +139,14 @@ def wavy_paraboloid(h: float, wavelength: float) -> Indenter:
         lambda r: r + h * k * np.sin(k * r),
         weighted_slope,
     )
+
+
+#: Every family at the shapes that the tests look at.
+ORACLES: dict[str, tuple[Indenter, ...]] = {
+    "paraboloid": (paraboloid(),),
+    "rounded_punch": tuple(map(rounded_punch, (0.5, 0.05, 2.0))),
+    "truncated_paraboloid": tuple(map(truncated_paraboloid, (0.5, 0.05, 2.0))),
+    # Shallow, steep and fine waves.
+    "wavy_paraboloid": (wavy_paraboloid(0.01, 5.0), wavy_paraboloid(0.1, 3.6), wavy_paraboloid(5e-4, 4.5)),
+}
+INDENTERS = tuple(chain.from_iterable(ORACLES.values()))

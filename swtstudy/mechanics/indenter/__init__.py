@@ -1,4 +1,4 @@
-"""The registry of profiles: a new profile is one file here and one line below."""
+"""The registry of profiles: a family is a file here, a line below and a row of `parameters.FAMILIES`."""
 
 from __future__ import annotations
 
@@ -50,6 +50,11 @@ def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) 
     return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
 
 
+def too_small(profile: str, shape: dict[str, float], largest_depth: float) -> tuple[str, float] | None:
+    """The shape parameter that no full disc up to a depth can have, and its least value, or None."""
+    return PROFILES[profile].too_small(largest_depth, **shape)
+
+
 __all__ = [
     "PROFILES",
     "Primitives",
@@ -59,4 +64,5 @@ __all__ = [
     "make_profile",
     "resolved_shape",
     "roughness",
+    "too_small",
 ]

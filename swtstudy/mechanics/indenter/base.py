@@ -71,9 +71,22 @@ class Profile(ABC):
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 
     @classmethod
+    def too_small(cls, largest_depth: float, **shape: float) -> tuple[str, float] | None:
+        """The shape parameter that is too small for a full disc up to a depth, and its least value."""
+        return None
+
+    @classmethod
     def check(cls, largest_depth: float, **shape: float) -> str | None:
         """Why the contact is not a full disc up to ``largest_depth``, or None."""
-        return None
+        limit = cls.too_small(largest_depth, **shape)
+        if limit is None:
+            return None
+        name, least = limit
+        others = ", ".join(f"{other} {value:g}" for other, value in shape.items() if other != name)
+        return (
+            f"{name} {shape[name]:g} is below {least:.4g}, the smallest for which the contact stays compact"
+            f"{' at ' * bool(others)}{others} up to the depth {largest_depth:g} δ0"
+        )
 
     @abstractmethod
     def take(self, index: NDArray[np.intp]) -> Profile:

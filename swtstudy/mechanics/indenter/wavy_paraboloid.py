@@ -45,12 +45,13 @@ class WavyParaboloid(Profile):
         self.wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
         self.reach = _upper_radius(largest_depth, waviness_amplitude, self.wave_number)
         # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
-        level = self.roughness(largest_depth, waviness_amplitude, wavelength).max(initial=0)
+        shape = {"waviness_amplitude": waviness_amplitude, "wavelength": wavelength}
+        level = self.roughness(largest_depth, **shape).max(initial=0)
         self.phase = ROUGHNESS_STEP * float(level)
 
     @classmethod
-    def roughness(cls, largest_depth: FloatArray, *shape: FloatArray, **named: FloatArray) -> IntArray:
-        amplitude, wavelength = shape or (named["waviness_amplitude"], named["wavelength"])
+    def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
+        amplitude, wavelength = shape["waviness_amplitude"], shape["wavelength"]
         length = wavelength * np.sqrt(amplitude)
         wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
         reach = _upper_radius(largest_depth, amplitude, wave_number)
@@ -76,15 +77,11 @@ class WavyParaboloid(Profile):
         return (h == 0.0) | (wavelength >= _smallest_wavelength(largest_depth, h, wavelength))
 
     @classmethod
-    def check(cls, largest_depth: float, **shape: float) -> str | None:
+    def too_small(cls, largest_depth: float, **shape: float) -> tuple[str, float] | None:
         if cls.compact(largest_depth, **{name: np.array([value]) for name, value in shape.items()}):
             return None
-        h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
-        limit = _smallest_wavelength(largest_depth, np.array(h), np.array(wavelength))
-        return (
-            f"wavelength {wavelength:g} is below {limit:.4g}, the smallest for which the contact stays "
-            f"compact at waviness_amplitude {h:g} up to the depth {largest_depth:g} δ0"
-        )
+        h, wavelength = (np.array(shape[name]) for name in ("waviness_amplitude", "wavelength"))
+        return "wavelength", float(_smallest_wavelength(largest_depth, h, wavelength))
 
     def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
         return WavyParaboloid(
@@ -156,14 +153,7 @@ def _smallest_wavelength(largest_depth: float, h: FloatArray, wavelength: FloatA
     """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
     with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
         phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
-    return smallest_compact_wavelength(phase)
-
-
-def smallest_compact_wavelength(phase: FloatArray) -> FloatArray:
-    """Smallest λ/√(hR) for which g′ ≥ 0 up to kξ = ``phase``.
-
-    g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with A = H₀ + z (2/π − H₁).
-    """
+    # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
     return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
 

@@ -1,4 +1,4 @@
-"""Symmetry of s in the phase of two harmonic loads."""
+"""What two harmonic loads may differ in and have the same s."""
 
 from __future__ import annotations
 
@@ -6,6 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray
+
+
+def without_what_stands_still(
+    normal_amplitude: FloatArray, phase: FloatArray, p: IntArray, q: IntArray
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Phase and ω2/ω1 = p/q, each (n,): 0 and 1 for a constant normal load, which has neither."""
+    constant = normal_amplitude == 0.0
+    return np.where(constant, 0.0, phase), np.where(constant, 1, p), np.where(constant, 1, q)
 
 
 def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
