@@ -19,9 +19,13 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up
+from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, matching
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
+
+
+#: Relative difference of s from rounding alone, between two machines.
+_ROUNDING = 1e-12
 
 
 class ConflictError(ValueError):
@@ -67,20 +71,18 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         if not sparse:
             example = describe_point(points.table[np.flatnonzero(absent)[0]])
             raise GapsError(
-                f"the grid of all values in {_listed(paths)} has {gaps} in none of them, such as {example}; "
+                f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
                 "--sparse (sparse=True in Python) leaves these missing"
             )
         made += f", {gaps} in none of them"
-    found = look_up(points.table, records, records.status != MISSING)
-    merged = Records.missing(points.table)
-    merged = merged.put(np.flatnonzero(found >= 0), records.take(found[found >= 0]))
+    merged = matching(points.table, records, records.status != MISSING)
     study = _study(paths, datasets, grid)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
 
 
-def _listed(paths: Sequence[Path]) -> str:
+def _names(paths: Sequence[Path]) -> str:
     return ", ".join(map(str, paths))
 
 
@@ -99,15 +101,14 @@ def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray)
     first, group = group_rows(records.table[computed])
     one, other = computed[first[group]], computed
     error = records.solution.s_error[one] + records.solution.s_error[other]
-    # Exactly equal values do not conflict even where the error is not finite.
-    equal = np.isclose(records.solution.s[one], records.solution.s[other], rtol=1e-12, atol=0, equal_nan=True)
+    # Equal values do not conflict even where the error is not finite.
+    s = records.solution.s
+    equal = np.isclose(s[one], s[other], rtol=_ROUNDING, atol=0, equal_nan=True)
     with np.errstate(invalid="ignore"):
-        apart = ~equal & ~(np.abs(records.solution.s[one] - records.solution.s[other]) <= error)
+        apart = ~equal & ~(np.abs(s[one] - s[other]) <= error)
     if apart.any():
         index = int(np.flatnonzero(apart)[0])
-        a, b = (
-            f"{records.solution.s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other)
-        )
+        a, b = (f"{s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other))
         more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
         point = describe_point(records.table[one[index]])
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
@@ -143,4 +144,4 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Stu
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:
-        raise ArchiveError(f"{_listed(paths)}: these archives do not make one study:\n{error}") from None
+        raise ArchiveError(f"{_names(paths)}: these archives do not make one study:\n{error}") from None

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from swtstudy.archive.archive import build, history_line
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import parts_folder, read_parts
 from swtstudy.grid.unique import unique_points
-from swtstudy.records.records import Records, look_up
+from swtstudy.records.records import matching
 from swtstudy.study.definition import Study
 
 
@@ -25,7 +24,5 @@ def partial_results(path: Path) -> xr.Dataset | None:
     points = unique_points(study.grid)
     known = known_records(path)
     usable = known.usable(study.rtol, latest.solver_version, retry_failed=False)
-    found = look_up(points.table, known, usable)
-    records = Records.missing(points.table)
-    records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
+    records = matching(points.table, known, usable)
     return build(study, points, records, history_line("opened unfinished"), 0.0)

@@ -102,13 +102,13 @@ class Records:
             messages,
         )
 
-    def put(self, rows: IntArray, part: Records) -> Records:
-        """These records with others filled in at `rows`; the arrays are filled in place."""
-        runs, number = _with_runs(self.runs, part.runs)
+    def fill(self, rows: IntArray, part: Records) -> Records:
+        """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
+        runs, index = _with_runs(self.runs, part.runs)
         for item in fields(Solution):
             getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
         self.status[rows] = part.status
-        self.run[rows] = number[part.run]
+        self.run[rows] = index[part.run]
         self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
         return replace(self, runs=runs)
 
@@ -119,11 +119,11 @@ class Records:
         return np.array([*good, False])[self.run] & (self.status <= worst)
 
     def trimmed(self) -> Records:
-        """These records without runs that none of them comes from."""
+        """These records without the runs that made none of them."""
         used = np.unique(self.run[self.run >= 0])
-        number = np.full(len(self.runs) + 1, -1, np.int32)
-        number[used] = np.arange(len(used))
-        return replace(self, run=number[self.run], runs=tuple(self.runs[i] for i in used))
+        index = np.full(len(self.runs) + 1, -1, np.int32)
+        index[used] = np.arange(len(used))
+        return replace(self, run=index[self.run], runs=tuple(self.runs[i] for i in used))
 
 
 def join(parts: Iterable[Records]) -> Records:
@@ -132,36 +132,36 @@ def join(parts: Iterable[Records]) -> Records:
     if not parts:
         return Records.missing(np.empty((0, len(COLUMNS))))
     runs: tuple[Run, ...] = ()
-    numbers, messages, start = [], {}, 0
+    run, messages, start = [], {}, 0
     for part in parts:
-        runs, number = _with_runs(runs, part.runs)
-        numbers.append(number[part.run])
+        runs, index = _with_runs(runs, part.runs)
+        run.append(index[part.run])
         messages.update({start + i: message for i, message in part.messages.items()})
         start += len(part)
     return Records(
         np.concatenate([part.table for part in parts]),
         joined([part.solution for part in parts]),
         np.concatenate([part.status for part in parts]),
-        np.concatenate(numbers),
+        np.concatenate(run),
         runs,
         messages,
     )
 
 
 def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run, ...], NDArray[np.int32]]:
-    """Runs with others added, and the new number of each of these others, with -1 at the end."""
-    every, numbers = list(runs), []
+    """Runs with others added, and the index of each of these others among them, with -1 at the end."""
+    every, indices = list(runs), []
     for run in more:
         if run in every:
-            number = every.index(run)
-            started = min(filter(None, (every[number].started, run.started)), default="")
-            total = every[number].seconds + run.seconds
-            every[number] = replace(every[number], started=started, seconds=total)
+            index = every.index(run)
+            started = min(filter(None, (every[index].started, run.started)), default="")
+            total = every[index].seconds + run.seconds
+            every[index] = replace(every[index], started=started, seconds=total)
         else:
-            number = len(every)
+            index = len(every)
             every.append(run)
-        numbers.append(number)
-    return tuple(every), np.array([*numbers, -1], np.int32)
+        indices.append(index)
+    return tuple(every), np.array([*indices, -1], np.int32)
 
 
 def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
@@ -180,3 +180,9 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     first, group = group_rows(np.concatenate([records.table[index], table]))
     winner = first[group[len(index) :]]
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
+
+
+def matching(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> Records:
+    """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
+    found = look_up(table, records, candidates)
+    return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

@@ -58,6 +58,6 @@ class Collector:
             raise WorkerError(f"{found}, this machine {SOLVER_VERSION}")
         part = Records.of(result, self.records.table[result.rows], self._run)
         self._writer.add(part)
-        self.records = self.records.put(result.rows, part)
+        self.records = self.records.fill(result.rows, part)
         self.pace.update(result, int(self._weights[result.rows].sum()))
         self._bar.add(len(result))

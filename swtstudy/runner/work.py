@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import group_rows
 from swtstudy.grid.unique import UniquePoints, unique_points
-from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.records.records import MISSING, Records, look_up
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.records.records import MISSING, Records, look_up, matching
 from swtstudy.study.definition import Study
 from swtstudy.version import SOLVER_VERSION
 
@@ -24,8 +24,6 @@ class Work:
     ----------
     points
         The distinct points of the study.
-    known
-        All records at the place of the archive.
     records
         The records of the points that can be used, "missing" for the others; a run fills them in place.
     dropped
@@ -35,7 +33,6 @@ class Work:
     """
 
     points: UniquePoints
-    known: Records
     records: Records
     dropped: Records
     outdated: int
@@ -58,34 +55,31 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
 
     points = unique_points(study.grid)
     known = known_records(path)
-    found = look_up(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
-    records = Records.missing(points.table)
-    records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
-    outdated, coarse = _unusable(points.table, known, found, study.rtol)
-    return Work(points, known, records, _dropped(points.table, known, records), outdated, coarse)
+    records = matching(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
+    outdated, coarse = _unusable(points.table[records.status == MISSING], known, study.rtol)
+    return Work(points, records, _dropped(points.table, known, records), outdated, coarse)
 
 
 def _dropped(table: FloatArray, known: Records, used: Records) -> Records:
-    """What is known of points that are not in a table; the time of a run is told with what is used of it."""
+    """What is known of points that are not in a table; time of a run counts with what is used of it."""
     everything = Records.missing(table)
     elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0
     rows = np.flatnonzero(elsewhere & (known.status != MISSING))
     # A kill may have left a record in two places.
     first, _ = group_rows(np.column_stack([known.table[rows], known.run[rows]]))
     dropped = known.take(rows[first]).trimmed()
-    told = used.trimmed().runs
-    runs = tuple(replace(run, seconds=0.0) if run in told else run for run in dropped.runs)
+    counted = used.trimmed().runs
+    runs = tuple(replace(run, seconds=0.0) if run in counted else run for run in dropped.runs)
     return replace(dropped, runs=runs)
 
 
-def _unusable(table: FloatArray, known: Records, found: IntArray, rtol: float) -> tuple[int, int]:
+def _unusable(table: FloatArray, known: Records, rtol: float) -> tuple[int, int]:
     """Number of points that are known, but from another version of the solver, or with less accuracy."""
     if not len(known):
         return 0, 0
-    lacking = table[found < 0]
     there = known.status != MISSING
     versions = np.array([*(run.solver_version == SOLVER_VERSION for run in known.runs), True])[known.run]
     tolerance = np.array([*(run.rtol for run in known.runs), 0.0])[known.run]
-    outdated = look_up(lacking, known, there & ~versions) >= 0
-    coarse = look_up(lacking, known, there & versions & (tolerance > rtol)) >= 0
+    outdated = look_up(table, known, there & ~versions) >= 0
+    coarse = look_up(table, known, there & versions & (tolerance > rtol)) >= 0
     return int(outdated.sum()), int(coarse.sum())
