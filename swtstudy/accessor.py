@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from swtstudy.results.select import TOLERANCE
+from swtstudy.grid.nearest import TOLERANCE
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -62,7 +62,7 @@ def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
         assert file["frequency_ratio"].fractions == "1"
         assert file["normal_amplitude"].symbol == r"\delta_A/\delta_0"
         assert "in units of a_H" in file["critical_x"].comment
-        assert "against the x axis" in file["critical_angle"].long_name
+        assert "against the x axis" in file["critical_angle"].comment
 
 
 def test_every_number_of_the_solver_comes_back_from_the_file(tmp_path):

@@ -291,6 +291,12 @@ def test_normalised_quantities_are_accepted():
     assert len(study.figure.y) == 3
 
 
+def test_the_place_of_a_normalised_quantity_is_found_as_in_a_slice():
+    assert Study.from_text(MINIMAL + FIGURE + 'y = "s/s(friction=0.10000001)"').figure is not None
+    with pytest.raises(StudyError, match=r"0\.10001 is not on that axis"):
+        Study.from_text(MINIMAL + FIGURE + 'y = "s/s(friction=0.10001)"')
+
+
 def test_every_mistake_is_reported_at_once():
     mistakes = mistakes_of(
         """

@@ -23,7 +23,6 @@ from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, 
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
-
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12
 

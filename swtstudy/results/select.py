@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.grid.values import Value, read_value
+from swtstudy.grid.nearest import TOLERANCE, index_of
+from swtstudy.grid.values import read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.wording import value_words
@@ -15,11 +16,7 @@ from swtstudy.wording import value_words
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Distance at which a value counts as the one that was asked for, relative to the larger of the two.
-TOLERANCE = 1e-6
-#: Distance from 0 that counts as none: the rounding of a phase, say.
-_ROUNDING = 1e-14
-#: Values of an axis that a message lists one by one.
+#: Values of an axis that a message lists one by one; of longer axes the first and the last.
 _LISTED = 12
 
 
@@ -78,25 +75,20 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mi
     """Place of a value along its coordinate; a mistake and 0 if it is not there."""
     name = str(there.name)
     try:
-        value: Value = read_value(PARAMETERS[name], raw)
+        value = read_value(PARAMETERS[name], raw)
     except ValueError as error:
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
         return 0
-    known = np.atleast_1d(there.values)
-    if isinstance(value, str):
-        distance, allowed = np.where(known == value, 0.0, np.inf), np.zeros(len(known))
-    else:
-        asked = float(value)
-        distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
-        allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
-    index = int(distance.argmin())
-    if not distance[index] <= allowed[index]:
+    known = np.atleast_1d(there.values).tolist()
+    index = index_of(value, known, tolerance)
+    if index is None:
         mistakes.append(Mistake(name, f"{literal(raw)}, which is not there", _listed(name, known)))
+        return 0
     return index
 
 
-def _listed(name: str, values: np.ndarray) -> str:
-    words = [value_words(name, value) for value in values.tolist()]
+def _listed(name: str, values: list[float | str]) -> str:
+    words = [value_words(name, value) for value in values]
     if len(words) > _LISTED:
         words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
     return ", ".join(words)

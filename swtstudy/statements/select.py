@@ -12,10 +12,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Values this close, relatively, are the same one: study files and statements write it alike.
-_SAME = 1e-9
-
-
 class NotInArchiveError(LookupError):
     """An archive that lacks the values which a statement is about."""
 
@@ -29,7 +25,7 @@ def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
         If a dimension or a value is not there.
     """
     try:
-        return slice_at(dataset, places, _SAME).drop_vars(places)
+        return slice_at(dataset, places).drop_vars(places)
     except StudyError as error:
         mistake = error.mistakes[0]
         place = f" = {value_words(mistake.key, places[mistake.key])}" if mistake.key in dataset.coords else ""

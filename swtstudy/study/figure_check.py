@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, FigureLayout, reference
@@ -119,11 +119,5 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, report: Report) 
     name, value = place
     if name not in dims:
         report("figure.y", f"{literal(y)}: {name} is not an axis of this study", nearest(name, dims))
-    elif grid is not None and not any(_same(value, other) for other in grid.values(name)):
+    elif grid is not None and index_of(value, grid.values(name)) is None:
         report("figure.y", f"{literal(y)}: {value} is not on that axis", f"a value of the axis {name}")
-
-
-def _same(one: Value, other: Value) -> bool:
-    if isinstance(one, float) and isinstance(other, float):
-        return abs(one - other) <= 1e-11 * max(abs(one), abs(other))
-    return one == other
