@@ -79,7 +79,7 @@ def test_a_damaged_audit_is_named(tmp_path):
     content = path.read_bytes()
     assert b"paraboloid" in content
     path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
-    with pytest.raises(ValueError, match=f"^{path}: a damaged file: profile not as written"):
+    with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum of profile"):
         open_audit(path)
 
 

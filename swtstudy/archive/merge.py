@@ -28,24 +28,22 @@ _ROUNDING = 1e-12
 
 
 class ConflictError(ValueError):
-    """Archives that contradict each other."""
+    """Archives with contradictory values."""
 
 
 class GapsError(ValueError):
-    """Archives that do not fill the grid of all their values."""
+    """Archives that do not fill the grid spanned by all their values."""
 
 
 def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
-    """One Dataset with all that is in several archives.
-
-    Its grid spans the values of all of them.
+    """One Dataset with the results of several archives, on the grid that all their values span.
 
     Parameters
     ----------
     paths
         The archives.
     sparse
-        Whether that grid may have points that are in none of them: NaN with the status "missing".
+        Whether this grid may have points that are in none of the archives: NaN, with the status "missing".
 
     Raises
     ------
@@ -53,7 +51,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         A ValueError, if they come from different versions of the solver, or have values of one point that
         differ by more than their estimated errors.
     GapsError
-        A ValueError, if points of the grid are in none of them, unless it may be `sparse`.
+        A ValueError, if points of the grid are in none of them and `sparse` is False.
     """
     datasets = [open_results(path) for path in paths]
     parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
@@ -71,7 +69,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
             example = describe_point(points.table[np.flatnonzero(absent)[0]])
             raise GapsError(
                 f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
-                "--sparse (sparse=True in Python) leaves these missing"
+                "--sparse (sparse=True in Python) leaves them missing"
             )
         made += f", {gaps} in none of them"
     merged = matching(points.table, records, records.status != MISSING)
@@ -114,7 +112,7 @@ def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray)
 
 
 def _union(grids: list[Grid]) -> Grid:
-    """The grid that spans the values of all grids; the dimensions in the order of the first."""
+    """The grid that the values of all grids span; dimensions in the order of the first."""
     names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
     values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in PARAMETERS}
     names += [name for name in PARAMETERS if name not in names and len(values[name]) > 1]
@@ -131,7 +129,7 @@ def _distinct(values: list[Value]) -> tuple[Value, ...]:
 
 
 def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:
-    """The study that the merged archive is the result of; with the figure of the first, if it fits."""
+    """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None

@@ -1,4 +1,4 @@
-"""What there is to do for a study: what it needs, and what of it is known."""
+"""What is left to do for a study: the points it needs, and which of them are known."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from swtstudy.version import SOLVER_VERSION
 
 @dataclass(frozen=True)
 class Work:
-    """What a study needs and what of it is known.
+    """The points that a study needs, and which of them are known.
 
     Attributes
     ----------
     points
         The distinct points of the study.
     records
-        The records of the points that can be used, "missing" for the others; a run fills them in place.
+        Records of these points, "missing" where no known one can be used; a run fills them in place.
     dropped
-        The records at that place of points that the study does not have.
+        Known records of points that the study does not have.
     outdated, coarse
-        Number of points that are known from another version of the solver, or with less accuracy.
+        Number of points known only from another version of the solver, or only with less accuracy.
     """
 
     points: UniquePoints
@@ -40,17 +40,17 @@ class Work:
 
     @property
     def missing(self) -> NDArray[np.bool_]:
-        """Which points are to be computed."""
+        """Which points are to be computed, shape (n,)."""
         return self.records.status == MISSING
 
     @property
     def todo(self) -> int:
-        """Number of points that are to be computed."""
+        """Number of points to be computed."""
         return int(self.missing.sum())
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
-    """What there is to do for a study whose archive is at `path`; computes nothing."""
+    """What is left to do for a study whose archive is at `path`; computes nothing."""
     from swtstudy.archive.known import known_records
 
     points = unique_points(study.grid)
@@ -61,7 +61,7 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
 
 
 def _dropped(table: FloatArray, known: Records, used: Records) -> Records:
-    """What is known of points that are not in a table; time of a run counts with what is used of it."""
+    """Known records of points that are not in a table; the time of a run counts where it is used."""
     everything = Records.missing(table)
     elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0
     rows = np.flatnonzero(elsewhere & (known.status != MISSING))
@@ -74,7 +74,7 @@ def _dropped(table: FloatArray, known: Records, used: Records) -> Records:
 
 
 def _unusable(table: FloatArray, known: Records, rtol: float) -> tuple[int, int]:
-    """Number of points that are known, but from another version of the solver, or with less accuracy."""
+    """Number of points known only from another version of the solver, or only with less accuracy."""
     if not len(known):
         return 0, 0
     there = known.status != MISSING
