@@ -1,4 +1,4 @@
-"""Results by canonical point, with what is known of how each was made."""
+"""Results by canonical point, with the origin of each."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ COMPUTED, FAILED, MISSING = range(3)
 
 @dataclass(frozen=True)
 class Run:
-    """What made some of the results.
+    """The run that made some of the results.
 
     Attributes
     ----------
     solver_version
-        Version of the mechanics' values.
+        Version of the solver; it changes when values do.
     rtol
-        Relative accuracy that was asked for.
+        Relative accuracy asked of s.
     study
         Text of the study file.
     versions
-        Versions of Python and of the packages that matter.
+        Versions of Python and of the packages that affect the numbers.
     started
         Date and time of its first result, ISO 8601.
     seconds
-        Computing time, summed over all workers.
+        Computing time in seconds, summed over all workers.
     """
 
     solver_version: str
@@ -61,7 +61,7 @@ class Records:
     run
         Index into `runs`, -1 where missing, shape (n,).
     runs
-        What made them.
+        The runs that made them.
     messages
         Why a point failed, by its index.
     """
@@ -78,7 +78,7 @@ class Records:
 
     @classmethod
     def missing(cls, table: FloatArray) -> Records:
-        """Records of points of which nothing is known yet."""
+        """Records of points that are all missing."""
         n = len(table)
         return cls(table, blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
 
@@ -113,7 +113,7 @@ class Records:
         return replace(self, runs=runs)
 
     def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
-        """Which of these can be used for a study with this accuracy and solver, shape (n,)."""
+        """Which records can be used for a study with this accuracy and solver, shape (n,)."""
         good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
         worst = COMPUTED if retry_failed else FAILED
         return np.array([*good, False])[self.run] & (self.status <= worst)
@@ -127,7 +127,7 @@ class Records:
 
 
 def join(parts: Iterable[Records]) -> Records:
-    """Records one after the other; equal runs become one, with their computing times added."""
+    """Records concatenated; equal runs become one, with their computing times added."""
     parts = list(parts)
     if not parts:
         return Records.missing(np.empty((0, len(COLUMNS))))
@@ -165,10 +165,10 @@ def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run,
 
 
 def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
-    """For every canonical row of a table the index of its record, or -1.
+    """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
-    Of several candidates for one point, a computed one comes before a failed one, then the most accurate,
-    then the latest.
+    Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
+    one, then the latest.
     """
     index = np.flatnonzero(candidates)
     if not len(index):
@@ -176,7 +176,7 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
     order = np.lexsort((-index, tolerance, records.status[index]))
     index = index[order]
-    # The first of equal rows wins: candidates in order of preference, then the table itself.
+    # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
     first, group = group_rows(np.concatenate([records.table[index], table]))
     winner = first[group[len(index) :]]
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
