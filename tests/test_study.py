@@ -215,7 +215,7 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
     [
         (FIGURE.replace('"phase"', '"psi"'), "figure.x", "not an axis"),
         (FIGURE.replace('"friction"', '"frictoin"'), "figure.hue", "did you mean friction?"),
-        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "used for x too"),
+        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "also used for x"),
         (FIGURE.replace('hue = "friction"', ""), "figure", "no place for the axis friction"),
         (FIGURE + 'panels = "profile"', "figure.panels", "not an axis"),
         (FIGURE + 'colour = "red"', "figure.colour", "known:"),
@@ -339,7 +339,7 @@ def test_the_figure_is_not_blamed_for_a_misspelt_axis(small_text):
 
 
 def test_an_integer_that_python_does_not_read_is_one_message():
-    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits to be read"):
+    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits; allowed"):
         Study.from_text(MINIMAL + "[fixed]\nfriction = " + 5000 * "9", "big.toml")
 
 
