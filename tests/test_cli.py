@@ -207,7 +207,7 @@ def test_show_draws_one_point(tmp_path):
     assert result.exit_code == 0, result.output
     assert target.read_bytes().startswith(b"%PDF")
     assert "phase: found '0,1'" in call("show", "--phase", "0,1").stderr
-    assert "ends in one of" in call("show", "-o", tmp_path / "point.docx").stderr
+    assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
 
 
 def test_plan_counts_and_writes_nothing(study, tmp_path):
@@ -295,7 +295,7 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr
-    assert "the same command goes on" in result.stderr
+    assert "the same command continues" in result.stderr
 
 
 def test_a_scheduler_that_is_not_there(study, tmp_path):

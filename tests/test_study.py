@@ -231,7 +231,7 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
         (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
         (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
         (FIGURE + 'vertical = "friction"', "figure.vertical", "none for"),
-        (FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"', "figure.panels", "x too"),
+        (FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"', "figure.panels", "also used for x"),
         (
             FIGURE.replace("hue", "vertical").replace("[0.1, 0.3]", "[0.1]") + 'kind = "contour"',
             "figure.vertical",
@@ -354,7 +354,7 @@ def test_a_syntax_error_is_one_message():
     ("name", "content", "message"),
     [
         ("absent.toml", None, "no such file"),
-        ("binary.toml", b"\xff\xfe\x00", "no UTF-8"),
+        ("binary.toml", b"\xff\xfe\x00", "not UTF-8"),
         ("nul\0.toml", None, "null"),
     ],
 )
