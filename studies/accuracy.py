@@ -1,4 +1,4 @@
-"""How accurate s is, and whether s_error says so: random points against the tightest tolerance.
+"""How accurate s is, and whether s_error bounds the error: random points against the tightest tolerance.
 
 Run as ``python studies/accuracy.py [points a profile]``; writes results/accuracy.md.
 """
@@ -47,7 +47,7 @@ def random_points(profile: str, count: int, seed: int) -> Points:
 
 
 def rows(profile: str, count: int) -> list[str]:
-    """Lines of the table for one profile."""
+    """The table's lines for one profile."""
     points = random_points(profile, count, seed=1)
     reference = solve_points(points, REFERENCE_RTOL).s
     regular = np.isfinite(reference)

@@ -231,7 +231,11 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
         (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
         (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
         (FIGURE + 'vertical = "friction"', "figure.vertical", "none for"),
-        (FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"', "figure.panels", "also used for x"),
+        (
+            FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"',
+            "figure.panels",
+            "also used for x",
+        ),
         (
             FIGURE.replace("hue", "vertical").replace("[0.1, 0.3]", "[0.1]") + 'kind = "contour"',
             "figure.vertical",

@@ -1,4 +1,4 @@
-"""Runs on dask.distributed: a worker killed half way; a scheduler and workers started on their own.
+"""Runs on dask.distributed: with a worker killed half way, and with separate scheduler and worker processes.
 
 python studies/checks/cluster.py > results/cluster.txt
 """
@@ -23,7 +23,7 @@ from swtstudy import Study, open_results, run
 
 
 def killed_worker(folder: Path, text: str, expected: xr.Dataset, seconds: float) -> None:
-    """A LocalCluster of two workers, one of which is killed half way."""
+    """Run on a LocalCluster of two workers, one of which is killed half way."""
     from distributed import Client, LocalCluster
 
     with (
@@ -42,7 +42,7 @@ def killed_worker(folder: Path, text: str, expected: xr.Dataset, seconds: float)
 
 
 def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
-    """`dask scheduler`, two `dask worker`, and `swtstudy run --scheduler`, each its own process."""
+    """Run with `dask scheduler`, two `dask worker` and `swtstudy run --scheduler`, each a process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

@@ -16,7 +16,7 @@ from swtstudy.cli.examples import examples
     epilog=examples(
         "swtstudy plot results/figure3.nc -o figure3.pdf",
         "swtstudy plot results/figure3.nc --y critical_x --y regime",
-        "swtstudy plot results/contour.nc --x phase --vertical normal_amplitude --kind heatmap --y critical_angle",
+        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle -o angle.png",
     )
 )
 @click.argument("archive", shell_complete=archive_completion)
