@@ -1,4 +1,4 @@
-"""What cannot be in an archive is named, wherever one is read."""
+"""Mistakes in an archive are named wherever it is read."""
 
 import re
 

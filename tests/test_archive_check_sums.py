@@ -1,4 +1,4 @@
-"""Damaged files are noticed; results that someone changed and saved are not damaged."""
+"""Damaged files are detected; results that a user changed and saved do not count as damaged."""
 
 import re
 import struct

@@ -1,4 +1,4 @@
-"""Names that no archive can have are found out before anything is computed."""
+"""Names that no archive can have are refused before anything is computed."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What is drawn of each quantity: values, places, names and colours."""
+"""How each quantity is drawn: values, places, names and colours."""
 
 import numpy as np
 import pytest
