@@ -1,4 +1,4 @@
-"""How accurate s is, and whether s_error says so: random points against the tightest tolerance.
+"""How accurate s is, and whether s_error bounds the error: random points against the tightest tolerance.
 
 Run as ``python studies/accuracy.py [points a profile] [--ends] [--seed n]``; writes results/accuracy.md,
 or, with ``--ends``, results/accuracy_ends.md: there the points crowd at the ends of the allowed ranges.

@@ -1,7 +1,7 @@
-"""How fast and how accurate the field beneath the contact is, beside other ways to it.
+"""How fast and how accurate the field beneath the contact is, compared with other methods.
 
-The stress of Table 1's cycle at ψ = 0 on the same points, in one process and one thread: this package;
-Hamilton's closed form (ContactMechanics), once for each slope of each instant; and the periodic half-space of
+The stress of Table 1's cycle at ψ = 0 at the same points, in one process and one thread: by this package; by
+Hamilton's closed form (ContactMechanics), for each slope of each instant; and by the periodic half-space of
 tamaas (extra ``bench``), which solves a whole grid for each instant. The points are nodes of that grid.
 
 Run from the project's folder: OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 python studies/field_speed.py
@@ -48,7 +48,7 @@ FULL, QUICK = Size(64, 128, 32, 2000, 200), Size(8, 16, 12, 20, 4)
 
 
 def timed(call, repeats=3):
-    """Result and shortest processor time of a call."""
+    """Result of a call, and its shortest processor time, s."""
     best = np.inf
     for _ in range(repeats):
         begin = time.process_time()
@@ -89,7 +89,7 @@ def by_hamilton(states, x, y, z):
 
 
 class Tamaas:
-    """A periodic half-space that is solved for one instant at a time."""
+    """A periodic half-space, solved for one instant at a time."""
 
     def __init__(self, grid, layers):
         import tamaas
@@ -155,7 +155,7 @@ def report(size):
 
 
 def plain_search(stress, normals):
-    """Largest swt over given planes: the straightforward way, E = 1 − ν²."""
+    """Largest swt over given planes in the straightforward way, with E = 1 − ν²."""
     x, y, z = normals.T
     on_planes = stress @ np.stack([x * x, y * y, z * z, 2 * y * z, 2 * x * z, 2 * x * y])
     trace = stress[..., :3].sum(axis=-1)[..., None]
@@ -187,7 +187,7 @@ def planes(size):
 
 
 def circle(size):
-    """What the solver's look along the circle through the critical point costs, as lines of Markdown."""
+    """Cost of the solver's search along the circle through the critical point, as lines of Markdown."""
     phase = np.linspace(0.0, np.pi, size.phases)
     one = np.ones(len(phase))
     ratio = one.astype(int)

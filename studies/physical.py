@@ -4,7 +4,8 @@ Run from the project's folder: python studies/physical.py > results/physical.txt
 
 Elastic and strain–life constants: N. E. Dowling, Mechanical Behavior of Materials, 4th ed., Pearson 2013,
 Table 14.1 (2024-T351: E = 73.1 GPa, σf′ = 927 MPa, b = −0.113, εf′ = 0.409, c = −0.713); ν = 0.33.
-The radius of 50 µm, over which swt is averaged, is no constant of the material: it shows how much it matters.
+The radius of 50 µm over which swt is averaged is not a constant of the material: it shows how much averaging
+matters.
 """
 
 import numpy as np

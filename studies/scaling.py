@@ -1,7 +1,7 @@
-"""How the cost of a value scales, and what a notebook's user waits for at the start.
+"""How the cost of a value scales, and how long start-up takes.
 
-Processor time a value against the points solved in one call, against 1/rtol, and against q in ω2/ω1 = 1/q and
-p in ω2/ω1 = p; the memory of a call; start-up in processes of their own. Run from the project's folder:
+Processor time per value over the points solved in one call, over 1/rtol, and over q in ω2/ω1 = 1/q and p in
+ω2/ω1 = p; the memory of a call; start-up of new processes. Run from the project's folder:
 ``OMP_NUM_THREADS=1 python studies/scaling.py``; writes results/scaling.png and results/scaling.md.
 """
 
@@ -24,7 +24,7 @@ COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 TERMS = (1, 2, 4, 8, 16, 32, 64)
 REPEATS = 3
-#: Samples of each sweep that are left in a quick run.
+#: Number of samples of each sweep in a quick run.
 FEW = 3
 #: Points in a call, p and q, whose memory is measured.
 BATCHES = ((1, 1, 1), (64, 1, 1), (4096, 1, 1), (64, 1, 4), (2, 1, 64), (2, 32, 1))
@@ -42,7 +42,7 @@ PEAK = (
 
 
 def batch(count: int, p: int = 1, q: int = 1) -> Points:
-    """So many points of Table 1 that differ in ψ; the tangential path is as long for every frequency."""
+    """Points of Table 1 that differ in ψ; the tangential path has the same length for every frequency."""
     one = np.ones(count)
     whole = np.ones(count, dtype=int)
     amplitude = 5 / 6 * min(1.0, q / p) * one
@@ -51,7 +51,7 @@ def batch(count: int, p: int = 1, q: int = 1) -> Points:
 
 
 def milliseconds(points: Points, rtol: float) -> float:
-    """Median processor time a value; one run where that takes long."""
+    """Median processor time per value, ms; from a single run where that takes long."""
     times: list[float] = []
     while len(times) < REPEATS and sum(times) < 20.0:
         begin = time.process_time()
@@ -61,7 +61,7 @@ def milliseconds(points: Points, rtol: float) -> float:
 
 
 def growth(x: Sequence[float], y: Sequence[float]) -> float:
-    """Exponent of the power law through the second half of the samples."""
+    """Exponent of the power law fitted to the second half of the samples."""
     half = len(x) // 2
     return float(np.polyfit(np.log(x[half:]), np.log(y[half:]), 1)[0])
 
@@ -92,7 +92,7 @@ def main() -> None:
 
 
 def report(results: Path, few: int | None, batches: int | None, some: int, repeats: int) -> None:
-    """Measure, and leave chart and tables: ``few`` samples, ``some`` points in a call."""
+    """Measure, and write chart and tables: ``few`` samples of each sweep, ``some`` points in a call."""
     sweeps: dict[str, tuple[str, Sequence[float], Callable[[float], float]]] = {
         "points": ("points in a call", COUNTS, lambda n: milliseconds(batch(int(n)), 1e-4)),
         "rtol": ("1/rtol", [1 / r for r in RTOLS], lambda r: milliseconds(batch(some), 1 / r)),

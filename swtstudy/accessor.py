@@ -1,4 +1,4 @@
-"""``ds.swt`` on every Dataset of results: short names for functions that stand elsewhere."""
+"""``ds.swt`` on every Dataset of results: short names for functions defined elsewhere."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from swtstudy.results.select import TOLERANCE
+from swtstudy.grid.nearest import TOLERANCE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @xr.register_dataset_accessor("swt")
 class SwtAccessor:
-    """What can be done with results of `solve`, `run` and `open_results`, also after xarray's operations.
+    """Evaluation of results of `solve`, `run` and `open_results`, also after xarray's own operations.
 
     Registered as ``Dataset.swt`` once `swtstudy` and xarray are both imported, in any order.
 
@@ -37,7 +37,7 @@ class SwtAccessor:
     def figure(self, style: Style | None = None) -> Figure:
         """The figure that the study asks for; see `swtstudy.figures.draw.draw`.
 
-        A dimension that has been sliced away leaves its place in the layout.
+        A dimension that has been sliced away is removed from the layout.
         """
         from swtstudy.figures.draw import draw
 
@@ -55,7 +55,7 @@ class SwtAccessor:
         regimes: bool = False,
         style: Style | None = None,
     ) -> Figure:
-        """A figure of one's own: the same keys as in a study's ``[figure]``.
+        """A figure with a layout of your own, by the keys of a study's ``[figure]``.
 
         ``y`` may name any data variable of the Dataset.
         """
@@ -79,13 +79,13 @@ class SwtAccessor:
         return quantity(self._dataset, f"s/s({place})")
 
     def extrema(self, dim: str) -> xr.Dataset:
-        """Least and greatest s along a dimension, and where; see `swtstudy.results.extrema.extrema`."""
+        """Least and greatest s along a dimension; see `swtstudy.results.extrema.extrema`."""
         from swtstudy.results.extrema import extrema
 
         return extrema(self._dataset, dim)
 
     def to_table(self) -> pd.DataFrame:
-        """One row a point; see `swtstudy.results.table.to_table`."""
+        """A table with one row per point; see `swtstudy.results.table.to_table`."""
         from swtstudy.results.table import to_table
 
         return to_table(self._dataset)

@@ -1,4 +1,4 @@
-"""The accuracy that may be asked of s."""
+"""The relative accuracy that may be asked of s."""
 
 from __future__ import annotations
 
@@ -13,5 +13,5 @@ ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
 
 
 def is_rtol(raw: object) -> bool:
-    """Whether a value can be asked for as relative accuracy."""
+    """Whether a value is allowed as relative accuracy."""
     return SMALLEST_RTOL <= plain_number(raw) <= LARGEST_RTOL

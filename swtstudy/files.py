@@ -1,4 +1,4 @@
-"""Files that are either there in full or not at all."""
+"""Files that are either complete or absent."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from pathlib import Path
 
 
 def check_writable(path: str | PathLike[str]) -> None:
-    """Make sure that a file can be written at `path`; its folder is made if it is not there.
+    """Make sure that a file can be written to `path`; its folder is created if needed.
 
     Raises
     ------
     OSError
-        If it cannot; the message names the folder.
+        If it cannot be written; the message names the folder.
     """
     path = Path(path)
     if path.is_dir():
@@ -32,12 +32,10 @@ def check_writable(path: str | PathLike[str]) -> None:
 
 @contextmanager
 def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator[Path]:
-    """A temporary file that takes the place of `path` when the block ends without an error.
+    """A temporary file that replaces the file at `path` when the block ends without an error.
 
-    The temporary file is in the same folder, or in `folder`, which must be on the same file system.
-
-    The data is on the disk before the name points to it, so that neither a kill nor a power cut leaves
-    half a file.
+    The temporary file is in the same folder, or in `folder`, which must be on the same file system. Its data
+    is on the disk before it gets its name, so that neither a kill nor a power cut leaves half a file.
     """
     path = Path(path)
     handle, name = _temporary(path, folder or path.parent)
@@ -45,7 +43,7 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     temporary = Path(name)
     try:
         yield temporary
-        # mkstemp makes files that only their owner can read.
+        # mkstemp creates files that only their owner can read.
         temporary.chmod(0o666 & ~_umask())
         _sync(temporary)
         os.replace(temporary, path)

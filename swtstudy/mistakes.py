@@ -13,7 +13,7 @@ from typing import TypeGuard
 
 from swtstudy.parameters import SYMBOLS, spelled
 
-#: Builds a mistake from key, found and allowed; knows where the input came from.
+#: Called with key, found and allowed of a mistake; knows the source of the input.
 Report = Callable[[str, str, str], None]
 
 
@@ -42,7 +42,7 @@ class Mistake:
         place = ": ".join(part for part in (self.source, self.key) if part)
         message = f"found {self.found}; allowed: {self.allowed}"
         line = f"{place}: {message}" if place else message
-        # One line whatever is in a name or a value.
+        # One line, whatever characters a name or a value contains.
         return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
@@ -64,34 +64,35 @@ class StudyError(ValueError):
 
 
 def literal(value: object, longest: int = 60) -> str:
-    """A value as it stands in a message: like Python writes it, on one line, shortened if long."""
+    """A value as shown in a message: its Python literal on one line, shortened if long."""
     try:
         text = re.sub(r"\s*\n\s*", " ", repr(value))
-    except ValueError:  # Python writes no integers of more than 4,300 digits
+    except ValueError:  # Python refuses to write integers of more than 4,300 digits
         text = f"{type(value).__name__} with too many digits to be shown"
-    except Exception:  # the word of another's code must not hide the mistake
+    except Exception:  # a failing repr of foreign code must not hide the mistake
         text = f"{type(value).__name__} that cannot be shown"
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
 def plain(value: object) -> object:
-    """What a NumPy scalar or an array without dimensions holds; all else, and what is masked, as it is."""
+    """The value in a NumPy scalar or zero-dimensional array; anything else, or a masked value, unchanged."""
     array = getattr(value, "ndim", None) == 0 and hasattr(value, "item")
-    # Its item would be a number where the value is masked, or a time in nanoseconds.
+    # The item of a masked value or of a time would be a plain number.
     if not array or getattr(value, "mask", False) or getattr(value, "dtype", None).kind in "mM":  # type: ignore[union-attr]
         return value
     return value.item()  # type: ignore[attr-defined]
 
 
 def is_number(value: object) -> TypeGuard[Real | Decimal]:
-    """Whether a value is a real number, and neither a truth value nor a time."""
-    # NumPy's bool is no Real, Python's is; and so is NumPy's timedelta64, told here without its import.
+    """Whether a value is a real number, and not a truth value or a time."""
+    # Python's bool and NumPy's timedelta64 are registered as Real; the latter is detected without importing
+    # NumPy.
     is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
     return isinstance(value, Real | Decimal) and not isinstance(value, bool) and not is_time
 
 
 def plain_number(value: object) -> float:
-    """A plain number as a float; NaN, which no range holds, for all else."""
+    """A number as a float; NaN, which is in no range, for anything else."""
     value = plain(value)
     if not is_number(value):
         return math.nan
@@ -104,7 +105,7 @@ def plain_number(value: object) -> float:
 
 
 def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
-    """What is allowed where an unknown name stands: the one that was meant first.
+    """What is allowed in place of an unknown name, beginning with the one that was probably meant.
 
     Examples
     --------
@@ -121,7 +122,7 @@ def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, st
 
 
 def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
-    """The known name that an unknown one is a symbol of or comes near to, if any."""
+    """The known name whose symbol or misspelling an unknown name is, if there is one."""
     known = list(known)
     named, _ = symbols.get(spelled(name), ("", ""))
     if named in known:

@@ -1,4 +1,4 @@
-"""Arrays of numbers as a user gives them: masked values are NaN, and what is no number is a mistake."""
+"""Reading arrays of numbers from users: masked values become NaN, anything but a number is a mistake."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
     Parameters
     ----------
     key, allowed
-        Where the values come from and what is allowed there, for the message.
+        Name of the values, and what is allowed for them, for messages.
     values
         A number, also a Fraction, or nested sequences or an array of them.
 
@@ -26,7 +26,8 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
     Raises
     ------
     StudyError
-        If there is anything but real numbers: text, truth values, complex numbers, times, ragged sequences.
+        If there is anything but real numbers, such as text, truth values, complex numbers, times or ragged
+        sequences.
     """
     mistake = StudyError([Mistake(key, literal(values), allowed)])
     try:

@@ -1,7 +1,7 @@
-"""The accessor ``swt`` for Datasets as soon as there are any, without importing xarray for it.
+"""Registering the accessor ``swt`` as soon as xarray is imported, without importing xarray for it.
 
-xarray has no entry point for accessors: a package registers its own when it is imported. This package does
-not import xarray, which takes ten times as long as the package itself, before it is needed.
+xarray has no entry point for accessors: a package registers its own when it is imported. This package imports
+xarray, which takes ten times as long as the package itself, only when it is needed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from types import ModuleType
 
 
 def register_with_xarray() -> None:
-    """Register the accessor: now if xarray has been imported, else right after it is."""
+    """Register the accessor: now if xarray has been imported, otherwise as soon as it is."""
     if "xarray" in sys.modules:
         importlib.import_module("swtstudy.accessor")
     else:
@@ -23,7 +23,7 @@ def register_with_xarray() -> None:
 
 
 class _AfterXarray:
-    """Finds nothing itself; lets the loader of xarray register the accessor when it has done its work."""
+    """An import hook that finds no modules itself; it makes the loader of xarray register the accessor."""
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None

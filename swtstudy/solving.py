@@ -1,4 +1,4 @@
-"""s for named parameters: the shortest way from Python."""
+"""s for named parameters, computed in this process."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     """Normalised SWT parameter s on the grid spanned by named parameters.
 
-    Computes in this process; for a large grid write a study and `run` it.
+    Computes in this process; for a large grid write a study and `swtstudy.run` it.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     -------
     xarray.Dataset
         s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
-        the surface line is not enough), with the sequences as dimensions in the order given and the single
-        values as scalar coordinates; the attributes say by which version and to which rtol. Where s is 0 or
-        not finite there is no critical point: critical_x and critical_angle are NaN.
+        the surface line is not enough). Sequences become dimensions, in the order given, and single values
+        scalar coordinates; the attributes state the version and rtol.
+        Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN.
 
     Raises
     ------
@@ -81,10 +81,10 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
 
 
 def _dimensions(raw: object) -> int:
-    """How many dimensions a value has; text and bytes, which are sequences too, have none."""
+    """Number of dimensions of a value; 0 for text and bytes, although they are sequences."""
     if isinstance(raw, str | bytes | bytearray | memoryview):
         return 0
     try:
         return np.ndim(raw)  # type: ignore[arg-type]
     except (TypeError, ValueError):
-        return 2  # ragged, or no array at all
+        return 2  # ragged, or not an array at all

@@ -1,4 +1,4 @@
-"""Many studies in one go, each with its archive and its figures."""
+"""Running many studies at once, each with its archive and its figures."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ def run_suite(
     formats: Iterable[str] = ("png",),
     **options: Any,
 ) -> dict[str, xr.Dataset]:
-    """Compute every study in a folder, and leave its archive and its figures.
+    """Compute every study in a folder, and write their archives and figures.
 
     Parameters
     ----------
     folder
         Folder with study files (TOML); by default the studies of the paper, which come with the package.
     results
-        Folder for archives and figures, each named after its study.
+        Folder for archives and figures, which are named after their studies.
     formats
         Formats of the figures: "png", "pdf", "svg".
     **options
-        Passed on to `swtstudy.run`.
+        Further arguments of `swtstudy.run`.
 
     Returns
     -------
-    dict
+    dict of xarray.Dataset
         The archives, loaded, by the name of the study.
 
     Raises

@@ -1,4 +1,4 @@
-"""Values and names as they stand in a figure."""
+"""Names and values as they appear in figures and messages."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from swtstudy.parameters import PARAMETERS
 if TYPE_CHECKING:
     from matplotlib.axis import Axis
 
-#: A float this close, relatively, to a fraction or a root is taken for it.
+#: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
 _TOLERANCE = 1e-9
+#: Fractions with larger denominators are harder to read than decimals.
 _LARGEST_DENOMINATOR = 20
 
 
 def parameter_words(name: str) -> str:
-    """Symbol of a parameter, ready for matplotlib.
+    """Symbol of a parameter, as matplotlib's math text.
 
     Examples
     --------
@@ -102,10 +103,11 @@ def _fraction(value: float, largest: int) -> Fraction | None:
 
 
 def tick_in_pi(axis: Axis, low: float, high: float) -> None:
-    """Ticks at multiples of π/4 or π/2, or coarser ones over a long range."""
+    """Put ticks at multiples of π/4, or at coarser ones over a long range."""
     span = (high - low) / math.pi
     step = next((step for step in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / step <= 6), None)
     step = step or Fraction(math.ceil(span / 6))
-    first, last = math.ceil(low / math.pi / step - 1e-9), math.floor(high / math.pi / step + 1e-9)
+    first = math.ceil(low / math.pi / step - _TOLERANCE)
+    last = math.floor(high / math.pi / step + _TOLERANCE)
     multiples = [step * index for index in range(first, last + 1)]
     axis.set_ticks([float(multiple) * math.pi for multiple in multiples], list(map(pi_words, multiples)))

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from swtstudy.audit.point import Finding
-from swtstudy.audit.table import findings_dataset
+from swtstudy.audit.point import AuditedPoint
+from swtstudy.audit.table import audit_dataset
 from swtstudy.grid.canonical import COLUMNS
 
 #: Phases over one turn, its end included.
@@ -46,8 +46,8 @@ def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset
     )
 
 
-def made_up_finding(**changes: object) -> Finding:
-    """A finding on the surface line, but for the changes."""
+def made_up_point(**changes: object) -> AuditedPoint:
+    """An audited point with its maximum on the surface line, but for the changes."""
     line = {
         "s": 1.0,
         "s_surface": 1.0,
@@ -58,14 +58,14 @@ def made_up_finding(**changes: object) -> Finding:
         "position": np.array([1.0, 0.0, 0.0]),
         "normal": np.array([1.0, 0.0, 0.0]),
     }
-    return Finding(**(line | changes))
+    return AuditedPoint(**(line | changes))
 
 
 def made_up_audit(on_line: int = 3, off_line: int = 0) -> xr.Dataset:
     """An audit with so many points whose maximum is on the line, at ν = 0.3, and off it, at ν = 0.45."""
     off = {"s_body": 1.04, "s_surface": 1.04, "position": np.array([0.8, 0.6, 0.0])}
-    findings = [made_up_finding()] * on_line + [made_up_finding(**off)] * off_line
-    rows = np.zeros((len(findings), len(COLUMNS)))
-    rows[:, COLUMNS.index("phase")] = np.arange(len(findings))
+    points = [made_up_point()] * on_line + [made_up_point(**off)] * off_line
+    rows = np.zeros((len(points), len(COLUMNS)))
+    rows[:, COLUMNS.index("phase")] = np.arange(len(points))
     rows[:, COLUMNS.index("poisson_ratio")] = [0.3] * on_line + [0.45] * off_line
-    return findings_dataset(rows, findings).assign_attrs(title="made up")
+    return audit_dataset(rows, points).assign_attrs(title="made up")

@@ -1,4 +1,4 @@
-"""What must hold of every result of the solver, and a few short cuts for the tests of its stability."""
+"""What must hold for every result of the solver, and helpers for the tests of its stability."""
 
 from __future__ import annotations
 

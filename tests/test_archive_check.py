@@ -1,4 +1,4 @@
-"""What cannot be in an archive is named, wherever one is read."""
+"""Mistakes in an archive are named wherever it is read."""
 
 import re
 
@@ -58,10 +58,10 @@ DEEP = "[" * 100_000 + "]" * 100_000
 RUN = '{"solver_version": "3", "rtol": "1e-3", "study": "", "versions": ""}'
 BAD_ATTRIBUTES = [
     ("figure", 3, "attribute figure: found 3"),
-    ("figure", "[1]", r"attribute figure: found '\[1\]' \(no table\)"),
+    ("figure", "[1]", r"attribute figure: found '\[1\]' \(not a table\)"),
     ("figure", '{"x": null}', "attribute figure: found '{\"x\": null}'"),
     ("figure", '{"x": null, "y": ["s"]}', "attribute figure"),
-    ("figure", '{"x": "phase", "y": ["t"]}', "attribute figure: .*not a quantity"),
+    ("figure", '{"x": "phase", "y": ["s/t"]}', "attribute figure: .*not a quantity"),
     ("figure", '{"x": "phase", "y": [], "kind": "lines"}', "attribute figure: .*y: found an empty list"),
     ("figure", '{"x": "phase", "y": ["s"], "kind": ["lines"]}', "attribute figure"),
     ("history", None, r"not an archive of swtstudy \(no history\)"),
@@ -73,13 +73,13 @@ BAD_ATTRIBUTES = [
     ("rtol", "tight", "attribute rtol: found 'tight'; allowed: a number in"),
     ("rtol", 0.5, "attribute rtol: found 0.5; allowed: a number in"),
     ("wall_time_seconds", "long", "attribute wall_time_seconds: found 'long'"),
-    ("runs", "{}", "attribute runs: .*no list"),
+    ("runs", "{}", "attribute runs: .*not a list"),
     ("runs", DEEP, "attribute runs: .*nested too deeply"),
-    ("runs", "[1]", "attribute runs: .*no run: 1"),
-    ("runs", "no", "attribute runs: .*no JSON"),
+    ("runs", "[1]", "attribute runs: .*not a run: 1"),
+    ("runs", "no", "attribute runs: .*not JSON"),
     ("runs", f"[{RUN}]", "attribute runs: .*rtol of a run: '1e-3'"),
     ("runs", '[{"rtol": 1e-3}]', "attribute runs: .*solver_version of a run: nothing"),
-    ("status failures", "[3]", "attribute failures of status: .*no failure: 3"),
+    ("status failures", "[3]", "attribute failures of status: .*not a failure: 3"),
     ("status failures", '[{"row": [[]], "point": "", "message": ""}]', "attribute failures of status"),
     ("status failures", DEEP, "attribute failures of status: .*nested too deeply"),
     ("status failures", None, r"\(no attribute failures of status\)"),

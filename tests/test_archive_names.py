@@ -1,4 +1,4 @@
-"""Names that no archive can have are found out before anything is computed."""
+"""Names that no archive can have are refused before anything is computed."""
 
 import re
 from pathlib import Path
@@ -15,7 +15,7 @@ from swtstudy.cli import main
     ("stem", "words"),
     [
         ("back\\slash", "found a backslash"),
-        ("no\udcffutf8", "found bytes that are no UTF-8"),
+        ("no\udcffutf8", "found bytes that are not UTF-8"),
         ("n" * 242, "found a name of 245 bytes; allowed: at most 244"),
         ("ν" * 121, "found a name of 245 bytes; allowed: at most 244"),
         ("null\0", "found a null character"),

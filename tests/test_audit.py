@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from made_up import made_up_audit, made_up_finding
+from made_up import made_up_audit, made_up_point
 
 from swtstudy.archive.write import save
 from swtstudy.audit.audit import audit_study, sample_rows
 from swtstudy.audit.point import VERDICTS
 from swtstudy.audit.report import report
-from swtstudy.audit.table import canonical_rows, findings_dataset, open_audit, read_findings
+from swtstudy.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
 from swtstudy.cli import main
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.study.definition import Study
@@ -52,14 +52,14 @@ def test_a_larger_sample_extends_a_smaller_one():
     ],
 )
 def test_verdicts(changes, verdict):
-    assert made_up_finding(**changes).verdict == verdict
+    assert made_up_point(**changes).verdict == verdict
 
 
-def test_findings_are_read_as_they_were_written(tmp_path):
+def test_audited_points_are_read_as_they_were_written(tmp_path):
     written = made_up_audit(on_line=2, off_line=1)
     save(written, tmp_path / "audit.nc")
-    read = read_findings(open_audit(tmp_path / "audit.nc"))
-    again = findings_dataset(np.array(list(read)), list(read.values()))
+    read = audited_points(open_audit(tmp_path / "audit.nc"))
+    again = audit_dataset(np.array(list(read)), list(read.values()))
     for name in written.variables:
         np.testing.assert_array_equal(again[name], written[name])
     np.testing.assert_array_equal(list(read), canonical_rows(written))
@@ -79,7 +79,7 @@ def test_a_damaged_audit_is_named(tmp_path):
     content = path.read_bytes()
     assert b"paraboloid" in content
     path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
-    with pytest.raises(ValueError, match=f"^{path}: a damaged file: profile not as written"):
+    with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum of profile"):
         open_audit(path)
 
 

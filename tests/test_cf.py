@@ -1,4 +1,4 @@
-"""Archives keep to the CF conventions, says the checker of IOOS."""
+"""Archives follow the CF conventions, according to the IOOS checker."""
 
 import json
 

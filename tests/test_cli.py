@@ -37,7 +37,7 @@ def test_run_leaves_archive_and_figures(study, tmp_path):
     assert (dataset.s > 0).all()
     assert f"{dataset.s.size} points in " in result.output
     again = call("run", study, "--results", tmp_path / "results")
-    assert f"{dataset.s.size} points all there already" in again.output
+    assert f"{dataset.s.size} points already computed" in again.output
 
 
 def test_plot_needs_the_archive_alone(study, tmp_path):
@@ -185,7 +185,7 @@ def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
     [
         (
             ["solve", "--friction", "0.3", "--friction=0.6"],
-            "--friction: found 2 times; allowed: once, several values between commas",
+            "--friction: found 2 times; allowed: once, with values separated by commas",
         ),
         (["show", "--phase", "0", "--phase", "0"], "--phase: found 2 times; allowed: once"),
         (["show", "-o", "a.png", "--output", "b.png"], "--output: found 2 times; allowed: once"),
@@ -207,7 +207,7 @@ def test_show_draws_one_point(tmp_path):
     assert result.exit_code == 0, result.output
     assert target.read_bytes().startswith(b"%PDF")
     assert "phase: found '0,1'" in call("show", "--phase", "0,1").stderr
-    assert "ends in one of" in call("show", "-o", tmp_path / "point.docx").stderr
+    assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
 
 
 def test_plan_counts_and_writes_nothing(study, tmp_path):
@@ -218,7 +218,7 @@ def test_plan_counts_and_writes_nothing(study, tmp_path):
     assert "points timed" in result.output
     assert not (tmp_path / "results").exists()
     call("run", study, "--results", tmp_path / "results")
-    assert "there already      8" in call("plan", study, "--results", tmp_path / "results").output
+    assert "already computed   8" in call("plan", study, "--results", tmp_path / "results").output
 
 
 def test_info_says_what_an_archive_is(study, tmp_path):
@@ -295,7 +295,7 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr
-    assert "the same command goes on" in result.stderr
+    assert "the same command continues" in result.stderr
 
 
 def test_a_scheduler_that_is_not_there(study, tmp_path):
@@ -445,7 +445,7 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     (tmp_path / "my_first.toml").write_text("mine")
     result = call("new", "my_first.toml")
     assert result.exit_code == 2
-    assert "is there already" in result.stderr
+    assert "already exists" in result.stderr
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 

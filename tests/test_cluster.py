@@ -92,7 +92,7 @@ def test_a_cluster_without_workers_is_said_and_so_is_one_that_is_gone(tmp_path):
     (tmp_path / "line.toml").write_text(WIDE)
     here = os.path.dirname(__file__)
     code = (
-        "import swtstudy.runner.cluster as cluster\ncluster._LOOK_SECONDS = 0.5\nimport stand_in\n"
+        "import swtstudy.runner.cluster as cluster\ncluster._CHECK_SECONDS = 0.5\nimport stand_in\n"
         "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
         "run.run.__kwdefaults__['solver'] = stand_in.slow\n"
         f"main(['run', 'line.toml', '--scheduler', '{address}'])"

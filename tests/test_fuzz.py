@@ -1,4 +1,4 @@
-"""Whatever is in a file: a clear message or success, never another exception, never a damaged file."""
+"""Any content of a file gives success or a clear message, never another exception, never a damaged file."""
 
 from __future__ import annotations
 

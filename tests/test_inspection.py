@@ -1,4 +1,4 @@
-"""One point explained: its numbers against the solver and the textbook method, and its picture."""
+"""One point explained: its numbers against the solver and the textbook method, and its figure."""
 
 import numpy as np
 import pytest

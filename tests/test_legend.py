@@ -1,4 +1,4 @@
-"""Legends that are never cut, and the scale of colours of many lines."""
+"""Legends that are never cut off, and the colour scale of many lines."""
 
 from io import BytesIO
 

@@ -1,4 +1,4 @@
-"""How curves vary, in numbers."""
+"""Measures of how curves vary."""
 
 import math
 

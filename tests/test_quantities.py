@@ -1,4 +1,4 @@
-"""What is drawn of each quantity: values, places, names and colours."""
+"""How each quantity is drawn: values, places, names and colours."""
 
 import numpy as np
 import pytest
@@ -244,7 +244,7 @@ def test_long_ranges_are_logarithmic_where_values_allow_it():
         ({"y": "name"}, "values of type"),
         ({"y": "path"}, "values over step"),
         ({"y": []}, "empty list"),
-        ({"hue": "phase"}, "figure.hue: found 'phase', used for x too; allowed: each axis once"),
+        ({"hue": "phase"}, "figure.hue: found 'phase', also used for x; allowed: each axis once"),
         ({"hue": None}, "no place for the axis friction"),
         ({"title": "$x^2^3$"}, "figure.title: .*Double superscript"),
         ({"regimes": True}, "figure.regimes"),

@@ -1,4 +1,4 @@
-"""Names of what is in results, and their least and greatest values, whatever selection is looked at."""
+"""Names in results, and their least and greatest values, for any selection."""
 
 import numpy as np
 import pytest

@@ -236,7 +236,7 @@ def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monke
 
 
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("swtstudy.archive.parts._GATHERED", 3)
+    monkeypatch.setattr("swtstudy.archive.parts._JOINED", 3)
     path = tmp_path / "line.nc"
     # One block a chunk: the pace is taken for very slow.
     monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)
@@ -314,7 +314,7 @@ def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, largest
     limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({largest}, {largest}))\n"
     done = subprocess.run(command_of(tmp_path, LINE, limit), timeout=60, capture_output=True, text=True)
     assert done.returncode == 2
-    said = re.fullmatch(f"Error: {words} are saved beside .*; once that is mended .*\n", done.stderr)
+    said = re.fullmatch(f"Error: {words} are saved beside .*; once that is fixed, .*\n", done.stderr)
     assert said
     assert points_saved(parts_folder(path)) == int(said[1])
     counting = stand_in.Counting()

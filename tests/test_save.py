@@ -1,4 +1,4 @@
-"""What a process that is ended while it draws leaves behind."""
+"""What a process that is killed while drawing leaves behind."""
 
 import signal
 import subprocess

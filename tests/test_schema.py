@@ -1,4 +1,4 @@
-"""What an editor says about a study by its schema, and what `validate` says."""
+"""What an editor reports about a study from its schema, and what `validate` reports."""
 
 import json
 import tomllib

@@ -1,4 +1,4 @@
-"""Every script of the studies in a process of its own, as shown in pages; on few points if it has --quick."""
+"""Every script of the studies in its own process, as the pages show it; with --quick if it has that."""
 
 import ast
 import os

@@ -1,4 +1,4 @@
-"""Each study of the paper on a few of its points: the number that the study is about."""
+"""Each study of the paper on a few of its points: its main result."""
 
 from pathlib import Path
 

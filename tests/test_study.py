@@ -215,7 +215,7 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
     [
         (FIGURE.replace('"phase"', '"psi"'), "figure.x", "not an axis"),
         (FIGURE.replace('"friction"', '"frictoin"'), "figure.hue", "did you mean friction?"),
-        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "used for x too"),
+        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "also used for x"),
         (FIGURE.replace('hue = "friction"', ""), "figure", "no place for the axis friction"),
         (FIGURE + 'panels = "profile"', "figure.panels", "not an axis"),
         (FIGURE + 'colour = "red"', "figure.colour", "known:"),
@@ -231,7 +231,11 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
         (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
         (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
         (FIGURE + 'vertical = "friction"', "figure.vertical", "none for"),
-        (FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"', "figure.panels", "x too"),
+        (
+            FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"',
+            "figure.panels",
+            "also used for x",
+        ),
         (
             FIGURE.replace("hue", "vertical").replace("[0.1, 0.3]", "[0.1]") + 'kind = "contour"',
             "figure.vertical",
@@ -291,6 +295,12 @@ def test_normalised_quantities_are_accepted():
     assert len(study.figure.y) == 3
 
 
+def test_the_place_of_a_normalised_quantity_is_found_as_in_a_slice():
+    assert Study.from_text(MINIMAL + FIGURE + 'y = "s/s(friction=0.10000001)"').figure is not None
+    with pytest.raises(StudyError, match=r"0\.10001 is not on that axis"):
+        Study.from_text(MINIMAL + FIGURE + 'y = "s/s(friction=0.10001)"')
+
+
 def test_every_mistake_is_reported_at_once():
     mistakes = mistakes_of(
         """
@@ -333,7 +343,7 @@ def test_the_figure_is_not_blamed_for_a_misspelt_axis(small_text):
 
 
 def test_an_integer_that_python_does_not_read_is_one_message():
-    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits to be read"):
+    with pytest.raises(StudyError, match=r"^big\.toml: found an integer with too many digits; allowed"):
         Study.from_text(MINIMAL + "[fixed]\nfriction = " + 5000 * "9", "big.toml")
 
 
@@ -348,7 +358,7 @@ def test_a_syntax_error_is_one_message():
     ("name", "content", "message"),
     [
         ("absent.toml", None, "no such file"),
-        ("binary.toml", b"\xff\xfe\x00", "no UTF-8"),
+        ("binary.toml", b"\xff\xfe\x00", "not UTF-8"),
         ("nul\0.toml", None, "null"),
     ],
 )

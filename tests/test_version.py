@@ -1,4 +1,4 @@
-"""Values of s that change belong to another version of the solver: archives of different ones never mix."""
+"""Changed values of s need a new version of the solver: archives of different versions never mix."""
 
 import numpy as np
 import pytest

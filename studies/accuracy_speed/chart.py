@@ -1,4 +1,4 @@
-"""The chart: error of s against processor time a value, one panel a scene."""
+"""The chart: error of s over processor time per value, with a panel for each scene."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from methods import Sample
 
-#: Errors below this are rounding of the reference, and are drawn here.
+#: Errors below this are rounding errors of the reference; they are drawn at this value.
 SMALLEST_ERROR = 1e-9
 STYLES = {
     "this solver, in batches of 64": ("#0072B2", "o", "-"),

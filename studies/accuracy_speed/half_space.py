@@ -1,4 +1,4 @@
-"""Peer: surface stresses by the periodic FFT half-space of tamaas, from this package's contact solution."""
+"""Compared method: surface stress by the periodic half-space of tamaas, from this package's tractions."""
 
 from __future__ import annotations
 
@@ -50,5 +50,5 @@ def half_space_s(point: Points, side: int) -> float:
         line[instant] = stress[0, :, side // 2]
     xx, yy, zz, _, xz = (line[..., k].T for k in range(5))
     zero = np.zeros_like(xx)
-    # brute_force looks at both signs of x by the sign of the tangential part; here x itself has both.
+    # brute_force covers both signs of x by the sign of the tangential part; here x itself has both signs.
     return brute_force((xx, yy, zz, zero, zero, xz / np.sqrt(2.0)), nu, PLANES)[0]

@@ -1,4 +1,4 @@
-"""The ways to s that the chart compares: each a curve of (resolution, s, processor seconds a value)."""
+"""The methods that the chart compares: each gives a curve of (resolution, s, processor seconds per value)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Sample(NamedTuple):
 
 
 def timed(call: Callable[[], float], values: int = 1) -> tuple[float, float]:
-    """The call's result and its median processor time a value; slow calls are made once."""
+    """The result of a call, and its median processor time per value, s; slow calls are made once."""
     times: list[float] = []
     while len(times) < REPEATS and sum(times) < PATIENCE / REPEATS:
         begin = time.process_time()

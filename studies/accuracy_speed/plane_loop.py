@@ -1,4 +1,4 @@
-"""Peer: the plane search as critical-plane packages write it, a Python loop over a hemisphere of normals."""
+"""Compared method: the search of critical-plane packages, a Python loop over a hemisphere of normals."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swtstudy.mechanics.stress.history import stresses
 
 
 def plane_loop_s(point: Points, x: float, step: float) -> float:
-    """Largest swt over planes every ``step`` degrees, at one given place."""
+    """Largest swt over planes every ``step`` degrees, at a given position."""
     nu = point.poisson_ratio.item()
     history = history_at(point, np.array([abs(x)]))
     parts = stresses(history, point.poisson_ratio, point.friction, np.sign(x))

@@ -1,4 +1,4 @@
-"""The scenes of the chart, and what s is there."""
+"""The scenes of the chart, and their reference values of s."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from swtstudy.reference.textbook import textbook_s
 
 #: Tolerance of the reference values.
 REFERENCE_RTOL = 1e-9
-#: Grids of the independent computation that confirms them, and of one that is quick.
+#: Grids of the independent computation that confirms them, and of a quick one.
 FINE = {"springs": 4000, "steps": 2400, "positions": 400, "planes": 720, "aligned": True}
 COARSE = {"springs": 60, "steps": 30, "positions": 15, "planes": 36, "aligned": True}
-#: Points solved in one call, as a study does, and the step of their phases, rad.
+#: Points solved in one call, as in a study, and the step of their phases, rad.
 BATCH, PHASE_STEP = 64, 1e-3
 
 

@@ -12,20 +12,20 @@ from swtstudy.mechanics.points import Points, Solution
 
 
 def cheap(points: Points, rtol: float) -> Solution:
-    """Next to no work: what a run takes with it is the runner's own."""
+    """Next to no work: the time of a run with this solver is the runner's own."""
     s = 0.1 + 0.01 * points.normal_amplitude * np.cos(points.phase) + points.friction
     return Solution(s, rtol * s, 1 + points.phase, np.sin(points.phase), np.ones(len(points), np.int8), s)
 
 
 def logged(log: str, points: Points, rtol: float) -> Solution:
-    """The real solver; the number of points of every finished block goes to a log."""
+    """The real solver; writes the number of points of every finished block to a log."""
     solution = solve_points(points, rtol)
     _append(log, f"{len(points)}")
     return solution
 
 
 def asleep(seconds: float, log: str, points: Points, rtol: float) -> Solution:
-    """Like `cheap`, but it takes a time for each point, without using a core; logs who, when, how many."""
+    """Like `cheap`, but sleeps for some time per point; logs process, begin, end and number of points."""
     begin = time.perf_counter()
     time.sleep(seconds * len(points))
     solution = cheap(points, rtol)
@@ -34,7 +34,7 @@ def asleep(seconds: float, log: str, points: Points, rtol: float) -> Solution:
 
 
 def spinning(seconds: float, points: Points, rtol: float) -> Solution:
-    """Like `cheap`, but it uses a core for a time for each point, counted in CPU time."""
+    """Like `cheap`, but keeps a core busy for some CPU time per point."""
     end = time.thread_time() + seconds * len(points)
     solution = cheap(points, rtol)
     while time.thread_time() < end:

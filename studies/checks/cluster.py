@@ -56,7 +56,7 @@ def killed_worker(folder: Path, text: str, expected: xr.Dataset) -> None:
 
 
 def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
-    """`dask scheduler`, two `dask worker`, and `swtstudy run --scheduler`, each its own process."""
+    """Run with `dask scheduler`, two `dask worker` and `swtstudy run --scheduler`, each a process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]

@@ -1,4 +1,4 @@
-"""SIGKILLs at random moments of a run, and of the writing of its archive: what is lost.
+"""SIGKILLs at random moments of a run, and while its archive is written: what is lost.
 
 python studies/checks/kills.py > results/kills.txt
 """
@@ -29,7 +29,7 @@ from swtstudy.runner.run import Stopped
 
 WORKERS = 2
 
-#: Chunks that the pool of local workers is given at once.
+#: Chunks in flight in the pool of local workers.
 IN_FLIGHT = 2 * WORKERS
 
 WRITE = """
@@ -42,7 +42,7 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 
 def child(what: str, text: str, path: str, log: str) -> None:
-    """What is killed: a run in a process of its own."""
+    """The process that is killed: a run."""
     from swtstudy.runner import run as module
 
     cut = module.chunks
@@ -58,7 +58,7 @@ def child(what: str, text: str, path: str, log: str) -> None:
 
 
 def start(what: str, text: str, path: Path, log: Path) -> subprocess.Popen[bytes]:
-    """Start such a process."""
+    """Start a process that runs `child`."""
     return subprocess.Popen([sys.executable, __file__, what, text, str(path), str(log)])
 
 
@@ -72,17 +72,17 @@ def workers_of(process: int) -> list[int]:
 
 
 def computed(log: Path) -> int:
-    """Points that were ever computed to the end."""
+    """Number of points that have been computed, saved or not."""
     return sum(map(int, log.read_text().split())) if log.exists() else 0
 
 
 def largest_chunk(log: Path) -> int:
-    """Points of the largest chunk that was ever cut."""
+    """Number of points in the largest chunk so far."""
     return max(map(int, Path(f"{log}-chunks").read_text().split()))
 
 
 def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> None:
-    """Kill runs of a study, again and again, and let each end."""
+    """Kill runs of a study repeatedly, and let each of them finish at last."""
     begin = time.perf_counter()
     expected = run(Study.from_text(text), folder / "undisturbed.nc")
     seconds = time.perf_counter() - begin
@@ -101,13 +101,13 @@ def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> N
             Path(f"{log}-chunks").unlink(missing_ok=True)
             whom = "a worker" if kills % 3 == 2 else "the parent"
             if not kill_one(text, path, log, whom, dice):
-                break  # it was ready before
+                break  # it had finished before
             kills += 1
             assert not path.exists()
             saved = points_saved(parts_folder(path))
             assert saved >= before, "saved points were lost"
             lost = computed(log) - done - (saved - before)
-            # A killed worker takes with it what is in flight; then the parent does so once more.
+            # What is in flight is lost when a worker is killed, and again when the parent is.
             bound = (2 if whom == "a worker" else 1) * IN_FLIGHT * largest_chunk(log)
             assert lost <= bound, "more was lost than what was in flight"
             all_lost += lost
@@ -152,7 +152,7 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
     path = folder / "written.nc"
     old = run(Study.from_text(small), path, solver=cheap)
     expected = run(Study.from_text(large), folder / "expected.nc", solver=cheap)
-    # All is computed and saved; what is left is to write the archive.
+    # Everything is computed and saved; only the archive remains to be written.
     make_parts(large, path)
     duration = time_of_write(expected, folder)
     outcome = {"before": 0, "during": 0, "after": 0}
@@ -173,7 +173,7 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
         else:
             same_values(found, expected)
             outcome["after"] += 1
-            # Back to where it was, for the next kill.
+            # Back to the earlier state, for the next kill.
             run(Study.from_text(small), path, solver=cheap)
             parts_folder(path).mkdir(exist_ok=True)
             for part, content in saved.items():
@@ -187,7 +187,7 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
 
 
 def make_parts(text: str, path: Path) -> None:
-    """Stop a run when all is computed, before it writes its archive."""
+    """Stop a run when everything is computed, before it writes its archive."""
     from swtstudy.archive import write
 
     save = write.save

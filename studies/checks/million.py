@@ -1,4 +1,4 @@
-"""A study of 10⁶ distinct points with a solver that costs nothing: memory and overhead of the runner.
+"""Memory and overhead of the runner for a study of 10⁶ distinct points, with a solver that costs nothing.
 
 python studies/checks/million.py > results/million.txt
 """

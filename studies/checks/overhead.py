@@ -1,12 +1,11 @@
-"""What the runner costs for each point at the default chunking, beside solvers of known cost.
+"""Overhead of the runner per point with the default chunks, measured with solvers of known cost.
 
 Two runs on 2 workers:
 
-* the solver sleeps 7 ms a point: how long each worker has nothing to solve between its first and its last
-  block, whatever the reason, and what CPU time the parent takes;
-* the solver keeps a core busy for 3 ms of CPU time a point: what CPU time the parent and the workers take
-  beyond that, from the first result that is delivered to the last. What else the machine is doing hardly
-  counts here.
+* the solver sleeps 7 ms per point: how long each worker is idle between its first and its last block, for
+  whatever reason, and the CPU time of the parent;
+* the solver keeps a core busy for 3 ms of CPU time per point: the CPU time of parent and workers beyond that,
+  from the first result delivered to the last. Other load on the machine hardly matters here.
 
 python studies/checks/overhead.py > results/overhead.txt
 """
@@ -31,11 +30,11 @@ from swtstudy.runner.progress import ProgressBar
 
 WORKERS = 2
 
-#: A worker that waits longer for its next block has met a stall of the machine; counted, and named.
+#: A longer wait for the next block, in seconds, is a stall of the machine; stalls are counted and reported.
 STALL = 0.05
 
 SLEEP, SPIN = 7e-3, 3e-3
-#: Long cycles make small blocks, so that chunks are cut by their time.
+#: Long cycles give small blocks, so that chunks are cut by time.
 STUDY = """
 title = "Overhead"
 rtol = 1e-2
@@ -48,7 +47,7 @@ phase = {start = 0, stop = 3, num = 64}
 
 
 def cpu_of(process: int) -> float:
-    """CPU time that a process has taken."""
+    """CPU time of a process, s."""
     fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
@@ -80,7 +79,7 @@ def measured(count: int, solver: Solver) -> tuple[float, ...]:
 
 
 def waits(log: Path) -> np.ndarray:
-    """Seconds between the end of a block and the begin of the next one of the same worker."""
+    """Seconds between the end of each block and the beginning of the same worker's next one."""
     table = np.loadtxt(log)
     of_worker = [table[table[:, 0] == worker] for worker in np.unique(table[:, 0])]
     return np.concatenate([rows[1:, 1] - rows[:-1, 2] for rows in of_worker])

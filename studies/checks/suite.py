@@ -1,4 +1,4 @@
-"""How long the paper's suite takes: Figures 3 to 8 at rtol 1e-4 on 2 workers, archives included, figures not.
+"""Time of the paper's suite: Figures 3 to 8 at rtol 1e-4 on 2 workers, with archives, without figures.
 
 python studies/checks/suite.py > results/suite.txt
 """

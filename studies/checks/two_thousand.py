@@ -1,4 +1,4 @@
-"""The study that the checks disturb, and what must not change by that."""
+"""The study that the checks disturb, and the comparison of its undisturbed and disturbed results."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ friction = {start = "0.05", stop = 1, num = %d}
 
 
 def study_text(quick: bool) -> str:
-    """The study as it is written, with 2,000 points or, quickly, 100."""
+    """The text of the study, with 2,000 points or, if quick, 100."""
     phases, rows = (50, 2) if quick else (100, 20)
     return _STUDY % (phases * rows, phases, rows)
 
 
 def same_values(one: xr.Dataset, other: xr.Dataset) -> None:
-    """Everything but the provenance is the same, to the last bit."""
+    """Check that everything but the provenance is identical."""
     xr.testing.assert_equal(one.drop_attrs().drop_vars("run"), other.drop_attrs().drop_vars("run"))

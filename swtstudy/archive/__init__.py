@@ -1,1 +1,1 @@
-"""Archives: netCDF files that hold a study's results and all that is needed to understand them."""
+"""Archives: netCDF files with a study's results and everything needed to understand them."""

@@ -20,14 +20,14 @@ from swtstudy.records.solutions import solution_at
 from swtstudy.study.definition import Study
 from swtstudy.version import __version__
 
-#: Packages whose versions can matter for the numbers or the file.
+#: Packages whose versions can affect the numbers or the file.
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 
 
 def versions() -> str:
-    """Versions of Python, of this package and of those that matter for its numbers and files."""
+    """Versions of Python, of this package and of those that affect its numbers and files."""
     found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
     for name in _PACKAGES:
         try:
@@ -47,11 +47,11 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     points
         The distinct points of its grid.
     records
-        What is known of them, in the same order.
+        Their records, in the same order.
     history
-        What was done, a line each, the latest first.
+        One line for each step, the latest first.
     seconds
-        Wall time of the run that ends with this.
+        Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
@@ -62,7 +62,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
 
 
 def failures(records: Records) -> list[dict[str, Any]]:
-    """The failed points: canonical row, its description, and the message."""
+    """The failed points: canonical row, description and message of each."""
     return [
         {
             "row": records.table[index].tolist(),
@@ -74,7 +74,7 @@ def failures(records: Records) -> list[dict[str, Any]]:
 
 
 def history_line(what: str) -> str:
-    """A line for the history: now, and what was done."""
+    """A line for the history: the present time, and what was done."""
     now = datetime.now(UTC).isoformat(timespec="seconds")
     return f"{now}: {what} by swtstudy {__version__}"
 

@@ -1,4 +1,4 @@
-"""What the attributes of an archive say; texts that do not say it raise a ValueError with the reason."""
+"""Reading the attributes of an archive; malformed ones raise a ValueError with the reason."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ def read_failures(text: object) -> list[Failure]:
     failures = _json(text, list)
     for failure in failures:
         if not isinstance(failure, dict) or failure.keys() != Failure.__annotations__.keys():
-            raise ValueError(f"no failure: {literal(failure)}")
+            raise ValueError(f"not a failure: {literal(failure)}")
         row, words = failure["row"], (failure["point"], failure["message"])
         good = isinstance(row, list) and all(math.isfinite(plain_number(number)) for number in row)
         if not good or not all(isinstance(word, str) for word in words):
-            raise ValueError(f"no failure: {literal(failure)}")
+            raise ValueError(f"not a failure: {literal(failure)}")
     return failures
 
 
@@ -45,11 +45,11 @@ def read_figure(text: object) -> FigureLayout:
     try:
         layout = FigureLayout.from_json(str(text))
     except (KeyError, TypeError):
-        raise ValueError(f"no layout of a figure: {literal(raw)}") from None
+        raise ValueError(f"not the layout of a figure: {literal(raw)}") from None
     texts = [layout.x, layout.kind, *layout.y]
     texts += [word for word in (layout.hue, layout.panels, layout.title, layout.vertical) if word is not None]
     if not all(isinstance(word, str) for word in texts) or not isinstance(layout.regimes, bool):
-        raise ValueError(f"no layout of a figure: {literal(asdict(layout))}")
+        raise ValueError(f"not the layout of a figure: {literal(asdict(layout))}")
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
@@ -60,22 +60,22 @@ def read_figure(text: object) -> FigureLayout:
 
 def _json(text: object, kind: type) -> Any:
     if not isinstance(text, str):
-        raise ValueError("no text")
+        raise ValueError("not a text")
     try:
         raw = json.loads(text)
     except RecursionError:
         raise ValueError("nested too deeply") from None
     except ValueError as error:
-        raise ValueError(f"no JSON: {error}") from None
+        raise ValueError(f"not JSON: {error}") from None
     if not isinstance(raw, kind):
-        raise ValueError("no list" if kind is list else "no table")
+        raise ValueError("not a list" if kind is list else "not a table")
     return raw
 
 
 def _run(raw: object) -> Run:
     names = {item.name for item in fields(Run)}
     if not isinstance(raw, dict) or not raw.keys() <= names:
-        raise ValueError(f"no run: {literal(raw)}")
+        raise ValueError(f"not a run: {literal(raw)}")
     for item in fields(Run):
         value = raw.get(item.name, item.default)
         good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf

@@ -19,14 +19,14 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.records.records import COMPUTED, STATES
 
-#: What every archive has: variables, and attributes that are texts or numbers.
+#: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")
 _TEXTS = ("title", "source", "history", "versions", "study", "runs")
 _NUMBERS = ("rtol", "wall_time_seconds")
 
 
 def lacking(dataset: xr.Dataset) -> list[str]:
-    """What an archive has and this has not."""
+    """Names of the variables and attributes that a Dataset lacks as an archive."""
     names = [name for name in _VARIABLES if name not in dataset.data_vars]
     names += [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]
     own = {"regime": ("flag_meanings",), "status": ("flag_meanings", "failures")}
@@ -39,9 +39,9 @@ def lacking(dataset: xr.Dataset) -> list[str]:
 
 
 def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
-    """Everything in an archive that lacks nothing that cannot be as it is."""
+    """Everything that is wrong in an archive that lacks nothing."""
     found = [*_attributes(dataset), *_shapes(dataset)]
-    # Values are looked at where they and what they refer to can be told.
+    # Coordinates and values can be checked only if the attributes and shapes that they rely on are sound.
     return [Mistake(*parts, source) for parts in found or [*_coordinates(dataset), *_values(dataset)]]
 
 
@@ -61,7 +61,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)
     for name, words in (("regime", REGIMES), ("status", STATES)):
         meanings = dataset[name].attrs["flag_meanings"]
-        # An archive may be older than the last of them.
+        # An older archive may not know the last of them.
         if not isinstance(meanings, str) or tuple(meanings.split()) != words[: len(meanings.split())]:
             yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
     expected = {name: parameter.units for name, parameter in PARAMETERS.items()}
@@ -97,7 +97,7 @@ def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
 
 
 def _values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    """Values that nothing computes, such as from a damaged file."""
+    """Values that no run computes, such as from a damaged file."""
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
     unbounded = regime == REGIMES.index("not_finite")
@@ -119,7 +119,7 @@ def _words(value: object) -> str:
 
 
 def _first(dataset: xr.Dataset, name: str, wrong: NDArray[np.bool_]) -> str:
-    """The first of the wrong values, where it is, and how many there are."""
+    """The first wrong value, where it is, and how many more there are."""
     index = dict(zip(dataset.s.dims, np.unravel_index(int(wrong.argmax()), wrong.shape), strict=True))
     place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
     where = f" at {place}" if place else ""

@@ -1,8 +1,8 @@
-"""Check sums of what HDF5 itself keeps none of: single values and names.
+"""Check sums of single values and names, for which HDF5 has none.
 
-HDF5 has them for arrays of numbers (fletcher32) and for attributes. Those of the others are in a group of
-their own: whoever changes what was read and saves it, with xarray say, leaves an archive without them, not
-one with those of other values.
+HDF5 has them for arrays of numbers (fletcher32) and for attributes. The others are stored in a separate
+group, which xarray does not copy: whoever changes an archive and saves it with xarray leaves one without
+these check sums, not one with outdated ones.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def has_its_own(variable: xr.Variable | xr.DataArray) -> bool:
 
 
 def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
-    """Add the check sums to a file that holds a Dataset."""
+    """Add check sums to the file of a Dataset."""
     import netCDF4
 
     with netCDF4.Dataset(path, "a") as file:
@@ -34,7 +34,7 @@ def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
 
 
 def damaged(file: netCDF4.Dataset, dataset: xr.Dataset) -> list[str]:
-    """Names of the variables read from a file that do not agree with their check sums in it, if there are."""
+    """Names of the variables read from a file that do not match their check sums in it, if there are any."""
     group = file.groups.get(_GROUP)
     written = {} if group is None else {name: group.getncattr(name) for name in group.ncattrs()}
     return [
@@ -45,7 +45,7 @@ def damaged(file: netCDF4.Dataset, dataset: xr.Dataset) -> list[str]:
 
 
 def unreadable(file: netCDF4.Dataset) -> list[str]:
-    """Names of the variables in a file that cannot be read, such as for a wrong check sum."""
+    """Names of the variables in a file that cannot be read, for example because of a wrong check sum."""
     names = []
     for name, variable in file.variables.items():
         try:

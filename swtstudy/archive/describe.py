@@ -13,12 +13,12 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES
 from swtstudy.wording import value_words
 
-#: Values of an axis, or failed points, that are listed one by one.
+#: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
-    """What an archive is, from which study and versions, how complete, how accurate; line by line."""
+    """What an archive is: its study and versions, how complete and how accurate; line by line."""
     attributes = dataset.attrs
     yield f"{attributes['title']}"
     yield f"  made by        {attributes['source']} ({attributes['versions']})"
@@ -66,7 +66,7 @@ def _completeness(dataset: xr.Dataset) -> str:
 
 
 def relative_errors(dataset: xr.Dataset) -> FloatArray:
-    """s_error over s wherever s is known, finite and positive, in one row."""
+    """s_error over s wherever s is known, finite and positive, shape (n,)."""
     relative = (dataset.s_error / dataset.s).values
     return relative[np.isfinite(relative)]
 
@@ -74,7 +74,7 @@ def relative_errors(dataset: xr.Dataset) -> FloatArray:
 def _accuracy(dataset: xr.Dataset) -> str:
     relative = relative_errors(dataset)
     if not relative.size:
-        return "nothing to tell"
+        return "no value of s"
     above = int((relative > dataset.attrs["rtol"]).sum())
     return (
         f"relative error of s estimated up to {relative.max():.1e}, median {np.median(relative):.1e}; "

@@ -1,4 +1,4 @@
-"""What is said of files that are no archives."""
+"""The error of files that are not archives."""
 
 
 class ArchiveError(ValueError):

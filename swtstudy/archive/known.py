@@ -1,4 +1,4 @@
-"""All that is known at the place of an archive: in itself, in parts of unfinished runs, of other studies."""
+"""All records known for the path of an archive: in itself, in its parts, and kept from other studies."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def known_records(path: Path) -> Records:
     Raises
     ------
     ArchiveError
-        If there is a file that is not an archive; it is not for us to replace it.
+        If the file is not an archive, and so must not be replaced.
     """
     found = []
     if path.exists():

@@ -1,4 +1,4 @@
-"""One run at a time for each archive."""
+"""A lock that allows one run at a time for each archive."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from pathlib import Path
 
 try:
     import fcntl
-except ImportError:  # Windows: without this lock the last of two runs wins, still with a whole archive
+except ImportError:  # Windows: without a lock, the later of two runs wins, still with a complete archive
     fcntl = None  # type: ignore[assignment]
 
 
 class LockedError(OSError):
-    """An archive that someone else is writing."""
+    """An archive that another process is writing."""
 
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold the lock of a folder, which is made for it, and removed in the end if nothing else is in it.
+    """Hold the lock of a folder, which is created if needed, and removed at the end if nothing else is in it.
 
-    The lock is the kernel's: it ends with the process, whatever ends that.
+    The lock is the kernel's: it ends with the process, however that ends.
 
     Raises
     ------
@@ -36,7 +36,7 @@ def locked(folder: Path) -> Iterator[None]:
         os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
         yield
     finally:
-        # Removed while it is held: whoever opened it meanwhile finds another file at its name.
+        # Removed while held: whoever opened it in the meantime will find another file under its name.
         if list(folder.iterdir()) == [path]:
             path.unlink()
             folder.rmdir()
@@ -44,7 +44,7 @@ def locked(folder: Path) -> Iterator[None]:
 
 
 def is_locked(path: Path) -> bool:
-    """Whether a program has a file open for writing, by the lock that HDF5 keeps on it."""
+    """Whether a program has a file open for writing: HDF5 then holds a lock on it."""
     if fcntl is None:
         return False
     try:

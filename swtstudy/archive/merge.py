@@ -19,30 +19,31 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up
+from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, matching
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
+#: Relative difference of s from rounding alone, between two machines.
+_ROUNDING = 1e-12
+
 
 class ConflictError(ValueError):
-    """Archives that contradict each other."""
+    """Archives with contradictory values."""
 
 
 class GapsError(ValueError):
-    """Archives that do not fill the grid of all their values."""
+    """Archives that do not fill the grid spanned by all their values."""
 
 
 def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
-    """One Dataset with all that is in several archives.
-
-    Its grid spans the values of all of them.
+    """One Dataset with the results of several archives, on the grid that all their values span.
 
     Parameters
     ----------
     paths
         The archives.
     sparse
-        Whether that grid may have points that are in none of them: NaN with the status "missing".
+        Whether this grid may have points that are in none of the archives: NaN, with the status "missing".
 
     Raises
     ------
@@ -50,7 +51,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         A ValueError, if they come from different versions of the solver, or have values of one point that
         differ by more than their estimated errors.
     GapsError
-        A ValueError, if points of the grid are in none of them, unless it may be `sparse`.
+        A ValueError, if points of the grid are in none of them and `sparse` is False.
     """
     datasets = [open_results(path) for path in paths]
     parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
@@ -67,20 +68,18 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         if not sparse:
             example = describe_point(points.table[np.flatnonzero(absent)[0]])
             raise GapsError(
-                f"the grid of all values in {_listed(paths)} has {gaps} in none of them, such as {example}; "
-                "--sparse (sparse=True in Python) leaves these missing"
+                f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
+                "--sparse (sparse=True in Python) leaves them missing"
             )
         made += f", {gaps} in none of them"
-    found = look_up(points.table, records, records.status != MISSING)
-    merged = Records.missing(points.table)
-    merged = merged.put(np.flatnonzero(found >= 0), records.take(found[found >= 0]))
+    merged = matching(points.table, records, records.status != MISSING)
     study = _study(paths, datasets, grid)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
 
 
-def _listed(paths: Sequence[Path]) -> str:
+def _names(paths: Sequence[Path]) -> str:
     return ", ".join(map(str, paths))
 
 
@@ -99,22 +98,21 @@ def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray)
     first, group = group_rows(records.table[computed])
     one, other = computed[first[group]], computed
     error = records.solution.s_error[one] + records.solution.s_error[other]
-    # Exactly equal values do not conflict even where the error is not finite.
-    equal = np.isclose(records.solution.s[one], records.solution.s[other], rtol=1e-12, atol=0, equal_nan=True)
+    # Equal values do not conflict even where the error is not finite.
+    s = records.solution.s
+    equal = np.isclose(s[one], s[other], rtol=_ROUNDING, atol=0, equal_nan=True)
     with np.errstate(invalid="ignore"):
-        apart = ~equal & ~(np.abs(records.solution.s[one] - records.solution.s[other]) <= error)
+        apart = ~equal & ~(np.abs(s[one] - s[other]) <= error)
     if apart.any():
         index = int(np.flatnonzero(apart)[0])
-        a, b = (
-            f"{records.solution.s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other)
-        )
+        a, b = (f"{s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other))
         more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
         point = describe_point(records.table[one[index]])
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
 
 
 def _union(grids: list[Grid]) -> Grid:
-    """The grid that spans the values of all grids; the dimensions in the order of the first."""
+    """The grid that the values of all grids span; dimensions in the order of the first."""
     names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
     values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in PARAMETERS}
     names += [name for name in PARAMETERS if name not in names and len(values[name]) > 1]
@@ -131,7 +129,7 @@ def _distinct(values: list[Value]) -> tuple[Value, ...]:
 
 
 def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:
-    """The study that the merged archive is the result of; with the figure of the first, if it fits."""
+    """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
@@ -143,4 +141,4 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Stu
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:
-        raise ArchiveError(f"{_listed(paths)}: these archives do not make one study:\n{error}") from None
+        raise ArchiveError(f"{_names(paths)}: these archives do not make one study:\n{error}") from None

@@ -1,4 +1,4 @@
-"""Names that an archive can have; found out before anything is computed."""
+"""Names that an archive can have; checked before anything is computed."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from pathlib import Path
 
 from swtstudy.mistakes import Mistake, StudyError
 
-#: Bytes that the longest name made from ``name.nc`` has more: ``.name-12345678.png`` of an unfinished figure.
+#: Bytes to spare: the longest name made from ``name.nc`` is ``.name-12345678.png``, of an unfinished figure.
 _ADDED = 11
 
-#: Bytes in a name where the file system does not tell.
+#: Longest name in bytes where the file system does not report it.
 _LONGEST_NAME = 255
 
 
 def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: str = "") -> dict[str, Path]:
-    """Where the archives of study files go, by study file.
+    """Paths of the archives of study files, by study file.
 
     Raises
     ------
@@ -47,12 +47,12 @@ def _mistakes(path: Path) -> list[Mistake]:
     try:
         str(whole).encode()
     except UnicodeEncodeError:
-        found.append(("bytes that are no UTF-8", "a path in UTF-8"))
-    # netCDF takes it for a slash; where it is one, no part has it.
+        found.append(("bytes that are not UTF-8", "a path in UTF-8"))
+    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
     if any("\\" in part for part in whole.parts[1:]):
-        found.append(("a backslash", "a path without"))
+        found.append(("a backslash", "a path without one"))
     if "\0" in str(whole):
-        found.append(("a null character", "a path without"))
+        found.append(("a null character", "a path without one"))
     if not found:
         longest = _longest_name(_existing(path.parent)) - _ADDED
         length = len(os.fsencode(path.name))
@@ -62,7 +62,7 @@ def _mistakes(path: Path) -> list[Mistake]:
 
 
 def _existing(folder: Path) -> Path:
-    """The folder, or the nearest above it that is there."""
+    """The folder, or the nearest existing one above it."""
     absolute = folder.absolute()
     return next(each for each in (absolute, *absolute.parents) if each.exists())
 

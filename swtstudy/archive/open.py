@@ -1,4 +1,4 @@
-"""The results at the place of an archive."""
+"""The results at the path of an archive."""
 
 from __future__ import annotations
 
@@ -14,15 +14,20 @@ from swtstudy.archive.read import read_archive
 def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:
     """The results in an archive, loaded into memory; the file is closed again.
 
-    As long as there is no archive, because its first run goes on or was killed, these are the results that
-    have been saved so far: NaN, with the status "missing", for the others.
+    While there is no archive yet, because its first run is going on or was killed, these are the results
+    saved so far; the other points are NaN, with the status "missing".
 
     Parameters
     ----------
     path
         The archive.
     partial
-        Whether to show what an unfinished run has saved even if there is an archive of an earlier one.
+        Whether to open what an unfinished run has saved even if there is an archive of an earlier run.
+
+    Returns
+    -------
+    xarray.Dataset
+        The results over the dimensions of the study, with their provenance as attributes.
 
     Raises
     ------
@@ -31,8 +36,8 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     LockedError
         An OSError, if another program has it open for writing.
     ArchiveError
-        A ValueError, if the file is not a sound archive of swtstudy: it names the file, and what in it
-        cannot be as it is.
+        A ValueError, if the file is not a sound archive of swtstudy; the message names the file and
+        everything that is wrong in it.
 
     Examples
     --------

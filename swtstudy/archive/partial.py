@@ -1,22 +1,21 @@
-"""The results of a run that has not ended."""
+"""The results of an unfinished run."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
 
 from swtstudy.archive.archive import build, history_line
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import parts_folder, read_parts
 from swtstudy.grid.unique import unique_points
-from swtstudy.records.records import Records, look_up
+from swtstudy.records.records import matching
 from swtstudy.study.definition import Study
 
 
 def partial_results(path: Path) -> xr.Dataset | None:
-    """What the latest run for the archive at `path` has saved so far; None if it has no parts."""
+    """What the latest run for the archive at `path` has saved so far; None if there are no parts."""
     parts = read_parts(parts_folder(path))
     if not parts.runs:
         return None
@@ -25,7 +24,5 @@ def partial_results(path: Path) -> xr.Dataset | None:
     points = unique_points(study.grid)
     known = known_records(path)
     usable = known.usable(study.rtol, latest.solver_version, retry_failed=False)
-    found = look_up(points.table, known, usable)
-    records = Records.missing(points.table)
-    records = records.put(np.flatnonzero(found >= 0), known.take(found[found >= 0]))
+    records = matching(points.table, known, usable)
     return build(study, points, records, history_line("opened unfinished"), 0.0)

@@ -1,11 +1,10 @@
-"""The parts of an archive in the making: every finished chunk is a file, written atomically.
+"""The parts of an unfinished archive: every finished chunk is a file, written atomically.
 
-A part is an npz file with a check sum at its end: whatever has happened to it since it was written, it is
-either what was written or left out.
+A part is an npz file with a check sum at its end: it is read exactly as it was written, or left out.
 
-They lie in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. What is known
-there of points that the latest study does not have lies as a part in another one, ``figure3.nc.kept``: a
-study that has them finds them.
+Parts are in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. Records of
+points that the latest study does not have are kept as a part in another folder, ``figure3.nc.kept``, for
+studies that have these points.
 """
 
 from __future__ import annotations
@@ -34,10 +33,10 @@ _ARRAYS = tuple(item.name for item in fields(Solution))
 
 _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 
-#: Parts are gathered into one when there are this many: a long run leaves no thousands of files.
-_GATHERED = 32
+#: So many parts are joined into one: a long run does not leave thousands of files.
+_JOINED = 32
 
-#: What the numbers in a table mean; parts of another layout are of no use.
+#: What the numbers in a table mean; parts with another layout cannot be used.
 _LAYOUT = {"columns": list(COLUMNS), "profiles": list(NAMES)}
 
 
@@ -52,7 +51,7 @@ def kept_folder(path: Path) -> Path:
 
 
 class PartsWriter:
-    """Writes records as parts into a folder that it has for itself; what is there becomes one part.
+    """Writes records as parts into a folder of its own; existing parts are first joined into one.
 
     Parameters
     ----------
@@ -73,8 +72,8 @@ class PartsWriter:
     def add(self, records: Records) -> None:
         """Write one more part; when this returns, it is safe."""
         self._small.append((self._write(records), records))
-        if len(self._small) >= _GATHERED:
-            # Every point is in the new part before its old one goes.
+        if len(self._small) >= _JOINED:
+            # Every point is in the new part before its old one is removed.
             self._write(join(records for _, records in self._small))
             _remove(path for path, _ in self._small)
             self._small.clear()
@@ -87,7 +86,7 @@ class PartsWriter:
 
 @contextmanager
 def keeping(folder: Path, records: Records) -> Iterator[None]:
-    """Have a folder hold these records alone, once the block has ended without an error."""
+    """Make a folder hold exactly these records once the block has ended without an error."""
     old = _paths(folder)
     if len(records):
         folder.mkdir(exist_ok=True)
@@ -100,32 +99,32 @@ def keeping(folder: Path, records: Records) -> Iterator[None]:
 
 
 def read_parts(folder: Path) -> Records:
-    """What is in the parts of a folder, also while a run goes on; nothing if there is no such folder.
+    """The records in the parts of a folder, also while a run goes on; none if there is no such folder.
 
-    A part that cannot be read is left out, and its points are computed again.
+    A part that cannot be read is left out: its points will be computed again.
     """
     for _ in range(10):
         try:
             return join(part for path in _paths(folder) if (part := _read(path)) is not None)
         except FileNotFoundError:
-            continue  # gathered between listing and reading
+            continue  # joined between listing and reading
     return join([])
 
 
 def points_saved(folder: Path) -> int:
     """Number of distinct points in the parts of a folder."""
-    # While parts are gathered, or if that was interrupted, points are in two of them.
+    # While parts are being joined, or if that was interrupted, points are in two of them.
     return len(group_rows(read_parts(folder).table)[0])
 
 
 def clear_parts(folder: Path) -> None:
-    """Remove the parts, once the archive has it all, and what killed runs left of unfinished files."""
+    """Remove the parts, once the archive has all their points, and unfinished files of killed runs."""
     _remove(_paths(folder))
     clear_unfinished(folder)
 
 
 def clear_unfinished(folder: Path) -> None:
-    """Remove what killed runs left of unfinished files."""
+    """Remove unfinished files of killed runs."""
     _remove(folder.glob(".*"))
 
 
@@ -170,12 +169,12 @@ def _read(path: Path) -> Records | None:
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError) as error:
-        _say_left_out(path, str(error))
+        _warn_left_out(path, str(error))
         return None
 
 
 def _records_from(content: bytes) -> Records:
-    # A reader of zip files believes what is in them: lengths, flags and offsets are not under their own sums.
+    # A zip file's own check sums do not cover its lengths, flags and offsets, which a reader trusts.
     written, check_sum = content[:-_CHECK_SUM_SIZE], content[-_CHECK_SUM_SIZE:]
     if _check_sum(written) != check_sum:
         raise ValueError("damaged")
@@ -198,6 +197,6 @@ def _check_sum(content: bytes | memoryview) -> bytes:
 
 
 @functools.cache
-def _say_left_out(path: Path, reason: str) -> None:
-    """Say it once, however often the part is read."""
+def _warn_left_out(path: Path, reason: str) -> None:
+    """Warn once, however often the part is read."""
     _log.warning("%s: left out, its points will be computed again (%s)", path, reason)

@@ -12,12 +12,12 @@ from swtstudy.archive.check_sums import damaged, unreadable
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.lock import LockedError, is_locked
 
-#: What xarray and netCDF4 raise for files that are not what they expect.
+#: What xarray and netCDF4 raise for files that they cannot read.
 _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
 
 
 def read_archive(path: Path) -> xr.Dataset:
-    """The Dataset in an archive file, loaded and found sound; raises as `swtstudy.open_results` does."""
+    """The Dataset in an archive file, loaded and checked; raises as `swtstudy.open_results` does."""
     loaded = load_file(path)
     absent = lacking(loaded)
     if absent:
@@ -29,7 +29,7 @@ def read_archive(path: Path) -> xr.Dataset:
 
 
 def load_file(path: Path) -> xr.Dataset:
-    """The Dataset in a file that `swtstudy.archive.write.save` wrote, loaded, if its check sums agree.
+    """The Dataset in a file written by `swtstudy.archive.write.save`, loaded; its check sums are verified.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def load_file(path: Path) -> xr.Dataset:
     if is_locked(path):
         raise LockedError(f"{path} is locked: another program has it open for writing")
     try:
-        # From memory: xarray and netCDF4 crash where a file is opened again that is open in this process.
+        # From memory: xarray and netCDF4 crash if a file is opened twice in one process.
         with netCDF4.Dataset(path.name, memory=path.read_bytes()) as file:
             try:
                 loaded = xr.open_dataset(xr.backends.NetCDF4DataStore(file)).load()
@@ -53,7 +53,7 @@ def load_file(path: Path) -> xr.Dataset:
     except _UNREADABLE as error:
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
     if wrong:
-        raise ArchiveError(f"{path}: a damaged file: {', '.join(wrong)} not as written (check sum)")
+        raise ArchiveError(f"{path}: a damaged file: wrong check sum of {', '.join(wrong)}")
     for variable in loaded.variables.values():
-        variable.encoding = {}  # kept encodings cut longer labels short when a file is written again
+        variable.encoding = {}  # a kept encoding would truncate longer labels when a file is written again
     return loaded

@@ -1,4 +1,4 @@
-"""What an archive holds, by canonical point: the way back from labels to records."""
+"""The records in an archive, by canonical point: the way back from labelled results."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS, Parameter
 from swtstudy.records.labelled import arrays_of
-from swtstudy.records.records import Records
+from swtstudy.records.records import FAILED, Records
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -27,7 +27,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     Raises
     ------
     StudyError
-        With every coordinate that is not one of a study.
+        With every coordinate that no study can have.
     """
     values: dict[str, tuple[Value, ...]] = {}
     mistakes: list[Mistake] = []
@@ -55,7 +55,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
 
 
 def _values(parameter: Parameter, raw: list[object], mistakes: list[Mistake]) -> Iterator[Value]:
-    """Values of a coordinate; the first that is none is a mistake."""
+    """Values of a coordinate, up to the first invalid one, which is a mistake."""
     for value in raw:
         try:
             yield read_value(parameter, value)
@@ -70,7 +70,7 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     Raises
     ------
     ArchiveError
-        If a variable that belongs to an archive is not there.
+        If a variable of an archive is missing.
     """
     lacking = [item.name for item in fields(Solution) if item.name not in dataset]
     if lacking:
@@ -87,11 +87,9 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
     # Mirroring a second time gives the canonical point back.
     solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
-    records = Records(points.table, solution, status, run, read_runs(dataset.attrs["runs"]))
     failures = read_failures(dataset.status.attrs["failures"])
-    messages = {tuple(failure["row"]): failure["message"] for failure in failures}
-    if messages:
-        for index, row in enumerate(points.table.tolist()):
-            if tuple(row) in messages:
-                records.messages[index] = messages[tuple(row)]
-    return records
+    reason = {tuple(failure["row"]): failure["message"] for failure in failures}
+    failed = np.flatnonzero(status == FAILED)
+    rows = zip(failed.tolist(), map(tuple, points.table[failed].tolist()), strict=True)
+    messages = {index: reason[row] for index, row in rows if row in reason}
+    return Records(points.table, solution, status, run, read_runs(dataset.attrs["runs"]), messages)

@@ -14,12 +14,22 @@ from swtstudy.files import replacing
 
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
-    """Write a Dataset as compressed netCDF-4 with check sums, atomically; `beside` as for `replacing`."""
+    """Write a Dataset as compressed netCDF-4 with check sums, atomically.
+
+    Parameters
+    ----------
+    dataset
+        What to write.
+    path
+        Path of the file, which is replaced if it exists.
+    beside
+        Folder for the unfinished file, as for `swtstudy.files.replacing`.
+    """
     encoding: dict[Hashable, dict[str, Any]] = {
         name: {"fletcher32": True} if has_its_own(each) else {} for name, each in dataset.variables.items()
     }
     for name in dataset.coords:
-        encoding[name]["_FillValue"] = None  # CF forbids one for coordinates, which xarray would give them
+        encoding[name]["_FillValue"] = None  # CF forbids the one that xarray would give to coordinates
     for name, variable in dataset.data_vars.items():
         if variable.ndim:
             encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}

@@ -17,15 +17,12 @@ from swtstudy.study.definition import Study, require_study
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.audit.point import Finding
+    from swtstudy.audit.point import AuditedPoint
 
-#: Told how many more points are done.
-Progress = Callable[[int], object]
-
-#: Points of a larger grid cannot be numbered.
+#: The largest index that NumPy's random numbers can be.
 LARGEST_SAMPLED = 2**63 - 1
 
-#: Seconds between two savings of what has been found so far.
+#: Seconds between two saves of what is audited so far: short enough to lose, long against a save.
 _SAVE_EVERY = 20.0
 
 
@@ -35,7 +32,7 @@ def audit_study(
     points: int = 1000,
     seed: int = 0,
     workers: int = 2,
-    progress: Progress | None = None,
+    progress: Callable[[int], object] | None = None,
 ) -> xr.Dataset:
     """Solve random points of a study without the surface line's assumptions.
 
@@ -44,16 +41,16 @@ def audit_study(
     study
         From `Study.from_toml`.
     path
-        netCDF file that keeps the findings. Points that it has already are not audited again: an audit that
-        was killed goes on, and one with more points extends it.
+        netCDF file for the audit. Points that it already holds are not audited again: a killed audit goes on,
+        and one with more points extends it.
     points
-        How many points to take, at random and without repetition; all if the study has fewer.
+        Number of points to draw at random without repetition; all if the study has fewer.
     seed
-        Of the random numbers.
+        Seed of the random numbers.
     workers
-        Worker processes.
+        Number of worker processes.
     progress
-        Called with the number of points that are done since it was called last.
+        Called with the number of points that have been finished since its last call.
 
     Returns
     -------
@@ -64,33 +61,34 @@ def audit_study(
     Raises
     ------
     ValueError
-        If the file is there and holds no audit, or `study` is no Study.
+        If the file exists but holds no audit, or `study` is not a Study.
     """
     require_study(study)
     from swtstudy.archive.write import save
     from swtstudy.audit.point import audit_point
-    from swtstudy.audit.table import findings_dataset, open_audit, read_findings
+    from swtstudy.audit.table import audit_dataset, audited_points, open_audit
     from swtstudy.runner.workers import start_workers
 
     rows = sample_rows(study.grid, points, seed)
     keys = list(map(tuple, rows.tolist()))
-    known: dict[tuple[float, ...], Finding] = read_findings(open_audit(path)) if Path(path).exists() else {}
+    known: dict[tuple[float, ...], AuditedPoint] = {}
+    if Path(path).exists():
+        known = audited_points(open_audit(path))
     missing = [key for key in keys if key not in known]
-    if progress is not None:
-        progress(len(keys) - len(missing))
+    count = progress or (lambda finished: None)
+    count(len(keys) - len(missing))
 
     def dataset() -> xr.Dataset:
         done = [key in known for key in keys]
-        found = findings_dataset(rows[done], [known[key] for key in keys if key in known])
+        found = audit_dataset(rows[done], [known[key] for key in keys if key in known])
         return found.assign_attrs(title=study.title, study=study.text, seed=seed)
 
     saved = time.monotonic()
     try:
         with start_workers(workers) as pool:
-            for key, finding in zip(missing, pool.map(audit_point, missing), strict=True):
-                known[key] = finding
-                if progress is not None:
-                    progress(1)
+            for key, point in zip(missing, pool.map(audit_point, missing), strict=True):
+                known[key] = point
+                count(1)
                 if time.monotonic() - saved > _SAVE_EVERY:
                     save(dataset(), path)
                     saved = time.monotonic()
@@ -110,7 +108,7 @@ def sample_rows(grid: Grid, points: int, seed: int) -> FloatArray:
     if grid.size > LARGEST_SAMPLED:
         raise ValueError(f"{grid.size} points are too many to sample, at most {LARGEST_SAMPLED}")
     rng = np.random.default_rng(seed)
-    # More than are asked for: two points of the grid can be one physically.
+    # More than asked for: two points of the grid can be physically the same.
     many = 2 * points
     if grid.size <= 2 * many:
         index = rng.permutation(grid.size)

@@ -13,31 +13,31 @@ from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.scene import scene_of
 
-#: What the maximum over the body breaks of the surface line's assumptions, in the order of the flag values;
-#: the last one for points without a finite s, or whose maximum is where the pressure has no bound.
+#: Which of the surface line's assumptions the body's maximum breaks, in the order of the flag values; the
+#: last one is for points without a finite s, or with their maximum where the pressure is unbounded.
 VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
 
-#: Relative excess of the body's maximum that counts; s itself is asked for to a tenth of this.
+#: Relative excess of the body's maximum that counts; s itself is computed to a tenth of this.
 TOLERANCE = 1e-3
 #: Distances and direction cosines that count as 0.
 _ZERO = 1e-6
 
 
 @dataclass(frozen=True)
-class Finding:
+class AuditedPoint:
     """One audited point.
 
     Attributes
     ----------
     s, s_surface, critical_x, regime
-        The solver's: the surface line's maximum, that on the circle through the critical point, where the
-        former is, and the regime's name.
+        From the solver: the maximum on the surface line, the maximum on the circle through the critical
+        point, the position of the former, and the name of the regime.
     s_all_planes
-        swt at that place over all plane orientations, by the field of the body.
+        swt at that position over all plane orientations, from the field of the body.
     s_body
-        Largest swt of the body.
+        Largest swt in the body.
     position, normal
-        Shape (3,): where, and on which plane.
+        Shape (3,): where it is, and the normal of its plane.
     """
 
     s: float
@@ -74,17 +74,17 @@ class Finding:
         return "plane_through_y" if abs(self.normal[1]) > _ZERO else "line_search"
 
 
-def audit_point(row: Sequence[float]) -> Finding:
+def audit_point(row: Sequence[float]) -> AuditedPoint:
     """Audit one canonical row (`swtstudy.grid.canonical`)."""
     points = points_from(np.array([row]))
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
     if not np.isfinite(solved[1]):
-        return Finding(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
+        return AuditedPoint(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # Where s is 0 no point is critical, and the search of the body starts at any.
     x = x if np.isfinite(x) else 1.0
-    # Gross slip at an instant, 0/0 at a vanishing contact: the field deals with them, NumPy need not warn.
+    # The field handles gross slip and the 0/0 of a vanishing contact: NumPy's warnings would only alarm.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)
-    return Finding(*solved, float(at_line.swt), body.swt, body.position, body.normal)
+    return AuditedPoint(*solved, float(at_line.swt), body.swt, body.position, body.normal)

@@ -1,4 +1,4 @@
-"""What an audit found, in words and tables."""
+"""The report of an audit."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _WORDS = {
     "plane_through_y": "on the surface line, on a plane that is not through y",
     "symmetry_line": "on the surface, off the line",
     "surface": "beneath the surface",
-    "not_finite": "not looked for: s is not finite, or at the edge r = b of the truncated paraboloid",
+    "not_finite": "not searched: s is not finite, or at the edge r = b of the truncated paraboloid",
 }
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
-#: Points whose maximum the solver misses, named in the report.
-_NAMED = 20
+#: How many of the points whose maximum the solver misses are listed one by one.
+_LISTED = 20
 
 
 def report(dataset: xr.Dataset) -> str:
@@ -45,16 +45,14 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
     excess, remainder, verdict = (dataset[name].values for name in ("excess", "remainder", "verdict"))
     finite = np.isfinite(excess)
     exceeded = finite & (excess > TOLERANCE)
-    flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * dataset["s"].values)
-    beyond = finite & (remainder > TOLERANCE)
     ν = dataset["poisson_ratio"].values
 
     yield f"# {dataset.attrs['title']}"
     yield ""
     yield (
-        f"{len(excess)} points, each solved in the whole body and for all plane orientations. That swt "
-        f"exceeds s counts from {TOLERANCE:.1%}. A ring around the edge r = b of a flat face is left out, as "
-        "wide as 0.002 of the largest contact radius, or so narrow that the line's maximum is outside of it."
+        f"{len(excess)} points, each solved in the whole body and for all plane orientations. Excess of swt "
+        f"over s counts from {TOLERANCE:.1%}. A ring around the edge r = b of a flat face is left out: 0.002 "
+        "of the largest contact radius wide, or narrower where the line's maximum would be inside it."
     )
     yield ""
     yield "| the maximum of swt is | points | exceeds s by up to | at ν from |"
@@ -70,6 +68,15 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
     yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
     regime = np.array(REGIMES)[dataset["regime"].values]
     yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    yield from _of_the_solver(dataset, exceeded)
+
+
+def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator[str]:
+    """How far the solver's own s_surface finds what exceeds s."""
+    remainder, verdict = dataset["remainder"].values, dataset["verdict"].values
+    finite = np.isfinite(dataset["excess"].values)
+    flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * dataset["s"].values)
+    beyond = finite & (remainder > TOLERANCE)
     yield "## What the solver knows"
     yield ""
     yield (
@@ -80,12 +87,12 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
     )
     yield ""
     rows = canonical_rows(dataset)
-    for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_NAMED]:
+    for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_LISTED]:
         yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i])}"
     away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)[finite]
     yield ""
     yield (
-        "At the line's maximum the solver and the field beneath the contact, two ways to one value, differ "
+        "At the line's maximum the solver and the field beneath the contact, two routes to one value, differ "
         f"by {np.median(away):.0e} (median), {np.quantile(away, 0.99):.0e} (99 %), "
         f"{away.max():.0e} (largest)."
     )
@@ -99,7 +106,7 @@ def _shares(
     excess: NDArray[np.float64],
     remainder: NDArray[np.float64],
 ) -> Iterator[str]:
-    """A table of how often and by how much s, and s_surface, are exceeded in groups of points."""
+    """A table of how often and by how much s and s_surface are exceeded in groups of points."""
     yield f"| {title} | points | above s | by up to | above s_surface by up to |"
     yield "|---|---|---|---|---|"
     for name, group in groups:
@@ -112,7 +119,7 @@ def _shares(
 
 def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:
     pairs = itertools.pairwise(_POISSON_ENDS)
-    return [(f"{low:g}–{high:g}", ((ν > low) | (low == 0.0)) & (ν <= high + 1e-12)) for low, high in pairs]
+    return [(f"{low:g}–{high:g}", ((ν > low) | (low == 0.0)) & (ν <= high)) for low, high in pairs]
 
 
 def _values(values: NDArray) -> list[tuple[str, NDArray[np.bool_]]]:

@@ -1,4 +1,4 @@
-"""The findings of an audit as a Dataset, and back."""
+"""The audited points as a Dataset, and back."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.audit.point import VERDICTS, Finding
+from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.grid.codes import code_of, name_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
@@ -32,15 +32,15 @@ _MEANINGS = {
 _SCALARS = ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "excess", "remainder")
 
 
-def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Dataset:
-    """The findings of an audit.
+def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Dataset:
+    """The Dataset of an audit.
 
     Parameters
     ----------
     rows
-        Shape (n, len(COLUMNS)): the audited canonical points.
-    findings
-        One for each row.
+        Shape (n, len(COLUMNS)): their canonical rows.
+    points
+        The audited points, one for each row.
 
     Returns
     -------
@@ -52,9 +52,9 @@ def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Datase
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
     names = np.array([name_of(code) for code in rows[:, COLUMNS.index("profile")]], dtype=object)
     coordinates["profile"] = ("sample", names)
-    columns = {name: np.array([getattr(f, name) for f in findings], float) for name in _SCALARS}
+    columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
-        values = np.array([getattr(f, group) for f in findings], float).reshape(-1, 3)
+        values = np.array([getattr(each, group) for each in points], float).reshape(-1, 3)
         columns |= {f"{prefix}_{label}": column for label, column in zip("xyz", values.T, strict=True)}
     variables: dict[str, Any] = {
         name: ("sample", values, {"long_name": _MEANINGS[name], "units": "1"})
@@ -64,14 +64,14 @@ def findings_dataset(rows: FloatArray, findings: Sequence[Finding]) -> xr.Datase
         ("regime", "regime of the contact over the stationary cycle", REGIMES),
         ("verdict", "the first assumption of the surface line that the body's maximum breaks", VERDICTS),
     ):
-        codes = np.array([words.index(getattr(f, name)) for f in findings], dtype=np.int8)
+        codes = np.array([words.index(getattr(each, name)) for each in points], dtype=np.int8)
         flags = {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
         variables[name] = ("sample", codes, {"long_name": meaning, **flags})
     return xr.Dataset(variables, coordinates)
 
 
 def open_audit(path: str | PathLike[str]) -> xr.Dataset:
-    """The findings in a file, loaded.
+    """The audit in a file, loaded.
 
     Raises
     ------
@@ -87,21 +87,21 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 
 
 def canonical_rows(dataset: xr.Dataset) -> FloatArray:
-    """The audited canonical points, shape (n, len(COLUMNS))."""
+    """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
     codes = [code_of(name) for name in dataset["profile"].values]
     columns = [codes if name == "profile" else dataset[name].values for name in COLUMNS]
     return np.stack(columns, axis=-1).astype(float)
 
 
-def read_findings(dataset: xr.Dataset) -> dict[tuple[float, ...], Finding]:
-    """The findings of an audit by their canonical rows."""
+def audited_points(dataset: xr.Dataset) -> dict[tuple[float, ...], AuditedPoint]:
+    """The points of an audit, by canonical row."""
     values = {name: dataset[name].values for name in _MEANINGS}
-    findings = {}
+    points = {}
     for i, row in enumerate(map(tuple, canonical_rows(dataset).tolist())):
         position, normal = (
             np.array([values[f"{prefix}_{axis}"][i] for axis in "xyz"]) for prefix in ("body", "normal")
         )
         s, s_surface, x, s_all_planes, s_body = (float(values[name][i]) for name in _SCALARS[:5])
         regime = REGIMES[int(dataset["regime"].values[i])]
-        findings[row] = Finding(s, s_surface, x, regime, s_all_planes, s_body, position, normal)
-    return findings
+        points[row] = AuditedPoint(s, s_surface, x, regime, s_all_planes, s_body, position, normal)
+    return points

@@ -1,4 +1,4 @@
-"""The command line. Each command imports what it needs when it runs, so that help is there at once."""
+"""The command line. Each command imports what it needs when it runs, so that help appears at once."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from swtstudy.cli.show import show
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
 
-#: Exit code for input that cannot be used, as click has it for wrong options.
+#: Exit code for input that cannot be used, the same as click's for wrong options.
 BAD_INPUT = 2
 
-#: Exit code after Ctrl-C, as shells have it.
+#: Exit code after Ctrl-C, the same as in shells.
 STOPPED = 130
 
 
 class _Commands(click.Group):
-    """A group whose commands end bad input with one line a mistake, never with a traceback."""
+    """A group whose commands answer bad input with one line per mistake, never with a traceback."""
 
     def resolve_command(
         self, context: click.Context, args: list[str]
@@ -49,19 +49,19 @@ class _Commands(click.Group):
         try:
             return super().invoke(context)
         except BrokenPipeError:
-            raise  # whoever read our output has enough, such as `head -1`: click ends without a word
+            raise  # the reader of our output has closed it, such as `head -1`: click ends silently
         except (ValueError, OSError, MemoryError) as error:
             for line in (str(error) or type(error).__name__).splitlines():
                 click.echo(f"Error: {line}", err=True)
             sys.exit(BAD_INPUT)
         except KeyboardInterrupt as error:
-            signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C while we are ending anyway
+            signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
 
 
 def _log_to_terminal() -> None:
-    """What the package has to say goes to the terminal as plain lines."""
+    """Print the package's log messages to the terminal as plain lines."""
     logger = logging.getLogger("swtstudy")
     if not logger.handlers:
         logger.addHandler(logging.StreamHandler())
@@ -72,7 +72,7 @@ def _log_to_terminal() -> None:
     cls=_Commands,
     epilog=examples(
         "swtstudy run figure3      # a study of the paper: archive and figure",
-        "swtstudy new mine         # a study to begin with",
+        "swtstudy new mine         # a commented study to start from",
         "swtstudy run --help",
         "",
         'Shell completion: eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)" in ~/.bashrc',

@@ -11,14 +11,14 @@ from swtstudy.cli.examples import examples
 @click.command(epilog=examples("swtstudy audit figure3 --points 100"))
 @click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
-@click.option("--seed", default=0, show_default=True, help="Of the random numbers.")
-@click.option("--results", default="results", show_default=True, help="Folder for the tables.")
+@click.option("--seed", default=0, show_default=True, help="Seed of the random numbers.")
+@click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 def audit(studies: tuple[str, ...], points: int, seed: int, results: str, workers: int) -> None:
-    """Solve random points of each STUDY in the whole body and for all planes.
+    """Solve random points of each STUDY in the whole body and on all planes.
 
-    Leaves the findings, and a report that says where the maximum is not on the surface line, on which s is
-    looked for. What is there already is not audited again.
+    Writes the audited points, and a report that says where the maximum is not on the surface line, where the
+    solver looks for s. Points already audited are not audited again.
     """
     from swtstudy.archive.names import archive_paths
     from swtstudy.audit import AUDIT_PREFIX

@@ -9,7 +9,7 @@ import click
 
 from swtstudy.cli.examples import examples
 
-#: What makes all that is checked: the audit is no study of the suite.
+#: Commands that make everything to be checked: the audit is not part of the suite.
 EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"
 
 
@@ -19,9 +19,9 @@ EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"
 def check(results: str, output: str | None) -> None:
     """Test what the paper says on the archives of its studies.
 
-    Prints a table of statements with what was measured, and leaves it as a Markdown file. The exit code is
-    0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing or
-    have gaps.
+    Prints a table of the statements with what was measured, and writes it to a Markdown file. The exit code
+    is 0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing
+    or have gaps.
     """
     from swtstudy.files import check_writable, replacing
     from swtstudy.statements.check import check as check_statements

@@ -1,4 +1,4 @@
-"""What the shell offers for arguments: studies of the paper, study files, archives."""
+"""Shell completion of arguments: studies of the paper, study files, archives."""
 
 from __future__ import annotations
 
@@ -25,6 +25,6 @@ def _files(*patterns: str) -> list[str]:
 
 
 def _offered(names: list[str], incomplete: str) -> list[CompletionItem]:
-    """Those that begin like that, or else whatever files the shell finds."""
+    """Names that begin with the incomplete word, or else the files that the shell finds."""
     items = [CompletionItem(name) for name in names if name.startswith(incomplete)]
     return items or [CompletionItem(incomplete, type="file")]

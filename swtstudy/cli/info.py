@@ -13,9 +13,9 @@ from swtstudy.cli.examples import examples
 @click.command(epilog=examples("swtstudy info results/figure3.nc"))
 @click.argument("archive", shell_complete=archive_completion)
 def info(archive: str) -> None:
-    """Say what an ARCHIVE is.
+    """Describe an ARCHIVE.
 
-    From which study and versions, how complete, how accurate.
+    Shows its study and versions, how complete and how accurate it is.
     """
     from swtstudy.archive.describe import describe
     from swtstudy.archive.open import open_results
@@ -26,7 +26,7 @@ def info(archive: str) -> None:
         click.echo(line)
     saved = points_saved(parts_folder(Path(archive)))
     if saved:
-        click.echo(f"  unfinished     {saved} distinct points are saved by a run that has not ended")
+        click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")
     kept = points_saved(kept_folder(Path(archive)))
     if kept:
         click.echo(

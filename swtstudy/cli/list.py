@@ -11,7 +11,7 @@ from swtstudy.cli.examples import examples
 def list_studies() -> None:
     """List the studies of the paper.
 
-    They come with the package; each name can be the STUDY of other commands.
+    They come with the package; other commands accept their names as STUDY.
     """
     from swtstudy.grid.unique import LARGEST_GRID
     from swtstudy.study.definition import Study

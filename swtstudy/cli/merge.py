@@ -12,13 +12,15 @@ from swtstudy.cli.examples import examples
 
 @click.command(epilog=examples("swtstudy merge results/a.nc results/b.nc -o results/both.nc"))
 @click.argument("archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion)
-@click.option("--output", "-o", required=True, help="Where the merged archive goes.")
-@click.option("--sparse", is_flag=True, help="Leave points missing that are in none of the archives.")
+@click.option("--output", "-o", required=True, help="File for the merged archive.")
+@click.option(
+    "--sparse", is_flag=True, help="Allow points that are in none of the archives; they are missing."
+)
 def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
-    """Merge each ARCHIVE into one.
+    """Merge several ARCHIVEs into one.
 
-    Its grid has the values of all of them along every axis. Points of it that are in none of the archives
-    are refused without --sparse, values that contradict each other always.
+    Along every axis the merged grid has the values of all archives. Points of it that are in none of them
+    are refused without --sparse; contradictory values are always refused.
     """
     from swtstudy.archive.lock import locked
     from swtstudy.archive.merge import merge as merge_archives

@@ -13,9 +13,9 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 @click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
 @click.argument("name")
 def new(name: str) -> None:
-    """Write NAME.toml, a small commented study to begin with.
+    """Write NAME.toml, a small commented study to start from.
 
-    Beside it goes the schema by which editors complete and check studies. An existing study is never
+    Beside it goes the schema that editors use to complete and check studies. An existing study is never
     replaced.
     """
     from swtstudy.files import check_writable
@@ -30,7 +30,7 @@ def new(name: str) -> None:
         with open(target, "x", encoding="utf-8") as file:
             file.write(template(target.stem.replace("_", " ")))
     except FileExistsError:
-        raise FileExistsError(f"{target} is there already; choose another name") from None
+        raise FileExistsError(f"{target} already exists; choose another name") from None
     click.echo(str(target))
     schema = target.with_name(SCHEMA_FILE)
     if not schema.exists():

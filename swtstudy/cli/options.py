@@ -1,4 +1,4 @@
-"""Options that are unknown, or given twice, where click would silently take the last."""
+"""Checks for unknown options and repeated ones, of which click would silently take the last."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ import click
 
 from swtstudy.mistakes import Mistake, StudyError, meant
 
-#: Stands for an option's value where several may be given between commas.
+#: Placeholder of an option that takes several values, separated by commas.
 SEVERAL = "VALUES"
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:
-    """Refuse options that the command does not have, and those that are there twice unless they may be.
+    """Refuse unknown options, and options given more than once that take a single value.
 
     Raises
     ------
     StudyError
-        With each of them.
+        With every repeated option.
     UsageError
-        With the one that was meant, also where a symbol such as --mu stands for it.
+        For an unknown option, with the one that was meant, also for a symbol such as --mu.
     """
     own = click.Context(command, context, command.name)
     try:
@@ -38,7 +38,7 @@ def check_options(context: click.Context, command: click.Command, args: list[str
     for parameter, count in Counter(order).items():
         single = isinstance(parameter, click.Option) and not (parameter.multiple or parameter.is_flag)
         if single and count > 1:
-            allowed = "once" + ", several values between commas" * (parameter.metavar == SEVERAL)
+            allowed = "once" + ", with values separated by commas" * (parameter.metavar == SEVERAL)
             mistakes.append(Mistake(parameter.opts[0], f"{count} times", allowed))
     if mistakes:
         raise StudyError(mistakes)

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
-    """Say what a run of each STUDY would compute, and how long.
+    """Show what a run of each STUDY would compute, and how long it would take.
 
-    A few points are computed to see how long they take, and nothing is written.
+    A few points are computed to time them; nothing is written.
     """
     from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
@@ -50,16 +50,16 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     shared = todo - loads(work.points.table[missing])
     lines = [
         study.title,
-        f"  archive            {target}{'' if target.exists() else ' (not there yet)'}",
+        f"  archive            {target}{'' if target.exists() else ' (does not exist yet)'}",
         f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
         f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
-        f"  there already      {distinct - todo}",
-        f"  to be computed     {todo} ({shared} of them with the contact solution of another)",
+        f"  already computed   {distinct - todo}",
+        f"  to be computed     {todo} ({shared} of them share another's contact solution)",
     ]
     if work.outdated:
-        lines.append(f"  anew               {work.outdated} come from another version of the solver")
+        lines.append(f"  recomputed         {work.outdated} come from another version of the solver")
     if work.coarse:
-        lines.append(f"  anew               {work.coarse} are less accurate than the study asks for")
+        lines.append(f"  recomputed         {work.coarse} are less accurate than the study asks for")
     if todo:
         timed: list[int] = []
         seconds = estimate(

@@ -16,7 +16,7 @@ from swtstudy.cli.examples import examples
     epilog=examples(
         "swtstudy plot results/figure3.nc -o figure3.pdf",
         "swtstudy plot results/figure3.nc --y critical_x --y regime",
-        "swtstudy plot merged.nc --x phase --vertical normal_amplitude --kind heatmap --y critical_angle",
+        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle -o angle.png",
     )
 )
 @click.argument("archive", shell_complete=archive_completion)
@@ -27,13 +27,15 @@ from swtstudy.cli.examples import examples
 @click.option("--panels", help="The axis whose values are the panels.")
 @click.option("--vertical", help="The axis along the vertical axis of contours and heat maps.")
 @click.option("--kind", help="lines, contour or heatmap.")
-@click.option("--y", multiple=True, help="What is drawn, such as s, critical_x or regime; once for each row.")
+@click.option(
+    "--y", multiple=True, help="What is drawn, such as s, critical_x or regime; repeat for more rows."
+)
 @click.option("--title", help="A title over the figure.")
 @click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
 def plot(archive: str, output: str | None, style: str | None, **own: Any) -> None:
-    """Draw the figure of an ARCHIVE, from the archive alone.
+    """Draw a figure of an ARCHIVE, from the archive alone.
 
-    With --x the layout is what the other options say; without, that of the archive but for what they say.
+    With --x the options alone define the layout; without it they change the layout stored in the archive.
     """
     from swtstudy.archive.open import open_results
     from swtstudy.figures.draw import draw, layout_of

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 #: Exit code of a run in which points failed.
 POINTS_FAILED = 3
 
-#: How long to wait for a scheduler.
+#: Seconds to wait for a scheduler: a cluster answers in one, a user waits for ten.
 CONNECT_SECONDS = 10.0
 
-#: Failed points that the summary names; the archive names them all.
+#: How many failed points the summary lists; swtstudy info lists more.
 _NAMED = 5
 
 
@@ -53,7 +53,7 @@ _NAMED = 5
 )
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 @click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
-@click.option("--retry-failed", is_flag=True, help="Compute anew what failed before.")
+@click.option("--retry-failed", is_flag=True, help="Recompute points that failed before.")
 def run(
     studies: tuple[str, ...],
     suite: bool,
@@ -63,21 +63,21 @@ def run(
     scheduler: str | None,
     retry_failed: bool,
 ) -> None:
-    """Compute each STUDY, and leave its archive and its figure.
+    """Compute each STUDY, and write its archive and its figure.
 
     STUDY is a TOML file, a folder of them, or the name of a study of the paper (see swtstudy list).
 
-    What is there already is not computed again: a run that was stopped goes on, a study that has grown is
+    Points already computed are not computed again: a stopped run continues, and a study that has grown is
     extended.
 
     \b
-    Exit codes: 0  all is there
+    Exit codes: 0  all points are computed
                 2  one line says what is wrong: input, disk or cluster
                 3  points failed
               130  stopped, by Ctrl-C or SIGTERM
 
-    After 2 and 130 what was computed is saved, and the same command goes on
-    from there.
+    After 2 and 130 everything computed so far is saved, and the same command
+    continues from there.
     """
     from swtstudy.archive.names import archive_paths
     from swtstudy.files import check_writable
@@ -101,7 +101,7 @@ def run(
                 study, target, formats, workers=workers, client=client, retry_failed=retry_failed
             )
             seconds = dataset.attrs["wall_time_seconds"]
-            effort = "all there already" if _written(target) == before else f"in {seconds:.1f} s"
+            effort = "already computed" if _written(target) == before else f"in {seconds:.1f} s"
             failed |= _summarize(dataset, target, effort)
             for ending in formats if study.figure is not None else ():
                 click.echo(str(target.with_suffix(f".{ending}")))
@@ -134,32 +134,31 @@ def _connect(address: str) -> Client:
     except (OSError, ValueError) as error:
         raise OSError(f"no dask scheduler at {address} ({error})") from None
     for name in ("distributed", "distributed.client"):
-        # A lost connection is one line of ours; distributed has a traceback for it.
+        # A lost connection is reported in one line of ours; distributed would log a traceback.
         logging.getLogger(name).setLevel(logging.CRITICAL)
     click.echo(f"dashboard: {client.dashboard_link}", err=True)
     return client
 
 
 def _written(target: Path) -> int | None:
-    """When an archive was written."""
+    """Time at which an archive was written, ns; None if there is none."""
     return target.stat().st_mtime_ns if target.exists() else None
 
 
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
-    """Say what a run came to; whether points failed."""
-    import json
-
+    """Print a summary of a run; return whether points failed."""
+    from swtstudy.archive.attributes import read_failures
     from swtstudy.archive.describe import relative_errors
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {relative.max():.1e}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
-    failures = json.loads(dataset.status.attrs["failures"])
+    failures = read_failures(dataset.status.attrs["failures"])
     for failure in failures[:_NAMED]:
         click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)
     if len(failures) > _NAMED:
         click.echo(f"failed: {len(failures) - _NAMED} more, see swtstudy info {target}", err=True)
     if failures:
-        click.echo(f"{len(failures)} points failed; --retry-failed computes them anew", err=True)
+        click.echo(f"{len(failures)} points failed; --retry-failed recomputes them", err=True)
     return bool(failures)

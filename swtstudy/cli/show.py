@@ -13,7 +13,7 @@ from swtstudy.cli.solve import with_parameters
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 def show(output: str, style: str | None, **texts: str | None) -> None:
-    """Draw one point of the parameters: load path, slip, tractions, stress cycle and swt.
+    """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """

@@ -19,7 +19,7 @@ def _short(value: object) -> str:
 
 
 def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """One option for each row of the table of parameters."""
+    """Decorate a command with one option for each parameter."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         for parameter in reversed(PARAMETERS.values()):
@@ -43,7 +43,7 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 def solve(rtol: float, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
 
-    VALUES is one value, or several between commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
     from swtstudy.mechanics.points import REGIMES
     from swtstudy.solving import solve as solve_grid

@@ -1,4 +1,4 @@
-"""The instants of a cycle that make swt at one point."""
+"""The instants of a cycle that decide swt at one point."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps on each stretch between two events: a smooth extreme is missed by 0.6 % of the range there at most.
 _STEPS = 10
-#: Cells with which the extremes are looked for, and how often: swt is within 1e-6 of that of all instants.
-_CELLS, _LOOKS = 60, 2
+#: Cells of the field in which extremes are searched, and rounds of the search: swt is then within 1e-6 of
+#: that over all instants.
+_CELLS, _ROUNDS = 60, 2
 
 
 def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes:
-    """Instants aligned with the events at a point, and close around the extremes that make its swt.
+    """Instants aligned with the events at a point, and close to the extremes that decide its swt.
 
     Parameters
     ----------
@@ -24,4 +25,4 @@ def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes
         x, y, z in a_H.
     """
     nodes = time_nodes(scene, _STEPS, [np.hypot(*point[:2])])
-    return closer_nodes(scene, nodes, point, _CELLS, _LOOKS)
+    return closer_nodes(scene, nodes, point, _CELLS, _ROUNDS)

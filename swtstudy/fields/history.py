@@ -1,4 +1,4 @@
-"""The Smith–Watson–Topper parameter of a stress history from elsewhere, with every mistake in it."""
+"""The Smith–Watson–Topper parameter of a user's own stress history, with every mistake in it reported."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
     Raises
     ------
     StudyError
-        A ValueError with every mistake in the input; a history has no gaps, so that NaN or a masked
-        component is one.
+        A ValueError with every mistake in the input. NaN or a masked component is a mistake: a history has no
+        gaps.
 
     Examples
     --------

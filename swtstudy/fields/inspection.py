@@ -1,4 +1,4 @@
-"""One parameter point explained: all that makes its s, as numbers."""
+"""One parameter point explained: everything that makes its s, as numbers."""
 
 from __future__ import annotations
 
@@ -24,16 +24,17 @@ from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]
 
-#: Instants of each oscillation, at least, and of the first few; and steps between the events.
+#: Uniform instants for smooth curves: 360 for each oscillation of a cycle of up to 4, no fewer than 90 for
+#: each of longer cycles; and steps between two events.
 _SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
-#: Distances from the axis, and how far they reach, in the largest contact radius.
+#: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
-#: The same for stick and slip.
+#: The same for stick and slip, whose map has a cell for each.
 _SLIP_RADII, _SLIP_REACH = 601, 1.15
-#: How finely swt of the line is sampled.
+#: How finely swt along the line is sampled: enough for a drawing.
 _RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, digits=8.0), 72
-#: How many instants are told apart at most, and their least distance in cycles.
-_TOLD, _APART = 4, 0.08
+#: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
+_MARKED, _APART = 4, 0.08
 
 
 def inspect_point(**parameters: object) -> xr.Dataset:
@@ -53,7 +54,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
           and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there;
         - over time and r: state (open, stick, forward or backward slip);
         - over x: s_local, that is swt on the surface line;
-        - at a few telling instants, with their instant_time and reason: pressure p and traction q over x;
+        - at a few marked instants, with their instant_time and reason: pressure p and traction q over x;
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
           0 or not finite, those of the largest swt that was sampled;
@@ -92,19 +93,23 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
     time = load.oscillations[0] * nodes.instant
     cycle = _load(scene, nodes) | _stress_cycle(scene, nodes, x, double_angle)
-    told, reasons = _telling_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
-    some = TimeNodes(nodes.interval[told], nodes.instant[told])
+    marked, reasons = _marked_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
+    some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
     shown: Variables = {
-        "shown_x": ((), x, _words("position at which the stress is shown", "x/a_H")),
+        "shown_x": ((), x, _named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), _words("SWT parameter", "swt")),
+        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), _named("SWT parameter", "swt")),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
     coordinates = {
-        "x": ("x", _both_sides(radius, -radius), _words("position in the direction of sliding", "x/a_H")),
-        "instant": np.arange(1, len(told) + 1),
-        "instant_time": ("instant", time[told]),
+        "x": (
+            "x",
+            _both_sides(radius, -radius),
+            _named("position in the direction of sliding", "x/a_H"),
+        ),
+        "instant": np.arange(1, len(marked) + 1),
+        "instant_time": ("instant", time[marked]),
         "reason": ("instant", reasons),
     }
     variables = (
@@ -113,7 +118,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
 
 
-def _words(meaning: str, symbol: str) -> dict[str, str]:
+def _named(meaning: str, symbol: str) -> dict[str, str]:
     return {"long_name": meaning, "units": "1", "symbol": symbol}
 
 
@@ -123,7 +128,7 @@ def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
 
 
 def _extent(scene: Scene) -> Variables:
-    """How far the contact reaches at least and at most, and what of it never slips."""
+    """Least and largest contact radius, and the radius of permanent stick."""
     load, coordinate = scene.cycle.load, scene.coordinate
     least, largest = coordinate.radius(np.stack([load.least_normal, load.largest_normal], axis=1))[0]
     stick = stick_coordinate(load)
@@ -131,18 +136,14 @@ def _extent(scene: Scene) -> Variables:
         least = 0.0
     permanent = coordinate.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
     return {
-        "permanent_stick_radius": ((), permanent, _words("radius that always sticks", "c/a_H")),
-        "least_radius": (
-            (),
-            least,
-            _words("least contact radius", "a/a_H"),
-        ),
-        "largest_radius": ((), largest, _words("largest contact radius", "a/a_H")),
+        "permanent_stick_radius": ((), permanent, _named("radius that always sticks", "c/a_H")),
+        "least_radius": ((), least, _named("least contact radius", "a/a_H")),
+        "largest_radius": ((), largest, _named("largest contact radius", "a/a_H")),
     }
 
 
 def _radii(scene: Scene, special: list[float]) -> FloatArray:
-    """Distances from the axis: evenly spread, at special places, and not where the pressure is infinite."""
+    """Distances from the axis: evenly spaced, at special places, and none where the pressure is infinite."""
     largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
     b = float(scene.profile.flat_radius[0])
     places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
@@ -154,8 +155,8 @@ def _load(scene: Scene, nodes: TimeNodes) -> Variables:
     load = scene.cycle.load
     depth, u = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
     return {
-        "depth": ("time", depth, _words("indentation depth", r"\delta/\delta_0")),
-        "displacement": ("time", u, _words("tangential displacement", r"G^* u/(\mu E^* \delta_0)")),
+        "depth": ("time", depth, _named("indentation depth", r"\delta/\delta_0")),
+        "displacement": ("time", u, _named("tangential displacement", r"G^* u/(\mu E^* \delta_0)")),
     }
 
 
@@ -171,15 +172,19 @@ def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float)
     sigma_xx, _, _, sigma_xz = stresses(history, scene.poisson_ratio, scene.friction, side)
     on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
     return {
-        "normal_stress": ("time", on_plane[0][0, 0], _words("stress normal to the plane", r"\sigma_n")),
-        "normal_strain": ("time", on_plane[1][0, 0], _words("strain normal to the plane", r"\varepsilon_n")),
-        "sigma_xx": ("time", sigma_xx[0, 0], _words("stress xx", r"\sigma_{xx}")),
-        "sigma_xz": ("time", sigma_xz[0, 0], _words("stress xz", r"\sigma_{xz}")),
+        "normal_stress": ("time", on_plane[0][0, 0], _named("stress normal to the plane", r"\sigma_n")),
+        "normal_strain": (
+            "time",
+            on_plane[1][0, 0],
+            _named("strain normal to the plane", r"\varepsilon_n"),
+        ),
+        "sigma_xx": ("time", sigma_xx[0, 0], _named("stress xx", r"\sigma_{xx}")),
+        "sigma_xz": ("time", sigma_xz[0, 0], _named("stress xz", r"\sigma_{xz}")),
     }
 
 
-def _telling_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[NDArray[np.intp], list[str]]:
-    """Instants at which curves over the cycle are extreme, the most telling ones, in the order of time."""
+def _marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[NDArray[np.intp], list[str]]:
+    """Instants at which curves over the cycle are extreme, in the order of time, and the reason for each."""
     extremes = {
         "σ_n largest": curves["normal_stress"].argmax(),
         "ε_n smallest": curves["normal_strain"].argmin(),
@@ -189,22 +194,22 @@ def _telling_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple
         "u smallest": curves["displacement"].argmin(),
     }
     touching = curves["depth"] > 0.0
-    distance = np.full(share.size, 1.0)  # to the nearest instant that is told already
-    told: dict[int, str] = {}
+    distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
+    marked: dict[int, str] = {}
 
-    def tell(index: int, reason: str) -> None:
-        told[index] = reason
+    def mark(index: int, reason: str) -> None:
+        marked[index] = reason
         nonlocal distance
         distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
 
     for reason, index in extremes.items():
         of_swt = reason in ("σ_n largest", "ε_n smallest")
-        if len(told) < _TOLD and distance[index] >= _APART and (of_swt or touching[index]):
-            tell(int(index), reason)
-    while len(told) < _TOLD and np.ptp(curves["normal_strain"]) > 0.0:
-        tell(int(np.where(touching, distance, -1.0).argmax()), "in between")
-    order = sorted(told)
-    return np.array(order), [told[index] for index in order]
+        if len(marked) < _MARKED and distance[index] >= _APART and (of_swt or touching[index]):
+            mark(int(index), reason)
+    while len(marked) < _MARKED and np.ptp(curves["normal_strain"]) > 0.0:
+        mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
+    order = sorted(marked)
+    return np.array(order), [marked[index] for index in order]
 
 
 def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
@@ -213,8 +218,8 @@ def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
     p, q = history.pressure[0].T, -scene.friction * history.traction[0].T
     dims = ("instant", "x")
     return {
-        "pressure": (dims, _both_sides(p, p), _words("pressure", "p")),
-        "traction": (dims, _both_sides(q, q), _words("tangential traction in +x", "q")),
+        "pressure": (dims, _both_sides(p, p), _named("pressure", "p")),
+        "traction": (dims, _both_sides(q, q), _named("tangential traction in +x", "q")),
     }
 
 
@@ -222,6 +227,10 @@ def _springs(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
     compression, force = spring_forces(scene, some, radius)
     dims = ("instant", "r")
     return {
-        "compression": (dims, compression, _words("compression of the springs", r"w/\delta_0")),
-        "force": (dims, force, _words("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)")),
+        "compression": (dims, compression, _named("compression of the springs", r"w/\delta_0")),
+        "force": (
+            dims,
+            force,
+            _named("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)"),
+        ),
     }

@@ -18,6 +18,7 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PARAMETERS, family_of
 from swtstudy.solving import solve
 
+#: Cells of the field, as for the instants (`decisive_nodes`).
 _CELLS = 60
 DIRECTIONS = ("depth", "critical_plane")
 _MEANINGS = {
@@ -28,7 +29,7 @@ _MEANINGS = {
 
 
 def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
-    """s and its nonlocal counterparts, which tend to s with the critical distance.
+    """s and its nonlocal counterparts, which tend to s as the critical distance tends to 0.
 
     Parameters
     ----------
@@ -40,10 +41,15 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        That of `swtstudy.solve`, with s_volume over the parameters and critical_distance, and s_point and
-        s_line over these and direction: straight down, or along the critical plane into the body. The
-        instants are those of the critical point, which leaves values low by about 1 % at ℓ = 0.3 a_H and by
-        less at smaller ℓ. NaN where there is no critical point.
+        What `swtstudy.solve` returns, with s_volume over the parameters and critical_distance, and s_point
+        and s_line over these and direction: straight down, or along the critical plane into the body. The
+        instants are those of the critical point, so that values are about 1 % low at ℓ = 0.3 a_H, and less
+        so at smaller ℓ. NaN where there is no critical point.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with the mistakes in the distances or the parameters.
     """
     allowed = "finite numbers ℓ/a_H > 0"
     distance = read_distances("critical_distance", critical_distance, allowed)
@@ -78,7 +84,7 @@ def nonlocal_swt(critical_distance: object, **parameters: Any) -> xr.Dataset:
 def _of_point(
     parameters: dict[str, object], x: float, distance: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Volume mean, point and line values of one parameter point, shapes (k,), (k, 2) and (k, 2)."""
+    """Volume mean, point value and line mean of one parameter point, shapes (k,), (k, 2) and (k, 2)."""
     scene = read_scene(parameters)
     body = Body(scene, decisive_nodes(scene, (x, 0.0, 0.0)), _CELLS)
     down = np.array([0.0, 0.0, 1.0])

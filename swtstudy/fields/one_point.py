@@ -1,4 +1,4 @@
-"""One parameter point from keywords, as it stands: its phase is not folded, so that time keeps its origin."""
+"""One parameter point from keywords, as given: its phase is not folded, so that time keeps its origin."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     Raises
     ------
     StudyError
-        With every mistake in the parameters.
+        A ValueError with every mistake in the parameters.
     """
     grid, mistakes = read_grid(dict(parameters), {})
     if grid is None:

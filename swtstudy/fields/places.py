@@ -26,14 +26,14 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
     Parameters
     ----------
     x, y, z
-        Numbers; one-dimensional sequences, which span a grid of the dimensions x, y, z; or DataArrays, whose
-        dimensions are kept: three with one common dimension are points.
+        Numbers; one-dimensional sequences, which span a grid with the dimensions x, y, z; or DataArrays,
+        whose dimensions are kept: three DataArrays that share one dimension are a list of points.
 
     Raises
     ------
     StudyError
-        A ValueError, if a coordinate is no finite number, z is negative, or DataArrays have different
-        coordinates along a common dimension.
+        A ValueError, if a coordinate is not a finite number, z is negative, or DataArrays have different
+        coordinates along a shared dimension.
     """
     arrays: list[xr.DataArray] = []
     mistakes: list[Mistake] = []
@@ -97,8 +97,7 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
     scene
         A batch of one point.
     time
-        ω1 t in rad, a number or a one-dimensional sequence. The cycle repeats itself with the period 2πq,
-        where ω2/ω1 = p/q.
+        ω1 t in rad, a number or a one-dimensional sequence. The cycle has the period 2πq, where ω2/ω1 = p/q.
 
     Returns
     -------
@@ -114,6 +113,6 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
 
 
 def label_time(time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t with their meaning."""
+    """Instants ω1 t as a labelled array."""
     attributes = {"long_name": "omega1 t, in the stationary cycle", "units": "rad", "symbol": r"\omega_1 t"}
     return xr.DataArray(time, dims=dims, attrs=attributes)

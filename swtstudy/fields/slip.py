@@ -11,10 +11,10 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import read_distances, read_time
 from swtstudy.mistakes import Mistake, StudyError, literal
 
-#: Instants of a cycle unless others are asked for.
+#: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.
 _INSTANTS = 64
-#: In the order of the flag values.
-STATES = ("open", "stick", "forward_slip", "backward_slip")
+#: States of the surface, in the order of the flag values.
+_STATES = ("open", "stick", "forward_slip", "backward_slip")
 
 
 def slip_map(r: object, *, time: object | None = None, **parameters: object) -> xr.Dataset:
@@ -32,8 +32,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     Returns
     -------
     xarray.Dataset
-        state (a flag), over time and r, and slip_radius and contact_radius in a_H over time: from the one to
-        the other the contact slips. In forward slip the body under the indenter is dragged to +x.
+        state (a flag) over time and r; slip_radius and contact_radius in a_H over time: the contact slips
+        between the two. In forward slip the body under the indenter is dragged towards +x.
 
     Raises
     ------
@@ -57,8 +57,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     state = np.where(at < front[0][:, None], 1, np.where(at < edge[0][:, None], slips, 0)).astype(np.int8)
     flags = {
         "long_name": "state of the contact",
-        "flag_values": np.arange(len(STATES), dtype=np.int8),
-        "flag_meanings": " ".join(STATES),
+        "flag_values": np.arange(len(_STATES), dtype=np.int8),
+        "flag_meanings": " ".join(_STATES),
     }
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)

@@ -1,4 +1,4 @@
-"""The MDR springs: the memory diagram in the radius."""
+"""The MDR springs: the memory diagram over the radius."""
 
 from __future__ import annotations
 

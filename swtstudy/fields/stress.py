@@ -14,7 +14,7 @@ from swtstudy.mechanics.stress.field.punch import COMPONENTS
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mistakes import Mistake, StudyError
 
-#: Cells that give the stress to 1e-8 p0 at depths, in a_H, of more than so much: more towards the surface.
+#: Pairs of depth in a_H and number of cells: deeper than that, so many cells give the stress to 1e-8 p0.
 _CELLS = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
 
 
@@ -27,10 +27,10 @@ def stress_field(
     ----------
     x, y, z
         Position in a_H = √(R δ0), z ≥ 0 into the body: numbers; one-dimensional sequences, which span a
-        grid; or DataArrays with dimensions of their own.
+        grid; or DataArrays with their own dimensions.
     time
         ω1 t in rad: a number or a one-dimensional sequence, common to all positions. By default each position
-        has instants of its own, those that matter there.
+        has its own instants, those that matter there.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each.
 
@@ -39,8 +39,8 @@ def stress_field(
     xarray.Dataset
         sigma_xx … sigma_xy in E* √(δ0/R), tension positive, over time and the dimensions of the positions;
         and contact_radius in a_H over time. Shear traction acts on the half-space in +x where sigma_xz < 0.
-        Without a given ``time`` the dimension is instant, in ascending order, and time and contact_radius are
-        over the positions, too; positions with fewer instants than others repeat their last one.
+        If ``time`` is not given, the dimension is instant, in ascending order, and time and contact_radius
+        vary over the positions, too; positions with fewer instants than others repeat their last one.
 
     Raises
     ------
@@ -51,10 +51,11 @@ def stress_field(
     -----
     The stress at a point has square-root cusps in time, when the contact edge or a slip front passes, and a
     criterion over the cycle often has its extreme at one. By default the instants are aligned with these
-    events, and close around the extremes of stress and strain on the plane that makes swt: `swt_of_history`
-    of such a history is within 1e-5 of s at the critical point. That takes some 0.1 s for each position; for
-    a map at a few instants give them. At 64 evenly spread instants swt can be 23 % low, at 512 still 10 %.
-    Within 1e-6 a_H of the edge of a truncated paraboloid's face the stress, infinite there, is cut off.
+    events, and dense around the extremes of stress and strain on the critical plane: `swt_of_history`
+    of such a history is within 1e-5 of s at the critical point. That takes about 0.1 s for each position; for
+    a map at a few instants, give these. At 64 evenly spaced instants swt can be 23 % low, at 512 still 10 %.
+    Within 1e-6 a_H of the edge of a truncated paraboloid's face the stress, which is infinite there, is
+    cut off.
 
     Examples
     --------
@@ -67,7 +68,7 @@ def stress_field(
     taken = sorted({"time", "instant"}.intersection(map(str, places[0].dims)))
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
-        raise StudyError([Mistake("x, y, z", found, "other names: these are of the instants")])
+        raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
     if time is None:
         instants, history = _at_own_instants(scene, places)
     else:

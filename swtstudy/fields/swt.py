@@ -9,10 +9,11 @@ from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import as_given, read_places
 from swtstudy.mechanics.body.body import Body, time_nodes
 
+#: Cells of the field.
 _CELLS = 60
-#: Steps on each stretch of the cycle.
+#: Steps on each stretch between two events.
 _STEPS = 4
-#: Distances from the axis whose points share the instants of all of them.
+#: Distances from the axis whose points are computed together, at the instants of all of them.
 _RADII = 12
 
 
@@ -34,9 +35,9 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     Notes
     -----
     At each point the instants are aligned with the events at its distance from the axis: otherwise swt on the
-    surface would be low by up to 20 %, in rings. Between the events they are few: where an extreme over the
-    cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the history
-    that `stress_field` has by default is exact, and slower. Few distinct distances (a grid in polar
+    surface would be up to 20 % low, in rings. Between the events there are few instants: where an extreme
+    over the cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the
+    default history of `stress_field` is exact, but slower. Few distinct distances (a grid in polar
     coordinates) are computed faster.
     """
     scene = read_scene(parameters)

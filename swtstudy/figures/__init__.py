@@ -1,1 +1,1 @@
-"""Figures in the layout of the paper, from an archive alone."""
+"""Figures drawn from an archive alone, by default in the layout of the paper."""

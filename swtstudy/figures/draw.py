@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Every panel of every figure is so large, in inches; beside it is so much room for a scale of colours.
+#: Panel size, and width of a colour bar, inches.
 _PANEL_WIDTH, _PANEL_HEIGHT, _SCALE_WIDTH = 4.0, 3.2, 1.5
 
 
@@ -36,10 +36,10 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
     dataset
         Results, as from `open_results`.
     layout
-        What goes where; that of the archive if not given.
+        What goes where; by default the layout stored in the archive.
     style
-        A matplotlib style of one's own: a name, a file or rcParams. Without one the look is that of
-        `swtstudy.figures.style`, but for rcParams that are not matplotlib's own any more.
+        A matplotlib style: a name, a file or rcParams. By default the look is that of
+        `swtstudy.figures.style`, except for rcParams that the user has changed.
 
     Returns
     -------
@@ -50,7 +50,7 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
     Raises
     ------
     ValueError
-        With every mistake in the layout; or if the archive has none, or there are no points.
+        With every mistake in the layout; or if there is no layout, or the results are empty.
     """
     layout = layout or layout_of(dataset)
     require_points(dataset)
@@ -62,7 +62,7 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
 
 
 def layout_of(dataset: xr.Dataset) -> FigureLayout:
-    """The layout of the figure that the study of these results asks for, without dimensions sliced away.
+    """The layout of the figure in the study of these results, without dimensions that were sliced away.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
         axes[row, 0].set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
     for index, (one, panel) in enumerate(zip(axes.flat, columns * rows, strict=True)):
-        _head_panel(one, panel, layout, index, axes.size)
+        _title_panel(one, panel, layout, index, axes.size)
     for bottom in axes[-1]:
         bottom.set_xlabel(axis_words(layout.x))
     if layout.title:
@@ -140,7 +140,7 @@ def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
     return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
 
 
-def _head_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int, count: int) -> None:
+def _title_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int, count: int) -> None:
     words = []
     if count > 1:
         words.append(f"({chr(ord('A') + index % 26)})")

@@ -1,4 +1,4 @@
-"""A figure that a notebook shows."""
+"""A figure that notebooks display."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import matplotlib.figure
 
 
 class Figure(matplotlib.figure.Figure):
-    """Independent of pyplot, yet shown in a notebook: IPython itself knows figures only from pyplot on."""
+    """Independent of pyplot, yet displayed; IPython itself displays figures only once pyplot is imported."""
 
     def _repr_png_(self) -> bytes:
         picture = BytesIO()

@@ -1,4 +1,4 @@
-"""One parameter point in one picture: load, slip, springs, tractions, stress, swt."""
+"""One parameter point in one figure: load, slip, springs, tractions, stress, swt."""
 
 from __future__ import annotations
 
@@ -23,24 +23,25 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+#: Size of the figure, inches.
 _WIDTH, _HEIGHT = 13.2, 7.8
 
 
 def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
-    """One picture of one parameter point: its load path, slip, tractions, stress cycle and swt.
+    """One figure of one parameter point: its load path, slip, tractions, stress cycle and swt.
 
     Parameters
     ----------
     style
-        A matplotlib style of one's own.
+        A matplotlib style: a name, a file or rcParams.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Six panels, see `draw_inspection`; save it with its ``savefig``. The numbers in it are those of
-        `swtstudy.inspect_point`.
+        Six panels, see `draw_inspection`; save it with its method ``savefig``. `swtstudy.inspect_point`
+        returns the numbers shown.
 
     Raises
     ------
@@ -51,21 +52,21 @@ def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
 
 
 def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
-    """Draw what `swtstudy.fields.inspection.inspect_point` has found.
+    """Draw a parameter point.
 
     Parameters
     ----------
     dataset
-        The point.
+        The point, as from `swtstudy.inspect_point`.
     style
-        A matplotlib style of one's own.
+        A matplotlib style: a name, a file or rcParams.
 
     Returns
     -------
     matplotlib.figure.Figure
         Six panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
-        tangential force; tractions; the stress cycle on the critical plane; swt along the surface. Numbers
-        mark the same instants in all of them.
+        tangential force; tractions; the stress cycle on the critical plane; swt along the surface. The same
+        numbered instants are marked in all of them.
     """
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 

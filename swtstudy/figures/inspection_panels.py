@@ -1,4 +1,4 @@
-"""The panels of the picture of one parameter point."""
+"""The panels of the figure of one parameter point."""
 
 from __future__ import annotations
 
@@ -16,14 +16,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
+#: Width and grey of guide lines, and their dashes.
 _THIN, _FAINT = 0.9, "0.55"
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
-#: What changes by less than this part of itself, or of 1, does not change but for rounding.
+#: A curve whose range is a smaller fraction of its size is constant but for rounding.
 _ROUNDING = 1e-13
 
 
 def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
-    """The path of the load in (u, δ), and its sense."""
+    """The path of the load in (u, δ), and its direction."""
     u, depth = dataset.displacement.values, dataset.depth.values
     axes.plot(u, depth, color="black", linestyle="-", marker="")
     axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
@@ -33,7 +34,7 @@ def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
     if depth.min() < 0.0:
         axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
-    _draw_sense(axes, u, depth, [index for _, index in _instants(dataset)])
+    _draw_direction(axes, u, depth, [index for _, index in _instants(dataset)])
     for number, index in _instants(dataset):
         _mark(axes, number, u[index], depth[index])
     axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
@@ -41,9 +42,9 @@ def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_title("load path", loc="left")
 
 
-def _draw_sense(axes: Axes, u: FloatArray, depth: FloatArray, marked: list[int]) -> None:
-    """An arrow in the sense of the loop, far from the marks."""
-    size = max(np.ptp(u), np.ptp(depth), 1e-12)
+def _draw_direction(axes: Axes, u: FloatArray, depth: FloatArray, marked: list[int]) -> None:
+    """An arrow in the direction of the loop, far from the marks."""
+    size = max(np.ptp(u), np.ptp(depth)) or 1.0
     path = np.stack([u / size, depth / size])
     distance = np.linalg.norm(path[:, :, None] - path[:, None, marked], axis=0).min(axis=1)
     at = int(distance[1:-1].argmax()) + 1
@@ -100,7 +101,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
         p = dataset.pressure.sel(instant=number)
         for sign in (1.0, -1.0):
             axes.plot(dataset.x, sign * mu * p, **_bound(line))
-    # Next to a sharp edge the pressure has no bound.
+    # The pressure is unbounded next to a sharp edge, which would set the scale.
     highest = mu * float(np.quantile(dataset.pressure, 0.995))
     axes.set_ylim(-1.2 * highest - 1e-3, 1.2 * highest + 1e-3)
     largest = 1.08 * float(dataset.largest_radius)
@@ -116,7 +117,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     time, stress, strain = dataset.time, dataset.normal_stress, dataset.normal_strain
     (line,) = axes.plot(time, stress, label=r"$\sigma_n$")
     other = axes.twinx()
-    other.plot([], [])  # the next of the cycle's looks
+    other.plot([], [])  # advances the property cycle, for another colour
     (dashed,) = other.plot(time, strain, label=r"$\varepsilon_n$")
     other.grid(False)
     peak = int(stress.values.argmax())
@@ -170,7 +171,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
 
 
 def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
-    """The critical plane in the half-space, small: the surface, the plane and its normal."""
+    """An inset with the critical plane in the half-space: the surface, the plane and its normal."""
     inset = axes.inset_axes((0.37, 0.74, 0.26, 0.24))
     angle = math.radians(float(dataset.shown_angle))
     normal = np.array([math.cos(angle), -math.sin(angle)])  # z points down
@@ -191,12 +192,12 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
 
 
 def _is_finite(dataset: xr.Dataset) -> bool:
-    """Whether there is a critical point: else the point shown is that of the largest swt sampled."""
+    """Whether there is a critical point; otherwise the point shown is that of the largest swt sampled."""
     return math.isfinite(float(dataset.s))
 
 
 def _limits(values: FloatArray, below: float, above: float, size: float = 0.0) -> tuple[float, float]:
-    """Limits of an axis with room at both ends, as wide as the size of values that do not change."""
+    """Limits of an axis with room at both ends; constant values get room relative to their size."""
     low, span = float(values.min()), float(np.ptp(values))
     size = max(size, float(np.abs(values).max()))
     if span <= _ROUNDING * size:
@@ -205,7 +206,7 @@ def _limits(values: FloatArray, below: float, above: float, size: float = 0.0) -
 
 
 def _instants(dataset: xr.Dataset) -> list[tuple[int, int]]:
-    """Number and index in time of each instant that is shown."""
+    """Number, and index along time, of each marked instant."""
     times = dataset.instant_time.values
     return [
         (int(n), int(np.abs(dataset.time.values - t).argmin()))
@@ -214,7 +215,7 @@ def _instants(dataset: xr.Dataset) -> list[tuple[int, int]]:
 
 
 def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple[int, Line2D]]:
-    """One line for each instant, in the cycle's looks."""
+    """One line for each marked instant, with its number."""
     lines = []
     for number in dataset.instant.values:
         (line,) = axes.plot(dataset[along], dataset[name].sel(instant=number), label=str(number))
@@ -224,7 +225,7 @@ def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple
 
 
 def _bound(line: Line2D) -> dict[str, Any]:
-    """The look of what bounds a line."""
+    """Keywords that draw the bounds of a line."""
     colour = line.get_color()
     return {"color": colour, "linestyle": "-", "linewidth": 0.7, "alpha": 0.45, "marker": ""}
 

@@ -1,4 +1,4 @@
-"""The legend beside or below all panels, for which a figure grows."""
+"""The legend beside or below all panels; the figure grows to hold it."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ _POINTS = 72.0
 
 
 def add_legend(figure: Figure, axes: NDArray[Any], below: bool) -> None:
-    """Say once what the panels have in common, the lines before the marks; no entry is cut.
+    """Add one legend for all panels, lines before markers; no entry is cut off.
 
     Parameters
     ----------
     figure
-        The figure, which grows by the legend.
+        The figure, which grows by the size of the legend.
     axes
         Its panels.
     below
-        Whether the legend stands below the panels, not at their right.
+        Whether the legend is below the panels instead of to their right.
     """
     handles: dict[str, Any] = {}
     for one in axes.flat:
@@ -49,7 +49,7 @@ def add_legend(figure: Figure, axes: NDArray[Any], below: bool) -> None:
 
 
 def _inches(legend: Legend, dpi: float) -> tuple[float, float]:
-    """Width and height of a legend with the room around it."""
+    """Width and height of a legend with its padding, inches."""
     around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / _POINTS
     box = legend.get_window_extent()
     return box.width / dpi + around, box.height / dpi + around

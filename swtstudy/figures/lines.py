@@ -1,4 +1,4 @@
-"""A panel of lines, with their errors where these can be seen."""
+"""A panel of lines, with error bands where these are visible."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
     from numpy.typing import NDArray
 
-#: Markers, where a line has them, are so far apart, as a share of the panel's diagonal.
+#: Distance between two markers of a line, as a fraction of the panel's diagonal.
 _MARK_EVERY = 0.1
-#: An error below this share of the panel's range of values is thinner than its line.
+#: An error below this fraction of the panel's range of values is thinner than its line.
 _VISIBLE_ERROR = 0.004
 
 
@@ -37,9 +37,9 @@ def draw_lines(
     panel
         Results over x and hue.
     layout, y
-        What is drawn. A band around a curve is its estimated error, where it can be seen.
+        What is drawn. A band around a curve shows its estimated error, where it is visible.
     scale
-        Colours of the values of hue; without one the curves have the looks of the cycle, and labels.
+        Colours of the values of hue; without it the curves have the styles of the property cycle, and labels.
     """
     panel = panel.sortby(layout.x)
     x = panel[layout.x].values
@@ -67,7 +67,7 @@ def draw_lines(
 
 
 def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
-    """Limits, logarithms and ticks that suit what is drawn."""
+    """Set limits, logarithmic axes and ticks that suit the curves."""
     axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
     words = flag_words(values)
     if words:

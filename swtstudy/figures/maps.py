@@ -1,4 +1,4 @@
-"""Maps of one parameter point: swt over a section, the stress cycle, slip over position and time."""
+"""Figures of the fields of one parameter point: swt over a section, the stress cycle, stick and slip."""
 
 from __future__ import annotations
 
@@ -15,12 +15,15 @@ if TYPE_CHECKING:
     from matplotlib.collections import QuadMesh
     from matplotlib.patches import Patch
 
+#: A component below this fraction of the largest one is 0 but for rounding.
+_ROUNDING = 1e-9
+
 #: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
 _STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 
 
 def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
-    """swt over the section that the dataset spans, depth downwards.
+    """Draw swt over the section that the Dataset spans, depth downwards.
 
     Parameters
     ----------
@@ -29,17 +32,20 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
     dataset
         From `swtstudy.swt_field`, with two of the dimensions x, y and z.
     highest
-        swt at the upper end of the colours, whose lower end is 0.
+        swt at the upper end of the colour scale, whose lower end is 0.
 
     Returns
     -------
     mesh
         For a colour bar, which several maps may share.
+
+    Raises
+    ------
+    ValueError
+        If the Dataset spans anything but two of x, y and z.
     """
     if len(dataset.s_local.dims) != 2 or not set(dataset.s_local.dims) <= set("xyz"):
-        raise ValueError(
-            f"a map of swt spans two of x, y and z; this one spans {', '.join(dataset.s_local.dims)}"
-        )
+        raise ValueError(f"found swt over {', '.join(dataset.s_local.dims)}; allowed: two of x, y and z")
     across, along = sorted(map(str, dataset.s_local.dims))
     swt = dataset.s_local.transpose(along, across)
     look: Any = {"cmap": "cividis", "shading": "gouraud", "rasterized": True}
@@ -52,18 +58,18 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
 
 
 def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
-    """The stress components that are not 0 over one cycle at one point.
+    """Draw the stress components that are not 0 over one cycle at one point.
 
     Parameters
     ----------
     axes
         Where to draw.
     dataset
-        From `swtstudy.stress_field` with a time, at a single position.
+        From `swtstudy.stress_field` with a given time, at a single position.
     """
     names = [str(name) for name in dataset.data_vars if str(name).startswith("sigma_")]
     largest = max(float(abs(dataset[name]).max()) for name in names)
-    shown = [name for name in names if float(abs(dataset[name]).max()) > 1e-9 * largest]
+    shown = [name for name in names if float(abs(dataset[name]).max()) > _ROUNDING * largest]
     for index, name in enumerate(shown):
         words = f"${dataset[name].attrs['symbol']}$"
         look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)]}
@@ -75,7 +81,7 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
 
 
 def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
-    """Stick and slip over the distance from the axis and time.
+    """Draw stick and slip over the distance from the axis and time.
 
     Parameters
     ----------
@@ -107,7 +113,7 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
 
 
 def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:
-    """The horizontal axis of what stands over ω1 t."""
+    """Set up the horizontal axis of a panel over ω1 t."""
     first, last = float(time.min()), float(time.max())
     axes.set_xlim(first, last)
     tick_in_pi(axes.xaxis, first, last)

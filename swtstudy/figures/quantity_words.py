@@ -1,4 +1,4 @@
-"""Quantities of results as they stand in a figure."""
+"""Quantities of results as they appear in a figure."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _UNITS = {"degree": "°"}
 
 
 def quantity_words(values: xr.DataArray, y: str) -> str:
-    """What a figure's ``y`` names, with its symbol and its unit.
+    """Label of the quantity that a figure's ``y`` names: symbol and unit.
 
     Parameters
     ----------
@@ -31,12 +31,12 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     if values.name == "s":
         return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
-    # xarray lets what is computed from a variable keep its symbol.
+    # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
     kept = any(symbol == known.get("symbol") for name, known in ATTRIBUTES.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"
 
 
 def flag_words(values: xr.DataArray) -> list[str]:
-    """The meanings of flags, in the order of their values from 0 on; none if there are no flags."""
+    """The meanings of flags, in the order of their values from 0; empty if the values are not flags."""
     return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]

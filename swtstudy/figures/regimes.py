@@ -1,4 +1,4 @@
-"""Marks where a regime of the contact begins along a line, and axes for long ranges."""
+"""Marks where a regime of the contact begins along a line, and a test for logarithmic axes."""
 
 from __future__ import annotations
 
@@ -10,17 +10,19 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: What marks the point at which a regime begins; of "not_finite", the last point before it.
+#: Markers at the point where a regime begins; for "not_finite" at the last point before.
 MARKS = {"stick": "D", "partial_slip": "^", "gross_slip": "o", "lift_off": "s", "not_finite": "x"}
 _WORDS = {"not_finite": "not finite from here on", "lift_off": "lift-off begins"}
-#: A logarithmic axis pays from this ratio of its ends on.
+#: An axis is logarithmic from this ratio of its ends: two decades.
 LOG_RATIO = 100.0
+#: Relative difference of ratios that are equal but for the digits in which a study gives values.
+_EQUAL = 1e-6
 
 
 def mark_regimes(
     axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None], colour: Any
 ) -> None:
-    """Mark where the regimes of a line, one a point, change; None if not known."""
+    """Mark the points of a line where the regime changes; there is one for each point, None if unknown."""
     for place in range(1, len(regimes)):
         before, name = regimes[place - 1 : place + 1]
         if name and before and name != before:
@@ -31,8 +33,8 @@ def mark_regimes(
 
 
 def in_equal_ratios(x: NDArray[Any]) -> bool:
-    """Whether ascending values are spaced in equal ratios over a long range."""
+    """Whether ascending values have equal ratios, and a long range."""
     if len(x) < 3 or x[0] <= 0.0 or x[-1] < LOG_RATIO * x[0]:
         return False
     ratio = x[1:] / x[:-1]
-    return bool(np.ptp(ratio) <= 1e-6 * ratio[0])
+    return bool(np.ptp(ratio) <= _EQUAL * ratio[0])

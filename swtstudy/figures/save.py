@@ -1,4 +1,4 @@
-"""Figures as files."""
+"""Saving figures to files."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from swtstudy.files import replacing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: What tells the time of making, left out so that the same results give the same file.
+#: Time stamps, left out so that the same results give the same file.
 _NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 
 FORMATS = (".png", ".pdf", ".svg")
 
 
 def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None = None) -> None:
-    """Write a figure as PNG, PDF or SVG, by the ending of its name; `style` as for `draw`.
+    """Write a figure as PNG, PDF or SVG, according to the ending of its name; `style` as for `draw`.
 
     Raises
     ------
     ValueError
-        For another ending.
+        If the name has another ending.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
-        raise ValueError(f"{path}: a figure's name ends in one of {', '.join(FORMATS)}")
-    # Drawing takes seconds, in which a process that is ended would leave an unfinished file.
+        raise ValueError(f"{path}: found {suffix or 'no ending'}; allowed: {', '.join(FORMATS)}")
+    # Drawn in memory first: it takes seconds, and a process killed meanwhile would leave an unfinished file.
     picture = BytesIO()
     with styled(style):
         figure.savefig(picture, format=suffix[1:], metadata=_NO_DATE.get(suffix))

@@ -1,4 +1,4 @@
-"""Colours of many lines, by a scale of the values that they stand for."""
+"""A colour scale for many lines, by the values of their dimension."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-#: From so many values of a number on, lines are told apart by a scale: there are 7 colours of lines.
+#: From this number of lines a colour scale is used: the property cycle has 7 colours.
 _MANY = 8
-#: The lightest end of a map of colours cannot be seen on white: a scale ends at this part of it.
+#: The lightest colours of a colour map cannot be seen on white: the scale ends at this fraction of it.
 _END = 0.9
 
 
 def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
-    """The colours of many values of a number; None for few, or for names."""
+    """Colours of many numerical values; None for few values, or for names."""
     from matplotlib import colormaps, rcParams
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
@@ -37,7 +37,7 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
 
 
 def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, name: str) -> None:
-    """The bar of colours beside all panels, for a parameter."""
+    """Add the colour bar of a parameter beside all panels."""
     bar = figure.colorbar(scale, ax=axes, label=axis_words(name), pad=0.02)
     if PARAMETERS[name].units == "rad":
         tick_in_pi(bar.ax.yaxis, *bar.ax.get_ylim())

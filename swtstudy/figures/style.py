@@ -1,4 +1,4 @@
-"""The look of figures: legible in print, with any colour vision and in greyscale; the user may change it."""
+"""The style of figures: legible in print, with any colour vision and in greyscale; users may change it."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ import matplotlib
 from cycler import cycler
 from matplotlib import rcParamsDefault
 
-#: What matplotlib takes for a style: a name, a file, rcParams, or several of them.
+#: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
 
-#: Okabe and Ito's colours, told apart with any colour vision; without the yellow.
+#: Okabe and Ito's colours, distinct with any colour vision; without yellow.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00")
-#: As many as colours have in common no factor with, so that no pair repeats early.
+#: Their number is coprime to that of the colours, so that no pair repeats early.
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
-#: Lines whose dashes repeat have markers, one kind for each repetition.
+#: One marker for each repetition of the dashes.
 MARKERS = ("", "o", "s", "^", "D", "v", "X")
 
 _LINES = range(math.lcm(len(COLOURS), len(DASHES)))
 
-#: rcParams of every figure, but for those that the user has changed.
+#: rcParams of every figure, except those that the user has changed.
 STYLE: dict[str, Any] = {
     "axes.prop_cycle": cycler(
         color=[COLOURS[i % len(COLOURS)] for i in _LINES],
@@ -50,13 +50,13 @@ STYLE: dict[str, Any] = {
 
 @contextmanager
 def styled(style: Style | None = None) -> Iterator[None]:
-    """The package's look while a figure is drawn or saved.
+    """The package's style while a figure is drawn or saved.
 
     Parameters
     ----------
     style
-        A matplotlib style of one's own, which goes over everything else. Without one, every rcParam that
-        differs from matplotlib's default stays as it is: a matplotlibrc or ``plt.style.use`` is honoured.
+        A matplotlib style that overrides everything else. Without it, every rcParam that differs from
+        matplotlib's default stays as it is: a matplotlibrc or ``plt.style.use`` is honoured.
 
     Raises
     ------

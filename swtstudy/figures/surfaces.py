@@ -1,4 +1,4 @@
-"""Panels of a quantity over two dimensions: contours, or a heat map of cells."""
+"""Panels of a quantity over two dimensions: contours, or a heat map."""
 
 from __future__ import annotations
 
@@ -20,28 +20,29 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-#: Ticks of the axes of cells, at most, and places at which an optimum is labelled.
+#: Largest numbers of ticks of a heat map's axes whose labels do not overlap, and of labels along an extremum.
 _TICKS_ACROSS, _TICKS_UP, _LABELLED = 9, 20, 5
 
-#: Contours are about so many.
+#: Approximate number of contours: as many as are legible with labels.
 _LEVELS = 13
 
 
 def draw_surfaces(
     figure: Figure, axes: NDArray[Any], surfaces: list[xr.DataArray], kind: str, words: str
 ) -> None:
-    """A row of panels with one scale of colours.
+    """Draw a row of panels with one colour scale.
 
     Parameters
     ----------
     figure, axes
         The figure and the panels of the row.
     surfaces
-        A quantity over (vertical, x) for each panel; flags have a colour each, with its meaning beside it.
+        A quantity over (vertical, x) for each panel; each flag has a colour, with its meaning at the colour
+        bar.
     kind
         "contour" or "heatmap".
     words
-        What the colours say.
+        Label of the colour bar.
     """
     names = flag_words(surfaces[0])
     look = _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind)}
@@ -59,7 +60,7 @@ def draw_surfaces(
 
 
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
-    """One scale of colours for all panels of a row, in steps for contours."""
+    """One colour scale for all panels of a row, in steps for contours."""
     from matplotlib.colors import BoundaryNorm, Normalize
     from matplotlib.ticker import MaxNLocator
 
@@ -81,7 +82,7 @@ def _flag_colours(names: list[str]) -> dict[str, Any]:
 
 
 def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Areas of flags over (vertical, x), with their borders half way between points; grey if NaN."""
+    """Draw areas of flags over (vertical, x), with borders half way between points; grey where NaN."""
     vertical, x = map(str, surface.dims)
     axes.set_facecolor("0.8")
     surface = surface.sortby([vertical, x])
@@ -94,7 +95,7 @@ def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
 
 
 def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Contours of a surface over (vertical, x); of s its minima and maxima along x too, labelled with x."""
+    """Draw contours of a surface over (vertical, x); for s also its minima and maxima along x, labelled."""
     vertical, x = map(str, surface.dims)
     levels = look["norm"].boundaries
     surface = surface.sortby([vertical, x])
@@ -115,14 +116,14 @@ def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
     found = extrema(surface.to_dataset(name="s"), x)
     for kind, look in (("minimum", {"linestyle": "-"}), ("maximum", {"linestyle": (0, (4, 2))})):
         places = found[f"at_{kind}"]
-        # The curve is broken where the extremum leaps from one place to another.
-        leaps = np.abs(np.diff(places, prepend=places[0])) > 0.25 * np.ptp(surface[x].values)
+        # The curve has a gap where the extremum jumps from one place to another.
+        jumps = np.abs(np.diff(places, prepend=places[0])) > 0.25 * np.ptp(surface[x].values)
         label = "least $s$" if kind == "minimum" else "greatest $s$"
-        unbroken = np.where(leaps, np.nan, places)
-        # Over the frame: an extremum may lie on it.
+        with_gaps = np.where(jumps, np.nan, places)
+        # Not clipped: an extremum may lie on the frame.
         over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}
-        axes.plot(unbroken, places[vertical], color="white", linewidth=3.4, **over)
-        axes.plot(unbroken, places[vertical], color="#B22222", label=label, **look, **over)
+        axes.plot(with_gaps, places[vertical], color="white", linewidth=3.4, **over)
+        axes.plot(with_gaps, places[vertical], color="#B22222", label=label, **look, **over)
         _label_places(axes, places, x, vertical)
 
 
@@ -146,7 +147,7 @@ def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> No
 
 
 def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """A cell for every point of a surface over (vertical, x), in the order of the values; grey if NaN."""
+    """Draw a cell for each point of a surface over (vertical, x), in the order of values; grey where NaN."""
     vertical, x = map(str, surface.dims)
     axes.set_facecolor("0.8")
     columns, rows = (np.arange(surface.sizes[name]) for name in (x, vertical))

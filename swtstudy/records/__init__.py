@@ -1,1 +1,1 @@
-"""Results of canonical points: their values, their state, and what made them."""
+"""Results of canonical points: their values, state and origin."""

@@ -1,4 +1,4 @@
-"""Plain arrays with the names, units and meanings of the study: the Dataset that users see."""
+"""Plain arrays as the Dataset that users see, with names, units and meanings."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import STATES
 
-#: xarray breaks the labels of its own plots after 30 characters, the unit included.
+#: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
 
-#: Attributes of the data variables, after the CF conventions. Long names are short: xarray's plots have them
-#: as labels. Dimensionless quantities say so by the unit 1, although xarray's labels then end in "[1]".
+#: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
+#: use them as labels. Dimensionless quantities have the unit 1, although xarray's labels then end in "[1]".
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",
@@ -104,12 +104,12 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
 
 
 def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDArray]:
-    """Data variables of points from the solutions of their canonical points, mirrored back where needed."""
+    """Data variables of points, from the solutions of their canonical points, mirrored back where needed."""
     angle = np.where(mirrored, -solution.critical_angle, solution.critical_angle)
     return {
         "s": solution.s,
         "s_error": solution.s_error,
-        # Without the sign of zero.
+        # + 0.0 removes the sign of zero.
         "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x) + 0.0,
         "critical_angle": np.where(angle <= -90, angle + 180, angle) + 0.0,
         "regime": solution.regime,

@@ -1,4 +1,4 @@
-"""Results by canonical point, with what is known of how each was made."""
+"""Results by canonical point, with the origin of each."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ COMPUTED, FAILED, MISSING = range(3)
 
 @dataclass(frozen=True)
 class Run:
-    """What made some of the results.
+    """The run that made some of the results.
 
     Attributes
     ----------
     solver_version
-        Version of the mechanics' values.
+        Version of the solver; it changes when values do.
     rtol
-        Relative accuracy that was asked for.
+        Relative accuracy asked of s.
     study
         Text of the study file.
     versions
-        Versions of Python and of the packages that matter.
+        Versions of Python and of the packages that affect the numbers.
     started
         Date and time of its first result, ISO 8601.
     seconds
-        Computing time, summed over all workers.
+        Computing time in seconds, summed over all workers.
     """
 
     solver_version: str
@@ -61,7 +61,7 @@ class Records:
     run
         Index into `runs`, -1 where missing, shape (n,).
     runs
-        What made them.
+        The runs that made them.
     messages
         Why a point failed, by its index.
     """
@@ -78,7 +78,7 @@ class Records:
 
     @classmethod
     def missing(cls, table: FloatArray) -> Records:
-        """Records of points of which nothing is known yet."""
+        """Records of points that are all missing."""
         n = len(table)
         return cls(table, blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
 
@@ -102,73 +102,73 @@ class Records:
             messages,
         )
 
-    def put(self, rows: IntArray, part: Records) -> Records:
-        """These records with others filled in at `rows`; the arrays are filled in place."""
-        runs, number = _with_runs(self.runs, part.runs)
+    def fill(self, rows: IntArray, part: Records) -> Records:
+        """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
+        runs, index = _with_runs(self.runs, part.runs)
         for item in fields(Solution):
             getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
         self.status[rows] = part.status
-        self.run[rows] = number[part.run]
+        self.run[rows] = index[part.run]
         self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
         return replace(self, runs=runs)
 
     def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
-        """Which of these can be used for a study with this accuracy and solver, shape (n,)."""
+        """Which records can be used for a study with this accuracy and solver, shape (n,)."""
         good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
         worst = COMPUTED if retry_failed else FAILED
         return np.array([*good, False])[self.run] & (self.status <= worst)
 
     def trimmed(self) -> Records:
-        """These records without runs that none of them comes from."""
+        """These records without the runs that made none of them."""
         used = np.unique(self.run[self.run >= 0])
-        number = np.full(len(self.runs) + 1, -1, np.int32)
-        number[used] = np.arange(len(used))
-        return replace(self, run=number[self.run], runs=tuple(self.runs[i] for i in used))
+        index = np.full(len(self.runs) + 1, -1, np.int32)
+        index[used] = np.arange(len(used))
+        return replace(self, run=index[self.run], runs=tuple(self.runs[i] for i in used))
 
 
 def join(parts: Iterable[Records]) -> Records:
-    """Records one after the other; equal runs become one, with their computing times added."""
+    """Records concatenated; equal runs become one, with their computing times added."""
     parts = list(parts)
     if not parts:
         return Records.missing(np.empty((0, len(COLUMNS))))
     runs: tuple[Run, ...] = ()
-    numbers, messages, start = [], {}, 0
+    run, messages, start = [], {}, 0
     for part in parts:
-        runs, number = _with_runs(runs, part.runs)
-        numbers.append(number[part.run])
+        runs, index = _with_runs(runs, part.runs)
+        run.append(index[part.run])
         messages.update({start + i: message for i, message in part.messages.items()})
         start += len(part)
     return Records(
         np.concatenate([part.table for part in parts]),
         joined([part.solution for part in parts]),
         np.concatenate([part.status for part in parts]),
-        np.concatenate(numbers),
+        np.concatenate(run),
         runs,
         messages,
     )
 
 
 def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run, ...], NDArray[np.int32]]:
-    """Runs with others added, and the new number of each of these others, with -1 at the end."""
-    every, numbers = list(runs), []
+    """Runs with others added, and the index of each of these others among them, with -1 at the end."""
+    every, indices = list(runs), []
     for run in more:
         if run in every:
-            number = every.index(run)
-            started = min(filter(None, (every[number].started, run.started)), default="")
-            total = every[number].seconds + run.seconds
-            every[number] = replace(every[number], started=started, seconds=total)
+            index = every.index(run)
+            started = min(filter(None, (every[index].started, run.started)), default="")
+            total = every[index].seconds + run.seconds
+            every[index] = replace(every[index], started=started, seconds=total)
         else:
-            number = len(every)
+            index = len(every)
             every.append(run)
-        numbers.append(number)
-    return tuple(every), np.array([*numbers, -1], np.int32)
+        indices.append(index)
+    return tuple(every), np.array([*indices, -1], np.int32)
 
 
 def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
-    """For every canonical row of a table the index of its record, or -1.
+    """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
-    Of several candidates for one point, a computed one comes before a failed one, then the most accurate,
-    then the latest.
+    Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
+    one, then the latest.
     """
     index = np.flatnonzero(candidates)
     if not len(index):
@@ -176,7 +176,13 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
     order = np.lexsort((-index, tolerance, records.status[index]))
     index = index[order]
-    # The first of equal rows wins: candidates in order of preference, then the table itself.
+    # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
     first, group = group_rows(np.concatenate([records.table[index], table]))
     winner = first[group[len(index) :]]
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
+
+
+def matching(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> Records:
+    """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
+    found = look_up(table, records, candidates)
+    return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

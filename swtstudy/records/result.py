@@ -1,4 +1,4 @@
-"""What comes of solving some points together."""
+"""The result of solving a chunk of points."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from swtstudy.mechanics.points import IntArray, Solution
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a chunk.
+    """The result of a chunk of n points.
 
     Attributes
     ----------
     rows
-        As in the chunk.
+        Indices of the points in the table of the run, as in the chunk, shape (n,).
     solution
-        NaN for points that failed.
+        Arrays of shape (n,); NaN for points that failed.
     failed
-        Shape (n,).
+        Whether a point failed, shape (n,).
     messages
         Why a point failed, by its position in `rows`.
     seconds
         Time that the worker took.
     solver_version
-        Of the mechanics on the worker.
+        Version of the solver on the worker.
     """
 
     rows: IntArray

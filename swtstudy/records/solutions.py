@@ -1,4 +1,4 @@
-"""Solutions of many points: without values, at some of them, one after the other."""
+"""Solutions of many points: without values, at selected points, concatenated."""
 
 from __future__ import annotations
 
@@ -23,6 +23,6 @@ def solution_at(solution: Solution, rows: NDArray) -> Solution:
 
 
 def joined(solutions: list[Solution]) -> Solution:
-    """Solutions one after the other as one."""
+    """Solutions concatenated to one."""
     names = [item.name for item in fields(Solution)]
     return Solution(**{name: np.concatenate([getattr(part, name) for part in solutions]) for name in names})

@@ -1,1 +1,1 @@
-"""Reading results: slices, normalised curves, extrema and tables of any Dataset of this package."""
+"""Evaluating results: slices, normalised curves, extrema and tables of any Dataset of this package."""

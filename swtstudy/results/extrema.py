@@ -1,4 +1,4 @@
-"""Where s is least and greatest along a dimension."""
+"""The least and the greatest s along a dimension."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swtstudy.results.select import require_points
 
 
 def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
-    """Least and greatest s along a dimension, and where.
+    """Least and greatest s along a dimension, and where they are.
 
     Parameters
     ----------
@@ -22,8 +22,8 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        minimum, maximum and ratio (greatest over least) of s, and the places at_minimum and at_maximum, over
-        the other dimensions. Points that are NaN do not count; where all are, so is the result.
+        minimum, maximum and ratio (greatest over least) of s, and their places at_minimum and at_maximum,
+        over the other dimensions. NaN values are ignored; where all values are NaN, so is the result.
 
     Raises
     ------
@@ -32,10 +32,10 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
     """
     if dim not in dataset.s.dims:
         raise ValueError(
-            f"found {dim!r}, no dimension of s; allowed: {nearest(dim, map(str, dataset.s.dims))}"
+            f"found {dim!r}, not a dimension of s; allowed: {nearest(dim, map(str, dataset.s.dims))}"
         )
     require_points(dataset)
-    dataset = dataset[["s"]].compute()  # an index along a dimension must be known
+    dataset = dataset[["s"]].compute()  # xarray indexes by arrays in memory only
     parts: dict[str, xr.DataArray] = {}
     for name, index in (
         ("minimum", dataset.s.fillna(np.inf).argmin(dim)),

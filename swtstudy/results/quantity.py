@@ -1,4 +1,4 @@
-"""What a figure shows: a data variable, or s over its value at one place of a parameter."""
+"""The quantity that a figure shows: a data variable, or s over its value at one place."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
     dataset
         Results.
     y
-        The name of a data variable, or "s/s(name=value)" with the name or the letter of a parameter.
+        The name of a data variable, or "s/s(name=value)" with the name or the symbol of a parameter.
 
     Raises
     ------
     ValueError
-        If it is neither, or the place is not there.
+        If it is neither, or the place is not in the results.
 
     See Also
     --------
-    quantity_error : the error that goes with it.
+    quantity_error : its estimated error.
     """
     place = reference(y)
     if place is None:
@@ -46,14 +46,14 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
 
 
 def known_regime(dataset: xr.Dataset) -> xr.DataArray:
-    """The regime, NaN at points that failed or are missing: archives call it not finite there."""
+    """The regime; NaN at points that failed or are missing, which an archive marks "not_finite"."""
     if "status" not in dataset:
         return dataset.regime
     return dataset.regime.where(dataset.status == COMPUTED)
 
 
 def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
-    """Estimated absolute error of `quantity`, 0 at the place itself; None where no error is known."""
+    """Estimated absolute error of `quantity`, 0 at the reference place; None if no error is known."""
     place = reference(y)
     if "s_error" not in dataset or (place is None and y.strip() != "s"):
         return None

@@ -1,4 +1,4 @@
-"""Slices of results at named values, written as in a study file."""
+"""Slices of results at given values of parameters, written as in a study file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.grid.values import Value, read_value
+from swtstudy.grid.nearest import TOLERANCE, index_of
+from swtstudy.grid.values import read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.wording import value_words
@@ -15,31 +16,32 @@ from swtstudy.wording import value_words
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Distance at which a value counts as the one that was asked for, relative to the larger of the two.
-TOLERANCE = 1e-6
-#: Distance from 0 that counts as none: the rounding of a phase, say.
-_ROUNDING = 1e-14
-#: Values of an axis that a message lists one by one.
+#: Values of an axis that a message lists one by one; of longer axes the first and the last.
 _LISTED = 12
 
 
 def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float = TOLERANCE) -> xr.Dataset:
-    """The part of results at given values of its parameters.
+    """The part of results at given values of their parameters.
 
     Parameters
     ----------
     dataset
         Results, as from `solve`, `run` or `open_results`.
     places
-        By name a single value, whose dimension becomes a scalar coordinate, or a sequence of values, which
-        keeps it. Values are written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
+        By name: a single value, whose dimension becomes a scalar coordinate, or a sequence of values, whose
+        dimension is kept. Values are written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
     tolerance
-        Largest distance from the nearest value there, relative to the larger of the two.
+        Largest distance from the nearest value of the axis, relative to the larger of the two.
+
+    Returns
+    -------
+    xarray.Dataset
+        All data variables at these values.
 
     Raises
     ------
     StudyError
-        A ValueError with every name and value that is not there, and what is.
+        A ValueError with every name and value that the results lack, and those that they have.
     """
     require_points(dataset)
     mistakes: list[Mistake] = []
@@ -47,7 +49,7 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
     for name, raw in places.items():
         if name not in dataset.coords or name not in PARAMETERS:
             known = [str(known) for known in dataset.coords if known in PARAMETERS]
-            mistakes.append(Mistake(name, "no parameter of these results", nearest(name, known)))
+            mistakes.append(Mistake(name, "not a parameter of these results", nearest(name, known)))
             continue
         several = isinstance(raw, list | tuple | range | np.ndarray) and np.ndim(raw) > 0
         elements: list[object] = list(raw) if several else [raw]  # type: ignore[call-overload]
@@ -62,41 +64,30 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
 
 
 def require_points(dataset: xr.Dataset) -> None:
-    """Refuse results without a single point, as selections leave them.
-
-    Raises
-    ------
-    ValueError
-        Naming the dimensions without a value.
-    """
+    """Raise a ValueError for results without a single point, which a selection may leave."""
     empty = [str(name) for name, size in dataset.sizes.items() if not size]
     if empty:
         raise ValueError(f"these results are empty: no value is left of {', '.join(empty)}")
 
 
 def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mistake]) -> int:
-    """Place of a value along its coordinate; a mistake and 0 if it is not there."""
+    """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name = str(there.name)
     try:
-        value: Value = read_value(PARAMETERS[name], raw)
+        value = read_value(PARAMETERS[name], raw)
     except ValueError as error:
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
         return 0
-    known = np.atleast_1d(there.values)
-    if isinstance(value, str):
-        distance, allowed = np.where(known == value, 0.0, np.inf), np.zeros(len(known))
-    else:
-        asked = float(value)
-        distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
-        allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
-    index = int(distance.argmin())
-    if not distance[index] <= allowed[index]:
-        mistakes.append(Mistake(name, f"{literal(raw)}, which is not there", _listed(name, known)))
+    known = np.atleast_1d(there.values).tolist()
+    index = index_of(value, known, tolerance)
+    if index is None:
+        mistakes.append(Mistake(name, f"{literal(raw)}, which is not in these results", _listed(name, known)))
+        return 0
     return index
 
 
-def _listed(name: str, values: np.ndarray) -> str:
-    words = [value_words(name, value) for value in values.tolist()]
+def _listed(name: str, values: list[float | str]) -> str:
+    words = [value_words(name, value) for value in values]
     if len(words) > _LISTED:
         words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
     return ", ".join(words)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Results as a table: one row a point, one column a parameter or a result, flags in words.
+    """Results as a table: one row per point, one column per parameter or result, flags as words.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        The dimensions in their order, the parameters with a single value, and the results.
+        Columns: the dimensions in their order, the parameters with a single value, and the results.
     """
     import pandas as pd
 
@@ -35,7 +35,7 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
         flat = np.broadcast_to(values.transpose(*dims).values, shape).ravel()
         meanings = dataset[name].attrs.get("flag_meanings")
         if meanings is not None:
-            # xarray's own operations leave NaN where there is nothing.
+            # xarray's operations leave NaN where a flag is missing.
             codes = np.where(np.isfinite(flat), flat, -1).astype(int)
             flat = pd.Categorical.from_codes(codes, meanings.split())
         columns[name] = flat

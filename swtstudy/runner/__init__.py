@@ -1,1 +1,1 @@
-"""Running a study: what has to be computed is planned apart from computing it."""
+"""Running a study: planning what has to be computed is kept apart from computing it."""

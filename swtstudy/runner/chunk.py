@@ -1,4 +1,4 @@
-"""One chunk of work: what a worker is given and what it gives back."""
+"""One chunk of work: what a worker receives and what it returns."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swtstudy.mechanics.points import REGIMES, FloatArray, IntArray, Points, Sol
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined
 
-#: What solves a batch of points with a relative accuracy.
+#: Solves a batch of points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
 
 
@@ -23,11 +23,11 @@ class Chunk:
     Attributes
     ----------
     rows
-        Shape (n,): where the points are in the table of the run.
+        Shape (n,): indices of the points in the table of the run.
     table
         Their canonical rows, shape (n, len(COLUMNS)).
     lengths
-        Points of each block, adding up to n.
+        Number of points in each block, adding up to n.
     """
 
     rows: IntArray
@@ -36,7 +36,7 @@ class Chunk:
 
     @classmethod
     def of(cls, table: FloatArray, blocks: list[IntArray]) -> Chunk:
-        """The chunk of the given blocks of rows."""
+        """The chunk that consists of the given blocks of rows."""
         rows = np.concatenate(blocks)
         return cls(rows, table[rows], tuple(map(len, blocks)))
 
@@ -49,7 +49,7 @@ class Chunk:
         return f"points-{self.rows[0]}-{len(self)}"
 
     def split(self) -> Iterator[Chunk]:
-        """Its blocks, or the halves of its only block, as chunks of their own."""
+        """Its blocks, or the halves of its only block, as separate chunks."""
         lengths = self.lengths if len(self.lengths) > 1 else (len(self) // 2, -(-len(self) // 2))
         start = 0
         for length in lengths:
@@ -59,14 +59,14 @@ class Chunk:
 
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
-    """Solve a chunk, whatever happens to single points of it; runs in a worker."""
+    """Solve a chunk, even if single points of it fail; runs in a worker."""
     from swtstudy.version import SOLVER_VERSION
 
     begin = time.perf_counter()
     solutions: list[Solution] = []
     messages: dict[int, str] = {}
     start = 0
-    for solution, message in _kept_apart(chunk, rtol, solver):
+    for solution, message in _isolated(chunk, rtol, solver):
         if message:
             messages[start] = message
         solutions.append(solution)
@@ -77,19 +77,19 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     return Result(chunk.rows, joined(solutions), failed, messages, seconds, SOLVER_VERSION)
 
 
-def _kept_apart(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, str]]:
-    """Solutions of the points, in order; where one fails, it is alone with its message."""
+def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, str]]:
+    """Solutions of the points, in order; a point that fails is isolated, with its message."""
     if len(chunk.lengths) == 1:
         try:
             return [(_checked(chunk.table, rtol, solver), "")]
         except Exception as error:
             if len(chunk) == 1:
                 return [(blank(1), f"{type(error).__name__}: {error}")]
-    return [found for part in chunk.split() for found in _kept_apart(part, rtol, solver)]
+    return [found for part in chunk.split() for found in _isolated(part, rtol, solver)]
 
 
 def given_up(chunk: Chunk, message: str) -> Result:
-    """The result of a chunk that could not be brought to an end."""
+    """The result of a chunk that could not be completed: every point failed."""
     from swtstudy.version import SOLVER_VERSION
 
     size = len(chunk)
@@ -98,7 +98,7 @@ def given_up(chunk: Chunk, message: str) -> Result:
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
-    """The solver of the mechanics, looked up where it runs."""
+    """The solver of the mechanics, imported where it runs."""
     from swtstudy import mechanics
 
     return mechanics.solve_points(points, rtol)

@@ -19,19 +19,19 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger(__name__)
 
-#: How often it is looked whether the cluster has workers: soon enough to be read by who has just started it.
-_LOOK_SECONDS = 5.0
+#: Seconds between two checks that the cluster has workers: the user who has just started a run still looks.
+_CHECK_SECONDS = 5.0
 
 
 class ClusterPool:
-    """The workers of a cluster, as they come and go, inside a with block; see `Pool`.
+    """The workers of a cluster, which may come and go, inside a with block; see `Pool`.
 
-    dask itself gives out again what a lost worker had in hand; only what outlived several workers is lost.
+    dask itself reassigns the tasks of a lost worker; only a task that has killed several workers is lost.
 
     Parameters
     ----------
     client
-        Connected to the cluster; remains open.
+        Client of the cluster; it stays open.
     """
 
     lost = KilledWorker
@@ -65,13 +65,13 @@ class ClusterPool:
         self._executor = self._client.get_executor(pure=False)
 
     def _watch(self) -> None:
-        """Say when there are no workers: dask waits for them without a word."""
-        said = False
-        while not self._ended.wait(_LOOK_SECONDS):
+        """Warn when there are no workers: dask waits for them silently."""
+        warned = False
+        while not self._ended.wait(_CHECK_SECONDS):
             try:
-                there = bool(self._client.nthreads())
-            except (Exception, asyncio.CancelledError):  # the scheduler is gone, which the engine finds out
+                present = bool(self._client.nthreads())
+            except (Exception, asyncio.CancelledError):  # the scheduler is gone: the engine will notice
                 return
-            if not there and not said:
+            if not present and not warned:
                 _log.warning("the cluster has no workers; waiting for some")
-            said = not there
+            warned = not present

@@ -1,4 +1,4 @@
-"""Taking results: each is safe in a part of the archive before it counts."""
+"""Collecting results: each is saved in a part of the archive before it counts."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ if TYPE_CHECKING:
 
 
 class Collector:
-    """Fills the results of a run into records; its progress is shown inside a with block.
+    """Fills the results of a run into its records; shows progress inside a with block.
 
     Parameters
     ----------
     records
-        Of all points of the run; filled in place.
+        Records of all points of the run; filled in place.
     run
-        What makes the results.
+        Origin of the results.
     writer
-        Writes them as parts.
+        Saves them as parts.
     """
 
     def __init__(self, records: Records, run: Run, writer: PartsWriter) -> None:
@@ -44,7 +44,7 @@ class Collector:
         self._bar.close()
 
     def add(self, result: Result) -> None:
-        """Take one more result.
+        """Save a result and fill it in.
 
         Raises
         ------
@@ -58,6 +58,6 @@ class Collector:
             raise WorkerError(f"{found}, this machine {SOLVER_VERSION}")
         part = Records.of(result, self.records.table[result.rows], self._run)
         self._writer.add(part)
-        self.records = self.records.put(result.rows, part)
+        self.records = self.records.fill(result.rows, part)
         self.pace.update(result, int(self._weights[result.rows].sum()))
         self._bar.add(len(result))

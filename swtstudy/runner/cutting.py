@@ -1,4 +1,4 @@
-"""Cutting what is to be computed into chunks of whole blocks."""
+"""Cutting the missing points into chunks of whole blocks."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from swtstudy.runner.chunk import Chunk
 
 
 def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
-    """Chunks of the wanted points of a table: whole blocks, about `size()` in weight when cut.
+    """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], floa
     wanted
         Shape (len(table),): the points to be solved.
     size
-        Asked anew for every chunk.
+        Called for every chunk, so that later chunks follow the timing of earlier ones.
     """
     weight = weights(table)
     blocks: list[IntArray] = []

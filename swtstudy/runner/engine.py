@@ -1,4 +1,4 @@
-"""The engine: dask's scheduler gives chunks to the workers of a pool, and takes results back."""
+"""The engine: dask's scheduler hands chunks to the workers of a pool and collects the results."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from typing import Any, NoReturn, Protocol
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import Chunk, Solver, given_up, solve_chunk
 
-#: Takes every result as soon as it is there.
+#: Receives every result as soon as it arrives.
 Deliver = Callable[[Result], None]
 
-#: Chunks for each worker in the waves in which dask is given its tasks; the last number is for all later
-#: waves. A wave ends with workers waiting for the last one; the first are short, to cut later chunks by
-#: their timing.
+#: Chunks per worker in the successive waves of tasks that dask receives; the last number holds for all later
+#: waves. Each wave ends with idle workers; the first ones are short, so that later chunks are cut by their
+#: timing.
 _WAVES = (1, 8, 128)
 
-#: Tasks on their way for every worker: with two none waits for the parent, and few are lost with a worker.
-_AHEAD = 2
+#: Tasks in flight per worker: with two, no worker waits for the parent, and few are lost with a worker.
+_IN_FLIGHT = 2
 
 LOST_WORKER = "the worker process died while it computed this point"
 
 
 class WorkerError(OSError):
-    """Workers that cannot do the work: gone, of another version, or without the package."""
+    """Workers that cannot do the work: they are gone, of another version, or lack the package."""
 
 
 class Pool(Protocol):
@@ -34,36 +34,36 @@ class Pool(Protocol):
 
     @property
     def lost(self) -> type[Exception]:
-        """What a future raises if its task was lost with a worker."""
+        """Exception that a future raises if its task was lost with a worker."""
 
     def size(self) -> int:
-        """Number of tasks that are solved at the same time, at least 1."""
+        """Number of tasks that run at the same time, at least 1."""
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`."""
 
     def renew(self) -> None:
-        """Forget what was submitted and, after a loss, be ready for more."""
+        """Drop all submitted tasks, and be ready for new ones after a loss."""
 
 
 def solve(
     chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver, pool: Pool | None = None
 ) -> None:
-    """Solve all chunks, in any order; return when every result is delivered.
+    """Solve all chunks, in any order; return when every result has been delivered.
 
-    What was in hand when a worker died is solved again, one chunk after the other, and cut up until the
-    point is found that kills workers, if there is one.
+    Chunks that were in flight when a worker died are solved again, one after the other, and split until the
+    point that kills workers is found, if there is one.
 
     Parameters
     ----------
     chunks
-        Taken when they are needed.
+        Consumed as they are needed.
     rtol, solver
         As in `run`.
     deliver
-        Told about every result.
+        Called with every result.
     pool
-        The workers; without, this process solves.
+        The workers; without them, this process solves.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def solve(
 
 @dataclass(frozen=True)
 class _Waves:
-    """Solves chunks that are all there; the parameters are those of `solve`."""
+    """Solves a list of chunks; the parameters are those of `solve`."""
 
     rtol: float
     solver: Solver
@@ -91,14 +91,14 @@ class _Waves:
     pool: Pool
 
     def solve(self, wave: list[Chunk]) -> None:
-        """Solve all of them."""
+        """Solve all chunks of a wave."""
         while wave:
             wave, lost = self._attempt(wave)
             for chunk in lost:
                 self._alone(chunk)
 
     def _alone(self, chunk: Chunk) -> None:
-        """Solve one chunk with nothing beside it; cut it up until the point that kills is found."""
+        """Solve one chunk with nothing beside it; split it until the point that kills is found."""
         _, lost = self._attempt([chunk])
         if not lost:
             return
@@ -109,31 +109,31 @@ class _Waves:
             self._alone(part)
 
     def _attempt(self, wave: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
-        """Solve chunks until a worker dies; what was not begun then, and what was in hand."""
-        # The scheduler itself: dask.compute would import all of distributed, where that is installed.
+        """Solve chunks until a worker dies; return those not yet submitted, and those lost in flight."""
+        # Called directly: dask.compute would import all of distributed where that is installed.
         import cloudpickle
         from dask.local import get_async
         from dask.multiprocessing import pack_exception
 
         waiting = {chunk.name: chunk for chunk in wave}
-        in_hand: dict[str, Chunk] = {}
+        in_flight: dict[str, Chunk] = {}
         graph = {name: (solve_chunk, chunk, self.rtol, self.solver) for name, chunk in waiting.items()}
 
-        def begun(name: str, *_: object) -> None:
-            in_hand[name] = waiting.pop(name)
+        def submitted(name: str, *_: object) -> None:
+            in_flight[name] = waiting.pop(name)
 
         def done(name: str, result: Result, *_: object) -> None:
             self.deliver(result)
-            del in_hand[name]
+            del in_flight[name]
 
         try:
             get_async(
                 self.pool.submit,
-                _AHEAD * self.pool.size(),
+                _IN_FLIGHT * self.pool.size(),
                 graph,
                 list(graph),
-                callbacks=[(None, None, begun, done, None)],
-                # Unpacked where its failure is told back: a worker may not have this package.
+                callbacks=[(None, None, submitted, done, None)],
+                # Unpickled where a failure is reported back: a worker may lack this package.
                 dumps=cloudpickle.dumps,
                 loads=cloudpickle.loads,
                 pack_exception=pack_exception,
@@ -142,9 +142,9 @@ class _Waves:
             )
         except self.pool.lost:
             self.pool.renew()
-        return list(waiting.values()), list(in_hand.values())
+        return list(waiting.values()), list(in_flight.values())
 
 
 def _unable(error: BaseException, _: object) -> NoReturn:
-    """What a worker raised outside of the solver, such as while it imported it."""
+    """Raise what a worker raised outside of the solver, such as while importing it."""
     raise WorkerError(f"a worker cannot solve anything ({type(error).__name__}: {error})") from error

@@ -1,4 +1,4 @@
-"""How long a study will take, from timing a few of its points."""
+"""How long a study will take, estimated from the timing of a few points."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import Chunk, Solver, solve_chunk
 
-#: Kinds of points (profile and frequency ratio) that are timed, one block of each.
+#: How many kinds of points (profile and frequency ratio) are timed, one block each: a plan takes seconds.
 _TIMED_KINDS = 4
 
 
@@ -24,18 +24,18 @@ def estimate(
     solver: Solver,
     timed: Callable[[Result], None] = lambda result: None,
 ) -> float:
-    """Seconds of computing that the missing points of a table need, from timing a few blocks of them.
+    """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
 
     Parameters
     ----------
     table
         Canonical rows in the order of `unique_points`.
     missing
-        Shape (len(table),).
+        Shape (len(table),): the points to be solved.
     rtol, solver
         As in `run`.
     timed
-        Told about each block that was solved for this.
+        Called with the result of each block that was timed.
     """
     rows = np.flatnonzero(missing)
     if not len(rows):
@@ -52,7 +52,7 @@ def estimate(
         begin = int(ends[block - 1]) if block else 0
         inside = begin + np.flatnonzero(missing[begin : ends[block]])
         if index == 0:
-            # Once for nothing: the first call imports and fills tables.
+            # Warm-up call: the first one imports modules and fills tables.
             solve_chunk(Chunk.of(table, [inside[:1]]), rtol, solver)
         result = solve_chunk(Chunk.of(table, [inside]), rtol, solver)
         timed(result)

@@ -1,33 +1,36 @@
-"""How long points take, and so how many of them make a chunk."""
+"""How long points take, and from that how many of them make a chunk."""
 
 from __future__ import annotations
 
 from swtstudy.grid.cost import SECONDS_PER_WEIGHT
 from swtstudy.records.result import Result
 
-#: Seconds of work in a chunk: long against what it costs to send one, short enough to lose.
+#: Seconds of work in a chunk: long compared with the cost of sending one, short enough to lose.
 CHUNK_SECONDS = 0.7
 
-#: More than this in one chunk would make a part of the archive that takes long to write.
+#: Largest weight of a chunk: the part of the archive that it becomes is written quickly.
 _LARGEST_WEIGHT = 10_000
 
-#: The first chunks are this part of the later ones: they are there to be timed, and to be saved soon.
-_FIRST_PART = 0.2
+#: Size of the first chunks, as a fraction of later ones: they are timed, and soon saved.
+_FIRST_FRACTION = 0.2
+
+#: Shortest time that counts, in seconds, so that none is 0: a coarse clock.
+_CLOCK_TICK = 1e-9
 
 
 class Pace:
-    """Running mean of the seconds that points take a worker, by their weight."""
+    """Running mean of a worker's seconds per unit of weight."""
 
     def __init__(self) -> None:
-        self.seconds_per_weight = SECONDS_PER_WEIGHT / _FIRST_PART
+        self.seconds_per_weight = SECONDS_PER_WEIGHT / _FIRST_FRACTION
         self._first = True
 
     def update(self, result: Result, weight: int) -> None:
         """Take the timing of one more result into account."""
-        timed = max(result.seconds, 1e-9) / weight
+        timed = max(result.seconds, _CLOCK_TICK) / weight
         self.seconds_per_weight = timed if self._first else (self.seconds_per_weight + timed) / 2
         self._first = False
 
     def chunk_weight(self) -> float:
-        """Weight of a chunk that takes a good time."""
+        """Weight of a chunk that takes `CHUNK_SECONDS`, within bounds."""
         return min(_LARGEST_WEIGHT, CHUNK_SECONDS / self.seconds_per_weight)

@@ -1,4 +1,4 @@
-"""Progress of a run: a bar on a terminal, a plain line now and then elsewhere."""
+"""Progress of a run: a bar on a terminal, otherwise a line in the log now and then."""
 
 from __future__ import annotations
 
@@ -12,24 +12,25 @@ from swtstudy.grid.cost import duration
 
 _log = logging.getLogger(__name__)
 
+#: Width of the bar in characters: with the words it fits into a line of 80.
 _WIDTH = 30
 
-#: Seconds between two lines in a log, and between two looks of the bar.
+#: Seconds between two lines in a log, and between two updates of the bar.
 _LINE_SECONDS, _BAR_SECONDS = 30.0, 0.1
 
 
 class ProgressBar:
-    """Counts points, and shows their rate and the time left.
+    """Counts finished points, and shows their rate and the time left.
 
     Parameters
     ----------
     total
-        Points to be computed.
+        Number of points to be computed.
     stream
-        Where the bar goes if it is a terminal; otherwise a line goes to the log every half minute. None, as
-        `sys.stderr` of a process without one, is no terminal.
+        Where the bar goes if this is a terminal; otherwise a line goes to the log every half minute. By
+        default `sys.stderr`, which is None in a process without one.
     clock
-        Seconds, increasing.
+        Returns increasing seconds.
     """
 
     def __init__(
@@ -66,14 +67,14 @@ class ProgressBar:
             self._terminal.write(text)
             self._terminal.flush()
         except (OSError, ValueError):
-            self._terminal = None  # closed meanwhile: no reason to stop computing
+            self._terminal = None  # closed in the meantime: no reason to stop computing
 
     def _words(self, now: float) -> str:
         return words(self.done, self.total, now - self._begin)
 
 
 def _terminal(stream: TextIO | None) -> TextIO | None:
-    """The stream, if it is a terminal; one that is not there, or closed, is none."""
+    """The stream if it is a terminal; None if not, or if it is missing or closed."""
     try:
         return stream if stream is not None and stream.isatty() else None
     except ValueError:
@@ -81,7 +82,7 @@ def _terminal(stream: TextIO | None) -> TextIO | None:
 
 
 def bar(done: int, total: int) -> str:
-    """A bar as long as the part that is done.
+    """A bar whose length shows how much is done.
 
     Examples
     --------
@@ -94,7 +95,7 @@ def bar(done: int, total: int) -> str:
 
 
 def words(done: int, total: int, seconds: float) -> str:
-    """How far a run is, in words.
+    """How far a run has got, in words.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Run a study: look up what is known, compute what is missing, write the archive."""
+"""Run a study: look up known points, compute the missing ones, write the archive."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger(__name__)
 
-#: Less work than this is done before a worker process has started.
+#: Seconds of work that one process does alone: worker processes take as long to start.
 _SMALL_SECONDS = 1.0
 
 
@@ -46,49 +46,51 @@ def run(
     retry_failed: bool = False,
     solver: Solver = solve_points,
 ) -> xr.Dataset:
-    """Compute a study and leave its archive at `path`.
+    """Compute a study and write its archive to `path`.
 
-    Every finished chunk is saved beside the archive at once. A run that was killed goes on where it was;
-    an archive that has some of the points already gives these. What is known of points that the study does
-    not have is kept in a folder beside the archive, ``figure3.nc.kept``, where a study that has them finds
-    them.
+    Every finished chunk is saved beside the archive at once. A run that was killed continues where it was,
+    and points that an archive at `path` already has are not computed again. Results for points that are no
+    longer in the study are kept in a folder beside the archive, ``figure3.nc.kept``, and used again by a
+    study that has them.
 
     Parameters
     ----------
     study
         The study.
     path
-        Where the netCDF archive is or goes.
+        Path of the netCDF archive, which may exist.
     workers
-        Number of local worker processes; a study of less than about a second is computed without.
+        Number of local worker processes; a study that takes less than about a second is computed without any.
     client
-        Of a dask.distributed cluster, which is used instead of local workers.
+        Client of a dask.distributed cluster, to be used instead of local workers.
     retry_failed
-        Whether to compute anew what failed before.
+        Whether to recompute points that failed before.
     solver
-        What solves a batch of points; a function that worker processes can import.
+        Solves a batch of points; a function that worker processes can import.
 
     Returns
     -------
     xarray.Dataset
-        The archive, loaded. Points that failed are NaN, with their status and message.
+        The archive, loaded into memory. Points that failed are NaN, with their status and message.
 
     Raises
     ------
     StudyError
-        A ValueError, if `study` is none, or no archive can have that path.
+        A ValueError, if `study` is not a Study, or no archive can have that path.
     OSError
-        If the archive cannot be written, found out before anything is computed, or if another run is
-        writing it (`LockedError`); on a full disk.
+        If the archive cannot be written, which is checked before anything is computed; if another run is
+        writing it (`LockedError`); or if the disk is full.
     WorkerError
         An OSError, if the scheduler of a cluster is gone, or its workers have another version of the solver
-        or none.
+        or lack it.
     ArchiveError
-        A ValueError, if there is a file that is not an archive.
+        A ValueError, if the file at `path` is not an archive.
     Stopped
         A KeyboardInterrupt, on Ctrl-C.
 
-    What is computed by then is saved in all these cases.
+    Notes
+    -----
+    In each of these cases everything computed so far is saved.
     """
     from swtstudy.archive.archive import build
     from swtstudy.archive.lock import locked
@@ -106,16 +108,16 @@ def run(
         finished = _finished(work, study, path)
         if finished is not None:
             return finished
-        _tell(work)
+        _log_known(work)
         what = f"{work.todo} of {len(work.records)} distinct points computed"
-        with _said_what_is_saved(work, path):
+        with _reporting_what_is_saved(work, path):
             records = _compute(work, study, path, _pool(work, workers, client), solver)
             history, seconds = _history(what, path), time.perf_counter() - begin
             return _leave(build(study, work.points, records.trimmed(), history, seconds), work.dropped, path)
 
 
 def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
-    """The archive, if it is just that of the study and nothing is left to do."""
+    """The archive, if it is that of exactly this study and nothing is left to do."""
     from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
     from swtstudy.archive.read import read_archive
 
@@ -124,42 +126,42 @@ def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
     archive = read_archive(path)
     if archive.attrs["study"] != study.text:
         return None
-    clear_parts(parts_folder(path))  # what could not be read
+    clear_parts(parts_folder(path))  # parts that could not be read
     return archive
 
 
-def _tell(work: Work) -> None:
+def _log_known(work: Work) -> None:
     if work.outdated:
-        _log.warning("%d points come from another version of the solver: computed anew", work.outdated)
+        _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
     if work.coarse:
-        _log.info("%d points are less accurate than the study asks for: computed anew", work.coarse)
+        _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
     if 0 < work.todo < len(work.records):
-        there = len(work.records) - work.todo
-        _log.info("%d of %d distinct points are there already", there, len(work.records))
+        known = len(work.records) - work.todo
+        _log.info("%d of %d distinct points are already computed", known, len(work.records))
 
 
 @contextmanager
-def _said_what_is_saved(work: Work, path: Path) -> Iterator[None]:
-    """However the block is stopped, its error says what is saved, and how to go on."""
+def _reporting_what_is_saved(work: Work, path: Path) -> Iterator[None]:
+    """However the block is stopped, its error says what is saved and how to go on."""
     try:
         yield
     except KeyboardInterrupt:
-        raise Stopped(f"stopped; {_saved(work, path)}; the same command goes on from there") from None
+        raise Stopped(f"stopped; {_saved(work, path)}; the same command continues from there") from None
     except OSError as error:
         kind = WorkerError if isinstance(error, WorkerError) else OSError
         reason = error.strerror or str(error)
-        mended = "once that is mended the same command goes on from there"
-        raise kind(f"{reason}; {_saved(work, path)}; {mended}") from error
+        advice = "once that is fixed, the same command continues from there"
+        raise kind(f"{reason}; {_saved(work, path)}; {advice}") from error
 
 
 def _saved(work: Work, path: Path) -> str:
-    # What a run computes is filled in in place.
+    # A run fills its records in place.
     saved = len(work.records) - work.todo
     return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
 
 
 def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextManager[Pool | None]:
-    """The workers for a run; none where this process alone is faster."""
+    """The workers of a run; none if this process alone is faster."""
     if client is not None:
         from swtstudy.runner.cluster import ClusterPool
 
@@ -173,7 +175,7 @@ def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextMan
 def _compute(
     work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
 ) -> Records:
-    """The records with all that was missing."""
+    """The records, with the missing points computed."""
     from swtstudy.archive.archive import versions
     from swtstudy.archive.parts import PartsWriter, parts_folder
 
@@ -189,7 +191,7 @@ def _compute(
 
 
 def _history(what: str, path: Path) -> str:
-    """What was done, and before that what the archive that is there says of itself."""
+    """What was done, followed by the history of the archive that is replaced."""
     from swtstudy.archive.archive import history_line
     from swtstudy.archive.read import read_archive
 
@@ -198,7 +200,7 @@ def _history(what: str, path: Path) -> str:
 
 
 def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
-    """Write the archive, which takes the place of the parts, and keep what is not in it."""
+    """Write the archive, which replaces the parts, and keep the records that are not in it."""
     from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
     from swtstudy.archive.read import read_archive
     from swtstudy.archive.write import save
@@ -207,7 +209,7 @@ def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
     try:
         with keeping(kept, dropped):
             save(dataset, path, beside=folder)
-    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter on a full disk
+    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
         raise OSError(f"cannot write the archive ({error})") from error
     clear_parts(folder)
     if len(dropped):

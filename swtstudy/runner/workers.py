@@ -1,4 +1,4 @@
-"""Local worker processes: one BLAS thread each, and independent of the script that calls."""
+"""Local worker processes: one BLAS thread each, and independent of the calling script."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"
 
 
 class LocalPool:
-    """Worker processes of this machine, inside a with block; the `Pool` of a run without a cluster.
+    """Worker processes on this machine, inside a with block; the `Pool` of a run without a cluster.
 
     Parameters
     ----------
@@ -38,9 +38,9 @@ class LocalPool:
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is not None:
-            # What they have in hand is lost anyway, and a second Ctrl-C must not find us waiting for it.
+            # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
             kill_workers(self._executor)
-        # Workers end while the archive is written.
+        # Not waited for: workers exit while the archive is being written.
         self._executor.shutdown(wait=False, cancel_futures=True)
 
     def size(self) -> int:
@@ -58,12 +58,12 @@ class LocalPool:
 
 
 def start_workers(count: int) -> ProcessPoolExecutor:
-    """Start `count` worker processes; the caller shuts the pool down."""
-    # Spawned, not forked: a fork of a process with threads (a notebook's) can hang.
+    """Start `count` worker processes; the caller has to shut the pool down."""
+    # Spawned, not forked: forking a process with threads, such as a notebook's, can hang.
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(count, mp_context=context, initializer=_prepare)
     with _clean_start():
-        # A worker is started by a submission that finds none idle: these start them all, here.
+        # A submission that finds no idle worker starts one: these start them all, in this block.
         for _ in range(count):
             pool.submit(_warm_up)
     return pool
@@ -76,9 +76,9 @@ def kill_workers(pool: ProcessPoolExecutor) -> None:
 
 
 def _prepare() -> None:
-    # Ctrl-C reaches the whole process group; the parent decides what happens then.
+    # Ctrl-C reaches the whole process group; the parent decides what happens.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # A worker whose parent was killed would wait for work forever.
+    # A worker whose parent was killed would otherwise wait for work forever.
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
@@ -95,10 +95,10 @@ def _warm_up() -> None:
 
 @contextmanager
 def _clean_start() -> Iterator[None]:
-    """One thread each, and without the calling script.
+    """Start processes with one BLAS thread each and without the calling script.
 
-    Spawned and forkserver processes import the script that calls, before any initializer can run: without
-    ``if __name__ == "__main__"`` that script would start its run once more in every worker.
+    Spawned processes import the calling script before any initializer can run: without
+    ``if __name__ == "__main__"`` that script would start its run again in every worker.
     """
     before = {name: os.environ.get(name) for name in THREAD_VARIABLES}
     main = sys.modules["__main__"]

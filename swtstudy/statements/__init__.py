@@ -1,1 +1,1 @@
-"""What the paper says about its results, tested on archives: one file for each figure or concept."""
+"""Statements of the paper about its results, tested on archives: one file per figure or concept."""

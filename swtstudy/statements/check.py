@@ -1,4 +1,4 @@
-"""Test every statement on the archives in a folder."""
+"""Testing every statement on the archives in a folder."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Parameters
     ----------
     results
-        Folder with the archives of the suite, each named after its study, and with the audit.
+        Folder with the archives of the suite, named after their studies, and with the audit.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Raises
     ------
     ArchiveError
-        A ValueError, if a file is there that is not an archive.
+        A ValueError, if one of the files is not an archive.
     """
     archives: dict[str, xr.Dataset] = {}
     problems: dict[str, str] = {}
@@ -80,7 +80,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
 
 
 def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
-    """Read an archive into the others; what is wrong if it cannot be used."""
+    """Add an archive to the others; return the reason if it cannot be used."""
     from swtstudy.archive.open import open_results
     from swtstudy.audit.table import open_audit
 

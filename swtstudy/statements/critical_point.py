@@ -1,7 +1,7 @@
 """Section 4.1: where the critical point lies, how the critical plane is turned, and how contacts slip.
 
-That the point lies on the surface and at y = 0 is tested on an audit: the archives' values are the maxima
-over that line.
+That the point lies on the surface and at y = 0 is tested on an audit, since the archives hold maxima over
+that line only.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 #: What "for basically all simulations" is taken to mean.
 _BASICALLY_ALL = 0.95
+#: "Well outside" the zone of permanent stick: |x| over its radius.
 _WELL_OUTSIDE = 1.1
+#: "Close to the x axis", degrees.
 _ABOUT_TEN_DEGREES = 10.0
 
 #: Every archive of the suite, in its order.
@@ -34,7 +36,7 @@ _ALL = (
 
 
 def on_the_line(audit: xr.Dataset) -> Finding:
-    """Where the maximum over the whole body and all planes is, at random points of all parameters."""
+    """Where the maximum over the whole body and all planes lies, at random points of all parameters."""
     verdict = audit.verdict.values[np.isfinite(audit.excess.values)]
     codes = {name: verdict == code for code, name in enumerate(audit.verdict.attrs["flag_meanings"].split())}
     off, beneath, oblique = codes["symmetry_line"], codes["surface"], codes["plane_through_y"]

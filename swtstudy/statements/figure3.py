@@ -42,7 +42,7 @@ def almost_a_factor_of_two(figure3: xr.Dataset) -> Finding:
 def oscillation_raises_and_lowers(
     figure3: xr.Dataset, figure4: xr.Dataset, tangential: xr.Dataset
 ) -> Finding:
-    """Largest and smallest s with a normal oscillation over s without."""
+    """Largest and smallest s with a normal oscillation, over s without it."""
     without = at(tangential, normal_amplitude=0).s.interp(tangential_amplitude=_TANGENTIAL).item()
     changes = [float(extreme) / without - 1 for extreme in (figure4.s.max(), figure4.s.min())]
     same = [float(extreme) / without - 1 for extreme in (figure3.s.max(), figure3.s.min())]

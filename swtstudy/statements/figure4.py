@@ -21,7 +21,7 @@ PROMINENT = (0.25, 0.5, 1.5)
 
 
 def prominent_among_all(figure4: xr.Dataset) -> Finding:
-    """Whether no other ratio of the figure comes up to the three prominent ones."""
+    """Whether every other ratio of the figure stays below the three prominent ones."""
     return _prominent(figure4)
 
 
@@ -39,7 +39,7 @@ def _prominent(figure4: xr.Dataset) -> Finding:
 
 
 def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
-    """The variation over ψ at further ratios, against the least prominent of the three."""
+    """The variation over ψ at further ratios, compared with the least prominent of the three."""
     ratios, few = _ratios(others), _ratios(figure4)
     least = few.sel(frequency_ratio=list(PROMINENT)).min("frequency_ratio")
     return Finding(
@@ -70,7 +70,7 @@ def _periods(*archives: xr.Dataset) -> Finding:
         f"{value_words('frequency_ratio', r)}: {value_words('phase', p)}"
         for r, p in zip(ratios, periods, strict=True)
     )
-    never_longer = all(b <= a * (1 + 1e-9) for a, b in itertools.pairwise(periods))
+    never_longer = all(b <= a or math.isclose(a, b) for a, b in itertools.pairwise(periods))
     return Finding(f"period of s(ψ) at ω2/ω1 = {words}", never_longer and periods[-1] < periods[0])
 
 

@@ -13,7 +13,7 @@ from swtstudy.statements.statement import Finding, Statement
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Share of the variance of ln s up to which a coupling is called weak, or negligible.
+#: Largest share of the variance of ln s for a coupling that is called weak, or negligible.
 WEAK, NEGLIGIBLE = 0.1, 0.01
 
 
@@ -28,7 +28,7 @@ def truncated_paraboloid_rises(figure5: xr.Dataset) -> Finding:
 
 
 def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
-    """Whether s changes in one sense with b, beyond its estimated error, at every phase."""
+    """Whether s rises (sense 1) or falls (-1) with b at every phase, up to its estimated error."""
     curves = with_dims(at(figure5, profile=profile), "flat_radius", "phase").sortby("flat_radius")
     curves = curves.transpose("flat_radius", "phase")
     s, error = curves.s.values, curves.s_error.values
@@ -41,12 +41,12 @@ def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
         step, phase = np.unravel_index(np.argmax(against / s[:-1]), against.shape)
         b = curves.flat_radius.values
         measured += (
-            f"; the other way at {wrong.any(axis=0).sum()} of {s.shape[1]} phases, by up to "
+            f"; the opposite at {wrong.any(axis=0).sum()} of {s.shape[1]} phases, by up to "
             f"{(against / s[:-1]).max():.1%} (b/a_H = {b[step]:g} to {b[step + 1]:g}, "
             f"ψ = {np.degrees(curves.phase.values[phase]):.1f}°)"
         )
     else:
-        measured += f"; so at each of {s.shape[1]} phases"
+        measured += f"; likewise at each of {s.shape[1]} phases"
     return Finding(measured, not wrong.any())
 
 

@@ -13,7 +13,7 @@ from swtstudy.wording import value_words
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Distance of two curves that cannot be told apart in a figure, as a part of its height.
+#: Largest distance of two curves that look like one in a figure, as a fraction of its height.
 _LINE = 0.02
 
 

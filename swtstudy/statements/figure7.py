@@ -57,7 +57,7 @@ def oscillations(dataset: xr.Dataset) -> list[Oscillation]:
 
 
 def effects_are_alike(figure7: xr.Dataset) -> Finding:
-    """The size of the effect of h at the larger δA over that at the smaller, mean over the wavelengths."""
+    """Effect of h at the larger δA over that at the smaller one, mean over the wavelengths."""
     sizes = np.log(_ratios(figure7).transpose("normal_amplitude", "wavelength").values)
     change = float(sizes[-1].mean() / sizes[0].mean()) - 1
     each = sizes[-1] / sizes[0] - 1
@@ -69,7 +69,7 @@ def effects_are_alike(figure7: xr.Dataset) -> Finding:
 
 
 def curves_are_alike(figure7: xr.Dataset) -> Finding:
-    """Distance of the curves of both amplitudes, each over its mean, against the effect itself."""
+    """Distance of the curves of both amplitudes, each over its mean, compared with the effect of h itself."""
     s = with_dims(figure7, "waviness_amplitude", "normal_amplitude").s.sortby("normal_amplitude")
     effect = s / s.mean("waviness_amplitude") - 1
     distance = effect.isel(normal_amplitude=-1) - effect.isel(normal_amplitude=0)

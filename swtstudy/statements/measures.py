@@ -1,4 +1,4 @@
-"""Numbers that say how curves vary; they work on any labelled array."""
+"""Measures of how curves vary, for any labelled array."""
 
 from __future__ import annotations
 
@@ -12,8 +12,10 @@ from swtstudy.mechanics.points import FloatArray
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Harmonics below this share of the largest one are taken for the trace of kinks between grid points.
+#: Harmonics below this fraction of the largest one are traces of kinks between grid points.
 _SMALLEST_HARMONIC = 0.02
+#: A curve whose harmonics are all below this fraction of its values is constant but for rounding.
+_ROUNDING = 1e-9
 
 
 def spread(values: xr.DataArray, dim: str) -> xr.DataArray:
@@ -24,7 +26,7 @@ def spread(values: xr.DataArray, dim: str) -> xr.DataArray:
 def largest_fall(dataset: xr.Dataset, dim: str) -> float:
     """Largest relative fall of s from one value of a dimension to the next one above.
 
-    A fall within the estimated errors of the two values is none; 0 if s falls nowhere.
+    Falls within the estimated errors of the two values do not count; 0 if s falls nowhere.
     """
     return _largest_change(dataset, dim, -1)
 
@@ -44,7 +46,7 @@ def _largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
 def coupling(values: xr.DataArray, dim: str) -> float:
     """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
 
-    The interaction term of a two-way analysis of variance: 0 where the dimensions are not coupled.
+    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
     """
     logarithm = np.log(values)
     centred = logarithm - logarithm.mean()
@@ -54,21 +56,22 @@ def coupling(values: xr.DataArray, dim: str) -> float:
 
 
 def period(values: FloatArray) -> float:
-    """Smallest period of equally spaced samples of a 2π-periodic curve whose last one repeats the first.
+    """Smallest period of a 2π-periodic curve, from equally spaced samples; the last repeats the first.
 
     Returns
     -------
-    2π over the largest common divisor of the harmonics that the curve has; inf for a constant.
+    float
+        2π over the greatest common divisor of the curve's harmonics; inf for a constant.
     """
     harmonics = np.abs(np.fft.rfft(values[:-1]))[1:]
-    if not harmonics.max() > 1e-9 * np.abs(values).max():
+    if not harmonics.max() > _ROUNDING * np.abs(values).max():
         return math.inf
     orders = 1 + np.flatnonzero(harmonics > _SMALLEST_HARMONIC * harmonics.max())
     return 2 * math.pi / math.gcd(*orders.tolist())
 
 
 def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
-    """Places where a curve turns by at least a swing, alternately maxima and minima, without its ends.
+    """Indices where a curve turns by at least a given swing: alternately maxima and minima, without its ends.
 
     Parameters
     ----------

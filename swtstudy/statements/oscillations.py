@@ -10,9 +10,9 @@ import numpy as np
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.statements.measures import turning_points
 
-#: Ripples below this share of the range of a curve are no oscillation of their own.
+#: Ripples below this fraction of a curve's range do not count as oscillations.
 _RIPPLE = 0.1
-#: Share of the steps that must show a trend which holds as a rule.
+#: Share of the steps that must follow a trend for it to hold as a rule.
 AS_A_RULE = 0.8
 
 
@@ -23,9 +23,9 @@ class Oscillation:
     Attributes
     ----------
     periods
-        Distances from one maximum to the next, and from one minimum to the next, in turn.
+        Distances from one maximum to the next, and from one minimum to the next, alternately.
     swings
-        Rises and falls of s from each turning point to the next, as absolute values.
+        Absolute changes of s from each turning point to the next.
     """
 
     periods: FloatArray
@@ -39,12 +39,12 @@ class Oscillation:
 
 
 def longer_periods(oscillations: Sequence[Oscillation]) -> tuple[int, int]:
-    """Over how many steps, and of how many, the period grows."""
+    """Number of steps over which the period grows, and of all steps."""
     return _growing([np.diff(oscillation.periods) for oscillation in oscillations])
 
 
 def larger_swings(oscillations: Sequence[Oscillation]) -> tuple[int, int]:
-    """Over how many steps, and of how many, a rise is larger than the last rise, or a fall than the last."""
+    """Number of steps over which a rise exceeds the last rise, or a fall the last fall, and of all steps."""
     return _growing([oscillation.swings[2:] - oscillation.swings[:-2] for oscillation in oscillations])
 
 
@@ -54,5 +54,5 @@ def _growing(changes: list[FloatArray]) -> tuple[int, int]:
 
 
 def as_a_rule(count: tuple[int, int]) -> bool:
-    """Whether a trend is seen in most of the steps; False without any step."""
+    """Whether most of the steps follow a trend; False without any step."""
     return count[1] > 0 and count[0] >= AS_A_RULE * count[1]

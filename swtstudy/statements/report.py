@@ -12,7 +12,7 @@ _INTRODUCTION = """\
 
 Every statement of E. Willert, Eng 2024, 5, 333–346 (doi:10.3390/eng5010018) that the archives in this
 folder can test, in our words. The paper says "almost", "little" or "weak" where a test needs a bound: the
-bounds are ours, and stand in the third column. A statement that does not hold is reported as it is.
+bounds are ours, given in the third column. A statement that does not hold is reported as such.
 
 Made by `swtstudy check`.
 """
@@ -29,7 +29,7 @@ def verdict(outcome: Outcome) -> str:
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
-    """How many statements there are of each kind."""
+    """Number of statements that hold, do not hold, or were not checked, in words."""
     verdicts = [verdict(outcome) for outcome in outcomes]
     counts = {kind: verdicts.count(kind) for kind in ("holds", "does not hold", "not checked")}
     words = f"{len(outcomes)} statements: {counts['holds']} hold, {counts['does not hold']} do not"
@@ -37,7 +37,7 @@ def summary(outcomes: Sequence[Outcome]) -> str:
 
 
 def terminal_table(outcomes: Iterable[Outcome], width: int) -> str:
-    """The table as plain text of a given width, without the criteria."""
+    """The table as plain text of a given width in characters, without the criteria."""
     rest = max(width, _NARROWEST) - _PLACE - _VERDICT - 6
     widths = (_PLACE, rest * 2 // 5, rest - rest * 2 // 5, _VERDICT)
     rule = "  ".join("-" * column for column in widths)
@@ -65,7 +65,7 @@ def markdown(outcomes: Sequence[Outcome]) -> str:
 
 
 def _escaped(cell: str) -> str:
-    """Without the signs that Markdown would take for its own."""
+    """A cell with Markdown's special characters escaped."""
     return cell.replace("|", "\\|").replace("*", "\\*")
 
 

@@ -1,4 +1,4 @@
-"""Values of an archive at given places, and how they are written."""
+"""Values of an archive at given places, and lists of them in words."""
 
 from __future__ import annotations
 
@@ -12,12 +12,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-#: Values this close, relatively, are the same one: study files and statements write it alike.
-_SAME = 1e-9
-
-
 class NotInArchiveError(LookupError):
-    """An archive that lacks the values which a statement is about."""
+    """An archive that lacks values that a statement needs."""
 
 
 def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
@@ -26,10 +22,10 @@ def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
     Raises
     ------
     NotInArchiveError
-        If a dimension or a value is not there.
+        If the archive lacks a dimension or a value.
     """
     try:
-        return slice_at(dataset, places, _SAME).drop_vars(places)
+        return slice_at(dataset, places).drop_vars(places)
     except StudyError as error:
         mistake = error.mistakes[0]
         place = f" = {value_words(mistake.key, places[mistake.key])}" if mistake.key in dataset.coords else ""
@@ -37,7 +33,7 @@ def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
 
 
 def with_dims(dataset: xr.Dataset, *names: str) -> xr.Dataset:
-    """The Dataset, if it varies along all the named dimensions.
+    """The Dataset itself, if it has all the named dimensions.
 
     Raises
     ------

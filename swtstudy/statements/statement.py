@@ -1,4 +1,4 @@
-"""A statement of the paper, and what the archives say to it."""
+"""A statement of the paper, and the finding from the archives."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ class Finding:
 
 @dataclass(frozen=True)
 class Statement:
-    """One checkable statement.
+    """A statement that can be tested.
 
     Attributes
     ----------
     place
-        Where the paper says so.
+        Where it is in the paper.
     sentence
-        What it says, in other words.
+        What the paper says, in other words.
     criterion
-        What counts as holding. The paper gives words where a test needs a bound, so the bounds are ours.
+        When it counts as holding. The paper uses words where a test needs a bound, so the bounds are ours.
     studies
-        Names of the studies whose archives are looked at.
+        Names of the studies whose archives it is tested on.
     test
-        Takes the archives in the order of `studies`.
+        Called with these archives, in this order.
     """
 
     place: str

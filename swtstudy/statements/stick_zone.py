@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 
 
 def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
-    """Radius in a_H inside of which the contact sticks all through the cycle.
+    """Radius in a_H inside which the contact sticks throughout the cycle.
 
     Returns
     -------
     xarray.DataArray
-        Of the shape of ``dataset.s``; 0 where the whole contact slides or is lost once a cycle. Where a
-        flat face just sticks it is the radius of the face.
+        With the dimensions of ``dataset.s``; 0 where the whole contact slides, or is lost, once a cycle.
+        Where a flat face only just sticks, the radius of the face.
     """
     rows, _ = grid_of(dataset).canonical()
     radius = np.empty(len(rows))

@@ -1,1 +1,1 @@
-"""The definition of a study: a TOML file, validated as a whole before anything is computed."""
+"""The definition of a study: a TOML file, fully validated before anything is computed."""

@@ -19,27 +19,27 @@ from swtstudy.study.shipped import find_study, shipped_studies
 
 
 def require_study(study: object) -> None:
-    """Raise a StudyError unless it is a Study: the name or path of one is not."""
+    """Raise a StudyError if this is not a Study but, for example, the name or path of one."""
     if not isinstance(study, Study):
         raise StudyError([Mistake("study", literal(study), 'a Study, as from Study.from_toml("figure3")')])
 
 
 @dataclass(frozen=True, repr=False)
 class Study:
-    """A study: what is computed, how accurately, and what is drawn.
+    """A study: what to compute, how accurately, and what to draw.
 
     Attributes
     ----------
     title
-        One line.
+        One line that names it.
     grid
-        The points.
+        Its points.
     rtol
         Relative accuracy asked of s.
     figure
         Layout of the figure, or None.
     text
-        The study file as it was read; goes into the archive.
+        The study file as it was read; it is stored in the archive.
 
     Examples
     --------
@@ -81,7 +81,7 @@ class Study:
         Raises
         ------
         StudyError
-            With every mistake in the file, or the one that keeps it from being read.
+            A ValueError with every mistake in the file, or with the reason why it cannot be read.
         """
         if not isinstance(path, str | PathLike):
             raise StudyError([Mistake("path", literal(path), "the path or the name of a study")])
@@ -95,7 +95,7 @@ class Study:
             raise StudyError([Mistake("", "no such file", allowed, source)]) from None
         except UnicodeDecodeError:
             raise StudyError(
-                [Mistake("", "bytes that are no UTF-8", "a study file (TOML)", source)]
+                [Mistake("", "bytes that are not UTF-8", "a study file (TOML)", source)]
             ) from None
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
@@ -109,7 +109,7 @@ class Study:
         Raises
         ------
         StudyError
-            With every mistake in the text.
+            A ValueError with every mistake in the text.
         """
         if not isinstance(text, str):
             raise StudyError([Mistake("text", literal(text), "the text of a study file")])
@@ -118,8 +118,8 @@ class Study:
         except (tomllib.TOMLDecodeError, RecursionError) as error:
             message = f"a syntax error: {error or 'nested too deeply'}"
             raise StudyError([Mistake("", message, "TOML", source)]) from None
-        except ValueError:  # all else that tomllib leaves to Python's int and float
-            message = "an integer with too many digits to be read"
+        except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
+            message = "an integer with too many digits"
             raise StudyError([Mistake("", message, "TOML with shorter ones", source)]) from None
         return _study_from(raw, text, source)
 
@@ -134,7 +134,7 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str) -> Study:
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
-        # A misspelt axis counts as the one that was meant: the figure shall not be blamed for it.
+        # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
 
@@ -148,7 +148,7 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str) -> Study:
 
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Fixed values and axes as far as their structure is sound, so that all mistakes come at once."""
+    """Fixed values and axes as far as their structure is sound, so that all mistakes are found at once."""
     fixed, axes = (raw.get(key, {}) for key in ("fixed", "axes"))
     good: dict[str, Any] = {}
     for name, axis in axes.items() if isinstance(axes, dict) else ():

@@ -1,4 +1,4 @@
-"""What the figure of a study shows: which dimension goes where, and what is drawn over it."""
+"""The layout of a study's figure: which dimension goes where, and which quantity is drawn."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swtstudy.parameters import LETTERS, PARAMETERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
-#: Kinds of figures: lines over x, or a quantity as a surface over x and vertical.
+#: Kinds of figures: lines over x, or a surface over x and vertical.
 KINDS = ("lines", "contour", "heatmap")
 
 #: The data variables of an archive.
@@ -36,17 +36,17 @@ class FigureLayout:
     panels
         Dimension whose values are the panels side by side, or None for one panel.
     y
-        One row of panels for each: the name of a data variable, such as "s" or "critical_x", or
-        "s/s(name=value)" for s over its value at one place; the paper's letter may stand for the name.
+        Quantities, with a row of panels each: the name of a data variable, such as "s" or "critical_x", or
+        "s/s(name=value)" for s over its value at one place, with the name or the symbol of a parameter.
     title
         Title over the figure, or None.
     kind
-        "lines"; "contour", for s with the places where it is least and greatest along x; or "heatmap", a
-        cell a point.
+        "lines"; "contour", which for s also shows where it is least and greatest along x; or "heatmap", with
+        a cell for each point.
     vertical
         Dimension along the vertical axis of a contour or heat map, None for lines.
     regimes
-        Whether lines are marked where a regime of the contact begins.
+        Whether to mark where a regime of the contact begins along a line.
     """
 
     x: str
@@ -64,12 +64,12 @@ class FigureLayout:
 
     @classmethod
     def from_json(cls, text: str) -> FigureLayout:
-        """The layout from the text in an archive."""
+        """The layout from its text in an archive."""
         raw = json.loads(text)
         return cls(**{**raw, "y": tuple(raw["y"])})
 
     def roles(self) -> Iterator[tuple[str, str]]:
-        """Role and dimension of every dimension that is used."""
+        """Role and name of every dimension that is used."""
         for role in ("x", "vertical", "hue", "panels"):
             name = getattr(self, role)
             if name is not None:
@@ -77,12 +77,12 @@ class FigureLayout:
 
 
 def reference(y: str) -> tuple[str, Value] | None:
-    """Name and value of the place that a quantity is normalised with; None for a data variable.
+    """Parameter and value of the place that normalises a quantity; None for a data variable.
 
     Raises
     ------
     ValueError
-        If the text is neither; the message says why.
+        If the text is neither; the message gives the reason.
 
     Examples
     --------

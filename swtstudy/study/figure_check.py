@@ -1,22 +1,22 @@
-"""What is wrong with the layout of a figure, by itself and for the axes there are."""
+"""Checks of the layout of a figure, by itself and against the axes of the results."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, FigureLayout, reference
 
 
 def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
-    """Key, found and allowed of everything that is wrong with a layout whatever the results are."""
+    """Key, found and allowed of everything that is wrong with a layout for any results."""
     used: dict[str, str] = {}
     for role, name in layout.roles():
         if name in used:
-            yield f"figure.{role}", f"{literal(name)}, used for {used[name]} too", "each axis once"
+            yield f"figure.{role}", f"{literal(name)}, also used for {used[name]}", "each axis once"
         used.setdefault(name, role)
     if layout.kind not in KINDS:
         yield "figure.kind", literal(layout.kind), nearest(layout.kind, KINDS)
@@ -42,7 +42,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 def wrong_axes(
     layout: FigureLayout, sizes: Mapping[str, int | None], of: str
 ) -> Iterator[tuple[str, str, str]]:
-    """Key, found and allowed of everything in a layout that does not fit the axes there are.
+    """Key, found and allowed of everything in a layout that does not fit the given axes.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def wrong_axes(
     sizes
         Number of values of each axis; None if not known.
     of
-        What has these axes, in words.
+        What has these axes, in words, for messages.
     """
     for role, name in layout.roles():
         if name not in sizes:
@@ -69,7 +69,7 @@ def wrong_axes(
 
 
 def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, report: Report) -> None:
-    """Report everything in a figure that its study cannot have.
+    """Report everything in a figure that does not fit its study.
 
     Parameters
     ----------
@@ -78,9 +78,9 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
     dims
         Names of the axes of the study.
     grid
-        The grid, if it is free of mistakes, to look up the places used for normalisation.
+        The grid, to look up the places used for normalisation; None if it has mistakes itself.
     report
-        Takes key, found and allowed of a mistake.
+        Called with key, found and allowed of each mistake.
     """
     sizes = {name: None if grid is None else len(grid.values(name)) for name in dims}
     for key, found, allowed in (*wrong_layout(layout), *wrong_axes(layout, sizes, "this study")):
@@ -90,10 +90,10 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
 
 
 def _wrong_formula(text: str) -> str | None:
-    """What keeps matplotlib from drawing the formulae in a text, if anything."""
+    """Reason why matplotlib cannot draw the formulae in a text, if there is one."""
     if "$" not in text:
         return None
-    # Imported where there is something to read: it takes longer than the rest of the check.
+    # Imported only if there is a formula: the import takes longer than the rest of the check.
     from matplotlib.cbook import is_math_text
     from matplotlib.mathtext import MathTextParser
 
@@ -102,7 +102,9 @@ def _wrong_formula(text: str) -> str | None:
     try:
         MathTextParser("path").parse(text)
     except ValueError as error:
-        return str(error).strip().splitlines()[-1].partition(": ")[2]  # without the parser's own name
+        return (
+            str(error).strip().splitlines()[-1].partition(": ")[2]
+        )  # without the name of the parser's error
     return None
 
 
@@ -119,11 +121,5 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, report: Report) 
     name, value = place
     if name not in dims:
         report("figure.y", f"{literal(y)}: {name} is not an axis of this study", nearest(name, dims))
-    elif grid is not None and not any(_same(value, other) for other in grid.values(name)):
+    elif grid is not None and index_of(value, grid.values(name)) is None:
         report("figure.y", f"{literal(y)}: {value} is not on that axis", f"a value of the axis {name}")
-
-
-def _same(one: Value, other: Value) -> bool:
-    if isinstance(one, float) and isinstance(other, float):
-        return abs(one - other) <= 1e-11 * max(abs(one), abs(other))
-    return one == other

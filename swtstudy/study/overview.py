@@ -1,4 +1,4 @@
-"""A study in words, for a look at it before anything is computed."""
+"""A summary of a study, shown before anything is computed."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from swtstudy.parameters import PARAMETERS
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
 
-#: Values of an axis that are shown one by one.
-_SHOWN = 6
+#: How many values of an axis are listed one by one: a cell of a table in a notebook.
+_LISTED = 6
 
 
 def in_one_line(study: Study) -> str:
@@ -46,7 +46,7 @@ def _size(study: Study) -> str:
 
 
 def _cost(study: Study) -> str:
-    """From the number of points and the lengths of their cycles alone; symmetry can only make it less."""
+    """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
     from swtstudy.grid.cost import SECONDS_PER_WEIGHT, duration
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
@@ -60,7 +60,7 @@ def _meaning(name: str, role: str | None = None) -> str:
 
 
 def _values(values: tuple[Value, ...]) -> str:
-    if len(values) <= _SHOWN:
+    if len(values) <= _LISTED:
         return ", ".join(map(_value, values))
     return f"{_value(values[0])}, {_value(values[1])} … {_value(values[-1])} ({len(values)} values)"
 

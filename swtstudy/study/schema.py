@@ -1,4 +1,4 @@
-"""The JSON schema of study files, by which editors complete, explain and check them."""
+"""The JSON schema of study files, which editors use to complete, explain and check them."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ SCHEMA_FILE = "study.schema.json"
 SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _DESCRIPTIONS = {
-    "title": "One line that says what the study is about.",
+    "title": "One line that describes the study.",
     "rtol": "Relative accuracy asked of s.",
-    "fixed": "Parameters with a single value. What is not given has the value of the paper's Table 1.",
-    "axes": "Parameters with several values, in the order of the dimensions: a list, or a range.",
+    "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
+    "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
     "start": 'First value; a number, or a text such as "2*pi".',
     "stop": "Last value, included.",
-    "num": "How many values.",
+    "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
 }
 _FIGURE_DESCRIPTIONS = {
@@ -37,14 +37,14 @@ _FIGURE_DESCRIPTIONS = {
         f"or {QUANTITY} for s over its value at one place."
     ),
     "title": "Title over the figure.",
-    "regimes": "Whether lines are marked where a regime of the contact begins.",
+    "regimes": "Whether to mark where a regime of the contact begins along a line.",
 }
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
 
 
 def study_schema() -> dict[str, Any]:
-    """The JSON schema of study files: their structure, and the table of parameters."""
+    """The JSON schema of study files, from their structure and the table of parameters."""
     schema = StudyTable.model_json_schema()
     schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_without_titles(schema)}
     parts, keys = schema["$defs"], schema["properties"]
@@ -58,31 +58,27 @@ def study_schema() -> dict[str, Any]:
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     for part, entry_of in (("fixed", _value), ("axes", _axis)):
-        # Pydantic's own schema of any keys, which changes with its version, gives way to the known names.
+        # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
         keys[part] = {
             "description": keys[part]["description"],
             "type": "object",
             "properties": {name: entry_of(row) for name, row in PARAMETERS.items()},
             "additionalProperties": False,
         }
+    roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
-        if role in parts["FigureTable"]["properties"]:
-            entry = parts["FigureTable"]["properties"][role]
-            parts["FigureTable"]["properties"][role] = {
-                "enum": list(PARAMETERS),
-                "description": entry["description"],
-            }
+        roles[role] = {"enum": list(PARAMETERS), "description": roles[role]["description"]}
     return schema
 
 
 def schema_text() -> str:
-    """The schema as the content of a file."""
+    """The text of the schema's file."""
     return json.dumps(study_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
 def _value(parameter: Parameter) -> dict[str, Any]:
-    """One value of a parameter: a number in its range, or a text that stands for one."""
-    entry: dict[str, Any] = {"description": _words(parameter)}
+    """Schema of one value of a parameter: a number in its range, or a text that stands for one."""
+    entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:
         entry["default"] = parameter.default
     if parameter.kind == "profile":
@@ -92,24 +88,24 @@ def _value(parameter: Parameter) -> dict[str, Any]:
 
 
 def _axis(parameter: Parameter) -> dict[str, Any]:
-    """Several values: a list, or a range of numbers."""
+    """Schema of several values: a list, or a range of numbers."""
     value = _value(parameter)
-    words = value.pop("description")
+    description = value.pop("description")
     value.pop("default", None)
     values = {"type": "array", "items": value, "minItems": 1}
     if parameter.kind == "profile":
-        return {"description": words, **values}
-    return {"description": words, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+        return {"description": description, **values}
+    return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 
 
-def _words(parameter: Parameter) -> str:
+def _description(parameter: Parameter) -> str:
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
     return f"{parameter.meaning}: {parameter.allowed}{of}"
 
 
 def _without_titles(part: Any) -> Any:
-    """Without the titles that pydantic makes from the names of fields: they say nothing."""
+    """A part without the titles that pydantic makes from the names of fields: they add nothing."""
     if isinstance(part, list):
         return [_without_titles(each) for each in part]
     if not isinstance(part, dict):

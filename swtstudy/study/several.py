@@ -1,4 +1,4 @@
-"""Several study files at once."""
+"""Reading several study files at once."""
 
 from __future__ import annotations
 
@@ -13,12 +13,13 @@ from swtstudy.study.shipped import find_study
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     """The studies by path, each file once.
 
-    A folder stands for all studies in it, the name of a study of the paper, such as "figure3", for that.
+    Each path is that of a file or of a folder of files, or the name of a study of the paper, such as
+    "figure3".
 
     Raises
     ------
     StudyError
-        With every mistake in every file; also if two files would leave the same archive.
+        A ValueError with every mistake in every file; also if two files would have the same archive.
     """
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""The studies of the paper, which come with the package."""
+"""The studies that come with the package."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def shipped_folder() -> Path:
 
 
 def shipped_studies() -> dict[str, Path]:
-    """The studies by name, such as "figure3": those of the paper, then those for the audit."""
+    """Paths of the studies by name, such as "figure3": those of the paper, then those for the audit."""
     folder = shipped_folder()
     return {
         path.stem: path for path in [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]
@@ -24,7 +24,7 @@ def shipped_studies() -> dict[str, Path]:
 
 
 def find_study(path: str) -> Path:
-    """The file at ``path``, or else the study of the paper with that name."""
+    """The file at ``path``, or else the study with that name that comes with the package."""
     if Path(path).exists() or Path(path).suffix:
         return Path(path)
     return shipped_studies().get(path, Path(path))

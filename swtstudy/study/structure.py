@@ -1,4 +1,4 @@
-"""Pydantic's errors about the structure of a study file, in the words of the other mistakes."""
+"""Pydantic's errors about the structure of a study file, worded like the other mistakes."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from swtstudy.accuracy import ALLOWED_RTOL
 from swtstudy.mistakes import Mistake, literal, nearest
 from swtstudy.study.tables import FigureTable, RangeTable, StudyTable
 
-#: What is allowed at a key, where pydantic's own words would not say it.
+#: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {
     "title": "a text that is not empty",
     "rtol": ALLOWED_RTOL,
     "fixed": "a table of single values",
     "axes": "a table of axes",
-    "figure": "a table with x and, if wanted, kind, vertical, hue, panels, y, title and regimes",
+    "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
     "figure.kind": '"lines", "contour" or "heatmap"',
     "figure.vertical": "the name of an axis",
     "figure.x": "the name of an axis",
@@ -43,7 +43,7 @@ def _mistake(detail: Any, source: str) -> Mistake:
     if path[0] == "axes" and path[2:3] in (["list"], ["range"]):
         del path[2]  # pydantic's tag, not a key
     if path[:2] == ["figure", "y"]:
-        path = path[:2]  # both arms of the union complain: one mistake is enough
+        path = path[:2]  # both members of the union report it: one mistake is enough
     key = ".".join(map(str, path))
     if detail["type"] == "extra_forbidden":
         return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)

@@ -1,4 +1,4 @@
-"""The structure of a study file; what its parameters may be is left to the table of parameters."""
+"""The structure of a study file; values of parameters are checked elsewhere, against their table."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class _Table(BaseModel):
 
 
 class RangeTable(_Table):
-    """Evenly spaced values of an axis, or values in equal ratios, both ends included."""
+    """Values of an axis in equal steps or equal ratios, both ends included."""
 
     start: Any
     stop: Any
@@ -32,7 +32,7 @@ Axis = Annotated[
 
 
 class FigureTable(_Table):
-    """What the figure puts where: each of x, hue, vertical and panels is a dimension of the study."""
+    """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
     kind: Literal["lines", "contour", "heatmap"] = "lines"
     x: str

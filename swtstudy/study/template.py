@@ -1,4 +1,4 @@
-"""A study to begin with: small, valid, and commented."""
+"""A template for studies: small, valid and commented."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ _USED = ("normal_amplitude", "phase")
 
 
 def template(title: str) -> str:
-    """The text of a study of two axes, with every other parameter as a comment."""
+    """The text of a study with two axes, and every other parameter as a comment."""
     return f"""\
 {SCHEMA_LINE.strip()}
-# Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this.
-#   swtstudy validate FILE    every mistake at once
+# Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this file.
+#   swtstudy validate FILE    all mistakes at once
 #   swtstudy plan FILE        how many points, how long
 #   swtstudy run FILE         archive and figure, in the folder results
 title = {quoted(title)}
 rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
 
-# One value each. What is not here has the value of the paper's Table 1, as in these comments.
+# Parameters with one value. Those not given have the values of the paper's Table 1, shown in the comments.
 # Numbers may also be texts: "8/9", "pi/2", "sqrt(20)".
 [fixed]
 {_fixed()}
 
-# Several values each, in the order of the dimensions: a list, or both ends and how many.
+# Parameters with several values, in the order of the dimensions: a list, or both ends and their number.
 # Any parameter from above may be an axis instead.
 [axes]
 normal_amplitude = [0.25, 0.5, 0.75]
-phase = {{ start = 0, stop = "2*pi", num = 49 }}  # spacing = "log" makes equal ratios
+phase = {{ start = 0, stop = "2*pi", num = 49 }}  # spacing = "log" gives equal ratios
 
-# Every axis needs a place. Without this table there is an archive, but no figure.
+# Every axis needs a place here. Without this table there is an archive, but no figure.
 [figure]
 x = "phase"
 hue = "normal_amplitude"

@@ -1,4 +1,4 @@
-"""The text of a study that was not read from a file."""
+"""Writing the text of a study that was not read from a file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swtstudy.study.figure import FigureLayout
 
 
 def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) -> str:
-    """A study file that gives exactly this grid.
+    """The text of a study file that gives exactly this grid.
 
     Examples
     --------
