@@ -30,7 +30,7 @@ NAMES = sorted(
     }
 )
 #: Blocks that the build of the pages makes of files; CI builds them, and their files are tested elsewhere.
-BUILT = {"{include}", "{literalinclude}", "{toctree}", "{eval-rst}"}
+BUILT = {"{include}", "{literalinclude}", "{figure}", "{toctree}", "{eval-rst}"}
 #: A hundred points of an audit are some ten seconds.
 FEWER = {"swtstudy audit figure3 --points 100": "swtstudy audit figure3 --points 2"}
 

@@ -6,7 +6,9 @@ from pathlib import Path
 from build_steps.citation import citation
 from build_steps.commands import commands
 from build_steps.gallery import gallery
+from build_steps.house import draw_house
 from build_steps.parameters import parameters
+from build_steps.rooms import MECHANICS, WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
 
@@ -49,11 +51,15 @@ def generate(folder: Path) -> None:
         "commands": commands(),
         "gallery": gallery(ROOT),
         "parameters": parameters(),
+        "rooms_mechanics": rooms(MECHANICS),
+        "rooms_whole": rooms(WHOLE),
         "study_file": study_file(),
         "three_mistakes": three_mistakes(),
     }
     for name, text in texts.items():
         write_if_new(folder / f"{name}.md", text)
+    draw_house(WHOLE, folder / "house.svg")
+    draw_house(MECHANICS, folder / "mechanics.svg")
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
 
 

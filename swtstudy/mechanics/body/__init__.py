@@ -1,1 +1,1 @@
-"""swt over the whole body and all planes: the surface line's assumptions left out."""
+"""swt in the whole body and over all planes: at points, its maximum, and its means over a distance."""

@@ -1,4 +1,4 @@
-"""When slip fronts pass springs and breakpoints of the memory."""
+"""When slip fronts pass springs and breakpoints of the memory, and the cycle cut at the latter."""
 
 from __future__ import annotations
 

@@ -1,13 +1,8 @@
 """swt on the circle through the critical point of the surface line: the assumption y = 0, tested.
 
-The stress at (r cos θ, r sin θ) on the surface is made of the same building blocks as on the line. By
-pressure it is axisymmetric; by shear, with c = cos θ, s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
-
-    σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
-
-since ζ = iξ at the surface makes the functions of `field.punch` depend on one another: r² L³/R = 2 L² − L/R.
-The building blocks know only r: edge and slip fronts pass the whole circle at once, and the instants that
-make swt on the line make it on the circle.
+The stress on the circle is made of the same building blocks as on the line, see
+`swtstudy.mechanics.stress.circle`. They know only r: edge and slip fronts pass the whole circle at once, and
+the instants that make swt on the line make it on the circle.
 """
 
 from __future__ import annotations

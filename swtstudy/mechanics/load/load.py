@@ -101,7 +101,7 @@ class Load(ABC):
 
     @abstractmethod
     def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
-        """dτ/dG = −du/dδ that growth in stick leaves where the normal load reaches a value on a branch."""
+        """dτ/dG = −dT/dN that growth in stick leaves where the normal load reaches a value on a branch."""
 
     @abstractmethod
     def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:

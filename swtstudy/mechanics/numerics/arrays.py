@@ -1,4 +1,7 @@
-"""Look-ups along the last axis, much faster than `numpy.take_along_axis` on many short rows."""
+"""Many short rows: look-ups along the last axis, ragged rows as one array, and axes that match.
+
+The look-ups are much faster than `numpy.take_along_axis`.
+"""
 
 from __future__ import annotations
 

@@ -3,8 +3,8 @@
 On the plane with the normal n, the parameter is the maximum over the cycle of σ_n times half the range of
 ε_n. It is a maximum over triples of instants (of the largest stress, the largest and the smallest strain)
 of a product of two quadratic forms of n. A maximum of smooth functions has its own maxima where one of them
-has: the search climbs from the highest planes of a coarse hemisphere (`plane_ascent`) and keeps the highest
-summit.
+has: the search climbs from the highest planes of a coarse hemisphere (`swtstudy.mechanics.planes.ascent`)
+and keeps the highest summit.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.planes.criterion import combined, log_derivatives, of_maxima
+from swtstudy.mechanics.planes import criterion
 from swtstudy.mechanics.points import FloatArray
 
 _LARGEST_STEP = 0.2  # rad
@@ -113,7 +113,7 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     steps, gain = _newton_step(
         forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, _LARGEST_STEP)
     )
-    height = np.log(combined(forms[..., 0], changes[..., 0])) + gain.reshape(possible.shape)
+    height = np.log(criterion.combined(forms[..., 0], changes[..., 0])) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
     return _move(normal, tangent, steps.reshape(*possible.shape, 2)[np.arange(len(normal)), best])
 
@@ -145,7 +145,7 @@ def _active_forms(
     elongation = (strain @ weights)[..., 0]
     row = np.arange(len(stress))
     top, high, low = tension.argmax(axis=1), elongation.argmax(axis=1), elongation.argmin(axis=1)
-    swt = of_maxima(tension[row, top], elongation[row, high], -elongation[row, low])
+    swt = criterion.of_maxima(tension[row, top], elongation[row, high], -elongation[row, low])
     return swt, stress[row, top], 0.5 * (strain[row, high] - strain[row, low])
 
 
@@ -164,7 +164,7 @@ def _newton_step(first: FloatArray, second: FloatArray, trust: FloatArray) -> tu
     step, gain
         Shapes (n, 2) and (n,).
     """
-    slope, stiffness = log_derivatives(first, second)
+    slope, stiffness = criterion.log_derivatives(first, second)
     slope_1, slope_2 = slope.T
     # Positive definite on a summit.
     stiff_11, stiff_22, stiff_12 = stiffness.T

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from swtstudy.mechanics.numerics.arrays import pick
-from swtstudy.mechanics.planes.criterion import curves, derivatives, of_maxima
+from swtstudy.mechanics.planes import criterion
 from swtstudy.mechanics.points import FloatArray
 
 NEWTON_STEPS = 3
@@ -73,14 +73,14 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
         for plane, combine in ((k, np.add), (k + half, np.subtract)):
             tension = combine(stress[0], of_stress, out=curve).max(axis=0)
             combine(strain[0], of_strain, out=curve)
-            table[plane] = of_maxima(tension, curve.max(axis=0), -curve.min(axis=0))
+            table[plane] = criterion.of_maxima(tension, curve.max(axis=0), -curve.min(axis=0))
     best = table.argmax(axis=0)
     cell = np.arange(best.size).reshape(best.shape)
     left, right = (table.take((best + k) % count * best.size + cell) for k in (-1, 1))
     # Two maxima may lie between the same planes.
     starts = np.stack([best, np.where(left > right, best - 1, best + 1)]) * step
     angle = climb_over_planes(history, starts, 1)
-    swt = of_maxima(*(curve.max(axis=-1) for curve in curves(*history.on_plane(angle))))
+    swt = criterion.of_maxima(*(curve.max(axis=-1) for curve in criterion.curves(*history.on_plane(angle))))
     return swt.max(axis=0), np.where(swt[1] > swt[0], angle[1], angle[0])
 
 
@@ -126,7 +126,7 @@ def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) ->
         cosine, sine = np.cos(angle), np.sin(angle)
         u, v = b * cosine + c * sine, e * cosine + f * sine
         du, dv = c * cosine - b * sine, f * cosine - e * sine
-        slope, bend = derivatives((a + u, du, -u), (d + v, dv, -v))
+        slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v))
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
         angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
     return angle

@@ -1,4 +1,13 @@
-"""Stress on circles of the surface about the axis."""
+"""Stress on circles of the surface about the axis, from the building blocks of the surface line.
+
+By pressure the stress at (r cos θ, r sin θ) is axisymmetric; by shear it is, over μ, with c = cos θ,
+s = sin θ, j = T1 − T3 and k = (3/2) T1 − 2 T3,
+
+    σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
+
+since ζ = iξ at the surface makes the functions of `swtstudy.mechanics.stress.field.punch` depend on one
+another: r² L³/R = 2 L² − L/R.
+"""
 
 from __future__ import annotations
 

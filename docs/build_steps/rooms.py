@@ -1,0 +1,120 @@
+"""The rooms of the package and of its mechanics, from the ground up, and what the files of each import.
+
+tests/test_rooms.py holds the files against these lists; the pages draw them.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from build_steps.markdown import table
+
+PACKAGE = Path(__file__).resolve().parents[2] / "swtstudy"
+
+
+@dataclass(frozen=True)
+class House:
+    """A package whose files lie in rooms.
+
+    Attributes
+    ----------
+    name
+        Dotted name of the package.
+    ground
+        Rooms that everything stands on, in the order in which they may import one another.
+    above
+        The other rooms, in that order.
+    """
+
+    name: str
+    ground: tuple[str, ...]
+    above: tuple[str, ...]
+
+    def file_of(self, room: str) -> Path:
+        """The file that says what a room holds."""
+        return MODULES[self.name if room == "__init__" else f"{self.name}.{room}"]
+
+    @property
+    def rooms(self) -> tuple[str, ...]:
+        """All rooms: each imports itself and those before it only."""
+        return self.ground + self.above
+
+    def room_of(self, module: str) -> str | None:
+        """The room of a module, ``__init__`` for the package itself; None for one of another package."""
+        own, parts = self.name.split("."), module.split(".")
+        if parts[: len(own)] != own:
+            return None
+        return parts[len(own)] if len(parts) > len(own) else "__init__"
+
+    def imports(self) -> Iterator[tuple[str, str]]:
+        """Every import of one file by another, as modules of this package."""
+        for name, path in MODULES.items():
+            if self.room_of(name) is not None:
+                for other in sorted(imported(path)):
+                    # The package itself is no room to go to.
+                    if self.room_of(other) not in (None, "__init__"):
+                        yield name, other
+
+
+WHOLE = House(
+    "swtstudy",
+    ("parameters", "mistakes", "numbers", "accuracy", "version", "files", "wording"),
+    (
+        *("mechanics", "reference", "grid", "units", "study", "records", "archive", "runner", "results"),
+        *("solving", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
+        *("registration", "cli", "__main__", "__init__"),
+    ),
+)
+MECHANICS = House(
+    "swtstudy.mechanics",
+    ("points", "numerics"),
+    (
+        *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
+        *("solver", "__init__"),
+    ),
+)
+
+
+def module_of(path: Path) -> str:
+    """Dotted name of a file of the package."""
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+#: Every file of the package by its dotted name.
+MODULES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def imported(path: Path) -> set[str]:
+    """Modules of the package that a file imports when it runs, anywhere in it."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            node.body = []
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    return (found & MODULES.keys()) - {module_of(path)}
+
+
+def rooms(house: House) -> str:
+    """A table of the rooms, in the order in which they may import one another, and what each holds."""
+    held = ((f"`{_shown(house.file_of(room))}`", _first_line(house.file_of(room))) for room in house.rooms)
+    return table(("room", "what it holds"), held)
+
+
+def _shown(path: Path) -> str:
+    """A package by its folder."""
+    place = path.relative_to(PACKAGE.parent).as_posix()
+    return place.removesuffix("__init__.py")
+
+
+def _first_line(path: Path) -> str:
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return text.partition("\n")[0]
