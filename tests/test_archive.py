@@ -141,7 +141,10 @@ def test_provenance(small, tmp_path):
     assert attributes["rtol"] == small.rtol
     assert attributes["Conventions"].startswith("CF-1.")
     assert f"swtstudy {swtstudy.__version__}" in attributes["history"]
-    assert "numpy" in attributes["versions"]
+    versions = dict(each.split(" ") for each in attributes["versions"].split(", "))
+    assert list(versions) == ["python", "swtstudy", "numpy", "scipy", "xarray", "netCDF4", "dask"]
+    for package in (swtstudy, np, xr, netCDF4):
+        assert versions[package.__name__] == package.__version__
     assert attributes["wall_time_seconds"] > 0
 
 
