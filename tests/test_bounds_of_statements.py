@@ -7,7 +7,16 @@ import pytest
 import xarray as xr
 from made_up import PHASES, made_up, made_up_audit
 
-from swtstudy.statements import critical_point, figure3, figure5, figure6, figure7, parameters
+from swtstudy.statements import (
+    critical_point,
+    figure3,
+    figure4,
+    figure5,
+    figure6,
+    figure7,
+    figure8,
+    parameters,
+)
 from swtstudy.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
 
 CLOSE = 1e-3
@@ -234,4 +243,64 @@ def test_phases_that_fall_where_they_should_rise_are_counted():
     assert finding.measured == (
         "mean over ψ, against b = 0, at b/a_H = 0: 1.00, 1: 2.00, 2: 2.73; the other way at 1 of 4 phases, "
         f"by up to 5.0% (b/a_H = 1 to 2, ψ = {degrees:.1f}°)"
+    )
+
+
+def test_how_curves_that_fall_are_described():
+    results = made_up(
+        lambda flat_radius, phase, frequency_ratio: (
+            (2 - flat_radius * (1 - 0.2 * phase)) + 0 * frequency_ratio
+        ),
+        flat_radius=[1.0, 0.0, 0.5],
+        phase=[0.0, 1.0],
+        frequency_ratio=[0.5, 1.0],
+    )
+    finding = figure6.all_curves_fall(results)
+    assert finding.holds
+    assert finding.measured == "s rises nowhere; at b/a_H = 1 it is 0.50 to 0.60 of s at 0"
+    results.s[1, 0, 0] = 1.0
+    finding = figure6.all_curves_fall(results)
+    assert not finding.holds
+    assert finding.measured.startswith("s rises by up to 5.0e-01 from one b to the next;")
+
+
+def test_how_the_phases_of_figure_4_and_8_are_described():
+    """s(π)/s(0) at the larger amplitude; by |ln| a half is as far from 1 as 2."""
+    ratios = [0.25, 0.5, 1.0]
+    results = made_up(
+        lambda normal_amplitude, frequency_ratio, phase: 1 + 0 * phase,
+        normal_amplitude=[0.75, 0.25],
+        frequency_ratio=ratios,
+        phase=[0.0, math.pi],
+    )
+    results.s[0, :, 1] = [1.9, 0.5, 1.0]
+    results.s[1, :, 1] = [9.0, 1.0, 1.0]
+    finding = figure4.half_differs_most(results)
+    assert finding.holds
+    assert finding.measured == "s(π)/s(0) at ω2/ω1 = 1/4: 1.90, 1/2: 0.50, 1: 1.00"
+    results.s[0, 0, 1] = 2.1
+    assert not figure4.half_differs_most(results).holds
+    finding = figure4.amplitude_amplifies(results)
+    assert finding.measured == (
+        "max/min over ψ; δA/δ0 = 0.75: ω2/ω1 = 1/4: 2.10, 1/2: 2.00, 1: 1.00; "
+        "δA/δ0 = 0.25: ω2/ω1 = 1/4: 9.00, 1/2: 1.00, 1: 1.00"
+    )
+    wavy = made_up(
+        lambda frequency_ratio, phase, waviness_amplitude: 1 + 0 * phase,
+        frequency_ratio=ratios,
+        phase=[0.0, math.pi],
+        waviness_amplitude=[0.01, 0.02],
+    )
+    wavy.s[0, 1] = [math.e, 1.0]
+    wavy.s[1, 1] = [math.exp(-1.1), 1.0]
+    finding = figure8.half_differs_most(wavy)
+    assert finding.holds
+    assert finding.measured == "mean over h of |ln s(π)/s(0)| at ω2/ω1 = 1/4: 0.50, 1/2: 0.55, 1: 0.00"
+
+
+def test_how_waviness_is_described():
+    results = ratio_over("waviness_amplitude", {0.25: 1.5, 0.75: 3.0}, wavelength=[5.0, math.sqrt(20)])
+    finding = figure7.waviness_matters(results)
+    assert finding.measured == (
+        "max/min over h/δ0: λ/√(hR) = 5: 1.50/3.00, √20: 1.50/3.00 (δA/δ0 = 0.25/0.75)"
     )

@@ -208,6 +208,7 @@ def test_swt_along_the_surface(moving, axes):
     assert places[r"$a_{\max}$"] == pytest.approx((high, 1.39 * top))
     assert axes.get_xlim() == pytest.approx((-1.2 * high, 1.2 * high))
     assert axes.get_ylim() == pytest.approx((0.0, 1.45 * top))
+    assert axes.get_title("left") == "swt along the surface"
 
 
 @pytest.mark.parametrize("angle", [8.0, -8.0, 65.0, -65.0])
@@ -225,6 +226,18 @@ def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
     assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx([0.6 * cosine, -0.6 * sine])
     assert arrow.xyann == pytest.approx(0.42 / 0.85 * plane[1])
     assert [text.get_text() for text in inset.texts if text.get_text()] == [f"{angle:.1f}°"]
+
+
+def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
+    edge = {"profile": "truncated_paraboloid", "flat_radius": 1, "friction": 1.2, "phase": 1.5}
+    point = swtstudy.inspect_point(**edge)
+    assert np.isnan(point.s)
+    panels.draw_swt(axes, point)
+    assert axes.get_title("left") == "swt along the surface; dot: largest sampled"
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    assert dot.get_ydata() == [float(point.s_local.max())]
+    assert dot.get_xdata() == [float(point.x[int(point.s_local.values.argmax())])]
+    panels.draw_stress(Figure().subplots(), point)
 
 
 def test_what_does_not_change_has_room_too():
