@@ -47,6 +47,29 @@ UNITS = {
     "friction": "1",
 }
 
+#: Labels of xarray's own plots.
+LONG_NAMES = {
+    "s": "SWT parameter SWT/SWT0",
+    "s_error": "absolute error of s",
+    "s_surface": "s on the surface circle",
+    "critical_x": "critical point x/a_H",
+    "critical_angle": "critical plane angle",
+    "regime": "regime of the contact",
+    "status": "state of the point",
+    "run": "run that made the value",
+    "phase": "phase",
+}
+SYMBOLS = {
+    "s": "s",
+    "s_error": r"\Delta s",
+    "s_surface": r"s_\mathrm{surface}",
+    "critical_x": "x/a_H",
+    "critical_angle": r"\varphi",
+    "phase": r"\psi",
+    "friction": r"\mu",
+    "frequency_ratio": r"\omega_2/\omega_1",
+}
+
 
 def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
@@ -65,6 +88,8 @@ def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
         assert "a_H = sqrt(R delta0)" in file["critical_x"].comment
         assert file["critical_angle"].units == "degree"
         assert "against the x axis" in file["critical_angle"].comment
+        assert {name: file[name].long_name for name in LONG_NAMES} == LONG_NAMES
+        assert {name: file[name].symbol for name in SYMBOLS} == SYMBOLS
 
 
 def test_every_number_of_the_solver_comes_back_from_the_file(tmp_path):
@@ -118,7 +143,10 @@ def test_provenance(small, tmp_path):
     assert attributes["rtol"] == small.rtol
     assert attributes["Conventions"].startswith("CF-1.")
     assert f"swtstudy {swtstudy.__version__}" in attributes["history"]
-    assert "numpy" in attributes["versions"]
+    versions = dict(each.split(" ") for each in attributes["versions"].split(", "))
+    assert list(versions) == ["python", "swtstudy", "numpy", "scipy", "xarray", "netCDF4", "dask"]
+    for package in (swtstudy, np, xr, netCDF4):
+        assert versions[package.__name__] == package.__version__
     assert attributes["wall_time_seconds"] > 0
 
 

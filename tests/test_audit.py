@@ -110,3 +110,84 @@ def test_command_goes_on_where_it_was(tmp_path):
     assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
     np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
     assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("excess", "verdict"), [(0.999e-3, "none"), (1.001e-3, "line_search")])
+def test_an_excess_counts_from_a_thousandth(excess, verdict):
+    finding = made_up_finding(s=2.0, s_surface=2.0, s_body=2.0 * (1.0 + excess))
+    assert finding.verdict == verdict
+    assert finding.excess == pytest.approx(excess)
+    assert finding.remainder == pytest.approx(excess)
+
+
+@pytest.mark.parametrize(("size", "zero"), [(0.99e-6, True), (1.01e-6, False)])
+def test_what_counts_as_on_the_line(size, zero):
+    for sign in (1.0, -1.0):
+        for where, verdict in (
+            ({"position": np.array([0.5, sign * size, 0.0])}, "symmetry_line"),
+            ({"normal": np.array([1.0, sign * size, 0.0])}, "plane_through_y"),
+        ):
+            assert made_up_finding(s_body=1.1, **where).verdict == ("line_search" if zero else verdict)
+    beneath = made_up_finding(s_body=1.1, position=np.array([0.5, 0.0, size]))
+    assert beneath.verdict == ("line_search" if zero else "surface")
+
+
+def test_excess_over_nothing_is_all_or_nothing():
+    assert made_up_finding(s=0.0, s_surface=0.0, s_body=0.0).excess == 0.0
+    finding = made_up_finding(s=0.0, s_surface=0.0, s_body=1e-9)
+    assert (finding.excess, finding.remainder, finding.verdict) == (1.0, 1.0, "line_search")
+    finding = made_up_finding(s=2.0, s_surface=2.5, s_body=3.0)
+    assert (finding.excess, finding.remainder) == (0.5, pytest.approx(0.2))
+
+
+def test_the_report_counts_every_point():
+    """Four on the line (two of them 0.05 % above s), one above s_surface too, one that is not finite."""
+    findings = [
+        *[made_up_finding(s_all_planes=1.0 + 2e-5)] * 2,
+        *[made_up_finding(s_body=1.0005, s_all_planes=1.0 - 4e-5)] * 2,
+        made_up_finding(s_body=1.08, s_surface=1.05, position=np.array([0.8, 0.6, 0.0]), regime="gross_slip"),
+        made_up_finding(s_surface=np.nan, s_body=np.nan, s_all_planes=np.nan, regime="not_finite"),
+    ]
+    rows = np.zeros((6, len(COLUMNS)))
+    rows[:, COLUMNS.index("phase")] = np.arange(6)
+    rows[:, COLUMNS.index("poisson_ratio")] = 0.0, 0.1, 0.35, 0.36, 0.5, 0.2
+    lines = report(findings_dataset(rows, findings).assign_attrs(title="six")).splitlines()
+    assert lines[0] == "# six"
+    assert lines[2].startswith("6 points, each solved")
+    assert "counts from 0.1%" in lines[2]
+    assert lines[6:12] == [
+        "| on the surface line, where the solver found it | 4 | | |",
+        "| on the surface line, elsewhere | 0 | | |",
+        "| on the surface line, on a plane that is not through y | 0 | | |",
+        "| on the surface, off the line | 1 | 8.0% | 0.50 |",
+        "| beneath the surface | 0 | | |",
+        "| not looked for: s is not finite, or at the edge r = b of the truncated paraboloid | 1 | | |",
+    ]
+    at = lines.index("| ν | points | above s | by up to | above s_surface by up to |")
+    assert lines[at + 2 : at + 6] == [
+        "| 0–0.1 | 2 | 0 | 0.00% | 0.00% |",
+        "| 0.3–0.35 | 1 | 0 | 0.05% | 0.05% |",
+        "| 0.35–0.4 | 1 | 0 | 0.05% | 0.05% |",
+        "| 0.45–0.5 | 1 | 1 | 8.00% | 2.86% |",
+    ]
+    assert "| paraboloid | 5 | 1 | 8.00% | 2.86% |" in lines
+    assert "| gross slip | 1 | 1 | 8.00% | 2.86% |" in lines
+    assert "| partial slip | 4 | 0 | 0.05% | 0.05% |" in lines
+    text = "\n".join(lines)
+    assert (
+        "s_surface is more than 0.1% above s at 1 points: 1 of the 1 at which the body's maximum is, and 0 "
+        "others. The body's maximum exceeds s_surface at 1 points, by up to 2.86%:"
+    ) in text
+    assert "* 2.86% (symmetry_line): profile=paraboloid" in text
+    assert "differ by 2e-05 (median), 4e-05 (99 %), 4e-05 (largest)." in text
+
+
+def test_a_sample_has_every_point_at_most_once():
+    """Of a small grid a permutation, of a large one draws; physically the same points count once."""
+    small = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 9}\n').grid
+    rows = sample_rows(small, 9, seed=3)
+    assert sorted(rows[:, COLUMNS.index("friction")]) == pytest.approx(np.linspace(0.1, 0.9, 9))
+    large = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 401}\n').grid
+    rows = sample_rows(large, 40, seed=3)
+    assert len(np.unique(rows, axis=0)) == len(rows) == 40
+    assert not np.array_equal(rows, sample_rows(large, 40, seed=4))

@@ -14,8 +14,9 @@ from scipy.integrate import simpson
 import swtstudy
 from swtstudy.fields import swt as swt_module
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics.body.body import body, nodes_at
-from swtstudy.mechanics.body.body_maximum import body_maximum
+from swtstudy.mechanics.body import body
+from swtstudy.mechanics.body.body import nodes_at
+from swtstudy.mechanics.body.body_maximum import _cartesian, _folded, _off_ring, _Search, body_maximum
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.history import stresses
@@ -427,3 +428,31 @@ def test_slip_of_an_oscillating_sphere_is_mindlins(instant, sense):
     assert float(states.contact_radius) == pytest.approx(1.0)
     slip = 2 if sense > 0 else 3
     assert states.state.values.tolist() == [1, 1, slip, slip, 0]
+
+
+def test_places_of_the_search_over_the_body():
+    """Radius, angle and depth: mirrored into r ≥ 0, 0 ≤ θ ≤ π, z ≥ 0, which swt is symmetric in."""
+    places = np.array([[0.5, -0.3, 0.2], [-0.5, 0.3, -0.1], [0.4, np.pi + 0.2, 0.0], [0.4, 6.0, 0.0]])
+    expected = [
+        [0.5, 0.3, 0.2],
+        [0.5, np.pi - 0.3, 0.0],
+        [0.4, np.pi - 0.2, 0.0],
+        [0.4, 2 * np.pi - 6.0, 0.0],
+    ]
+    np.testing.assert_allclose(_folded(places), expected)
+    x, y, z = _cartesian(np.array([[0.5, np.pi, 0.1], [0.5, np.pi / 6, 0.0], [0.5, 0.0, 0.0]]))
+    np.testing.assert_allclose(x, [-0.5, 0.5 * np.sqrt(0.75), 0.5])
+    np.testing.assert_allclose(y, [0.0, 0.25, 0.0], rtol=1e-15, atol=0.0)
+    np.testing.assert_array_equal(z, [0.1, 0.0, 0.0])
+
+
+def test_the_search_keeps_off_the_edge_of_a_flat_face():
+    scene = read_scene({"profile": "truncated_paraboloid", "flat_radius": 0.5})
+    search = _Search(scene, 1.3, 0.01)
+    places = np.array([[r, 0.7, 0.1] for r in (0.3, 0.485, 0.495, 0.5, 0.505, 0.515, 1.2)])
+    found = _off_ring(search, places)
+    np.testing.assert_allclose(found[:, 0], [0.3, 0.485, 0.49, 0.51, 0.51, 0.515, 1.2])
+    np.testing.assert_array_equal(found[:, 1:], places[:, 1:])
+    smooth = _Search(read_scene({}), 1.3, 0.01)
+    near_axis = np.array([[0.005, 0.7, 0.1]])
+    np.testing.assert_array_equal(_off_ring(smooth, near_axis), near_axis)

@@ -123,3 +123,108 @@ def test_s_has_the_period_of_the_folded_phase_and_x_its_mirror(p: int, q: int) -
     np.testing.assert_allclose(as_given.critical_x, sign * as_folded.critical_x, rtol=3e-3)
     np.testing.assert_allclose(as_given.critical_angle, sign * as_folded.critical_angle, atol=0.2)
     assert mirrored.any() == (q % 2 == 1)
+
+
+@every_frequency
+def test_what_a_load_says_of_itself(p: int, q: int) -> None:
+    load = random_loads(5, p, q)
+    instants = np.broadcast_to(np.linspace(0.0, 2.0 * np.pi, 40001), (5, 40001))
+    normal, tangential = load.normal(instants), load.tangential(instants)
+    np.testing.assert_allclose(load.least_normal, normal.min(axis=1), atol=1e-6)
+    np.testing.assert_allclose(load.largest_normal, normal.max(axis=1), atol=1e-6)
+    size = np.ptp(normal, axis=1) / 2.0 + np.ptp(tangential, axis=1) / 2.0
+    np.testing.assert_allclose(load.motion, size, atol=1e-6)
+    # How often each rises through its mean.
+    for values, times in zip((normal[0] - 1.0, tangential[0]), load.oscillations, strict=True):
+        assert np.count_nonzero((values[:-1] < -1e-9) & (values[1:] >= -1e-9)) == times
+    half = instants + np.pi
+    mirrored = np.allclose(load.normal(half), normal) and np.allclose(load.tangential(half), -tangential)
+    assert load.mirrored_half == mirrored
+    still = BimodalLoad(np.ones(2), np.array([0.0, 1e-12]), np.zeros(2), p, q)
+    assert still.moves_tangentially.tolist() == [False, True]
+
+
+@every_frequency
+def test_growth_slope_is_the_slope_of_the_path_within_the_bounds_of_stick(p: int, q: int) -> None:
+    """−du/dδ along the path, by differences; ±1 where the tangential load is faster: there the edge slips."""
+    load = random_loads(6, p, q)
+    load.tangential_amplitude[0] = 20.0
+    depth = 1.0 + load.normal_amplitude[:, None] * np.linspace(-0.95, 0.95, 11)
+    clipped = 0
+    for turn in range(q):
+        branch = np.full(1, turn)
+        instant, step = load.touch_down(depth, branch), 1e-6
+        du, dd = (f(instant + step) - f(instant - step) for f in (load.tangential, load.normal))
+        found = load.growth_slope(depth, branch)
+        np.testing.assert_allclose(found, -np.clip(du / dd, -1.0, 1.0), rtol=0.0, atol=1e-6)
+        clipped += np.count_nonzero(np.abs(found) == 1.0)
+    assert clipped > 0
+
+
+def test_growth_slope_at_a_turn_and_without_motion() -> None:
+    """At a common turning point 0/0 is 0; without motion of the depth no ground grows."""
+    load = BimodalLoad(np.array([0.5, 0.0]), np.array([0.8, 0.8]), np.zeros(2), 1, 1)
+    slope = load.growth_slope(np.array([[1.5, 0.5], [1.0, 1.0]]), np.zeros(1, dtype=int))
+    assert np.all(np.abs(slope) <= 1.0)
+    np.testing.assert_array_equal(slope[1], 0.0)
+
+
+@every_frequency
+def test_passages_of_the_depth(p: int, q: int) -> None:
+    load = random_loads(4, p, q)
+    # From each turn of the depth to the next, rising or falling.
+    quarter = np.pi * (np.arange(-2, 2 * q + 2) + 0.5)
+    turns = (quarter - np.mod(load.phase, 2.0 * np.pi)[:, None]) / q
+    begin, end = turns[:, :-1], turns[:, 1:]
+    depth = 1.0 + load.normal_amplitude[:, None] * np.array([-0.9, -0.2, 0.0, 0.5, 0.99])
+    found = load.passage(depth, begin, end)
+    assert np.all((found >= begin[:, None]) & (found <= end[:, None]))
+    np.testing.assert_allclose(
+        load.normal(found), np.broadcast_to(depth[:, :, None], found.shape), rtol=0.0, atol=1e-12
+    )
+    # Part of a stretch: the nearer end; a depth that is never reached: the end.
+    third = begin + (end - begin) / 3.0
+    early = load.passage(depth, begin, third)
+    np.testing.assert_allclose(early, np.minimum(found, third[:, None]), rtol=0.0, atol=1e-12)
+    late = load.passage(depth, third, end)
+    np.testing.assert_allclose(late, np.maximum(found, third[:, None]), rtol=0.0, atol=1e-12)
+    for side in (-1.001, 1.001):
+        never = load.passage(1.0 + side * load.normal_amplitude[:, None], begin, third)
+        np.testing.assert_array_equal(never[:, 0], third)
+
+
+@every_frequency
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_instants_of_the_slip_lines(p: int, q: int, sense: float) -> None:
+    """Between two turns of sense·T − N every value is met once; beyond them the nearer end is given."""
+    load = random_loads(20, p, q)
+    samples = np.broadcast_to(np.linspace(0.0, 2.0 * np.pi, 4001), (20, 4001))
+    line = sense * load.tangential(samples) - load.normal(samples)
+    rising = np.diff(line, axis=1) > 0.0
+    begin = np.array([np.flatnonzero(np.diff(row))[0] + 1 for row in rising])
+    end = np.array([np.flatnonzero(np.diff(row))[1] for row in rising])
+    row = np.arange(20)
+    low, high = samples[row, begin], samples[row, end]
+    brackets = load.slip_line_brackets(sense, low, high)
+    for share in (0.1, 0.5, 0.8):
+        goal = (1.0 - share) * line[row, begin] + share * line[row, end]
+        found = load.slip_line_instant(sense, goal, brackets)
+        assert np.all((found >= low) & (found <= high))
+        at = sense * load.tangential(found[:, None]) - load.normal(found[:, None])
+        np.testing.assert_allclose(at[:, 0], goal, rtol=0.0, atol=1e-10)
+    for beyond, expected in ((-0.1, low), (1.1, high)):
+        goal = (1.0 - beyond) * line[row, begin] + beyond * line[row, end]
+        found = load.slip_line_instant(sense, goal, brackets)
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-2)
+        at = sense * load.tangential(found[:, None]) - load.normal(found[:, None])
+        assert np.all(
+            np.abs(at[:, 0] - goal) <= np.abs(line[row, begin if beyond < 0 else end] - goal) + 1e-12
+        )
+
+
+@every_frequency
+def test_branches_are_numbered_from_the_turn_before(p: int, q: int) -> None:
+    load = random_loads(4, p, q)
+    depth = 1.0 + load.normal_amplitude[:, None] * np.linspace(-0.9, 0.9, 7)
+    for turn in range(q):
+        np.testing.assert_array_equal(load.branch(load.touch_down(depth, np.full(1, turn))), turn)

@@ -3,8 +3,10 @@ import os
 import subprocess
 import sys
 import types
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -12,14 +14,17 @@ import stand_in
 
 import swtstudy
 from swtstudy import Study, StudyError, run
+from swtstudy.grid.canonical import COLUMNS
+from swtstudy.grid.cost import SECONDS_PER_WEIGHT
 from swtstudy.grid.unique import unique_points
 from swtstudy.records.result import Result
 from swtstudy.runner import engine
 from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
+from swtstudy.runner.estimate import estimate
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
 from swtstudy.runner.progress import ProgressBar
-from swtstudy.runner.workers import LocalPool
+from swtstudy.runner.workers import LocalPool, _clean_start
 
 WIDE = """
 title = "Enough for workers"
@@ -235,3 +240,56 @@ def test_a_short_run_is_quiet_in_a_log(small, tmp_path, caplog, capfd):
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     assert caplog.messages == []
     assert capfd.readouterr() == ("", "")
+
+
+def test_workers_start_with_one_thread_each_and_without_the_script_that_calls(monkeypatch):
+    monkeypatch.setenv("OMP_NUM_THREADS", "7")
+    names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+    monkeypatch.delenv(names[1], raising=False)
+    monkeypatch.delenv(names[2], raising=False)
+    main = sys.modules["__main__"]
+    with _clean_start():
+        assert [os.environ[name] for name in names] == ["1", "1", "1"]
+        assert sys.modules["__main__"] is not main
+    assert [os.environ.get(name) for name in names] == ["7", None, None]
+    assert sys.modules["__main__"] is main
+
+
+def test_the_pace_of_the_first_chunks_and_of_later_ones():
+    """The first are a fifth as long as later ones; then the mean of the last estimate and the new timing."""
+    result = Result(np.arange(1), None, np.zeros(1, bool), {}, 4.0, "1")
+    pace = Pace()
+    assert pace.chunk_weight() == pytest.approx(0.2 * CHUNK_SECONDS / SECONDS_PER_WEIGHT)
+    pace.update(result, 200)
+    assert pace.seconds_per_weight == pytest.approx(0.02)
+    pace.update(result, 100)
+    assert pace.seconds_per_weight == pytest.approx(0.03)
+    assert pace.chunk_weight() == pytest.approx(0.7 / 0.03)
+    pace.update(replace(result, seconds=0.0), 10**9)
+    for _ in range(60):
+        pace.update(replace(result, seconds=0.0), 10**9)
+    assert pace.chunk_weight() == 10_000
+
+
+def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
+    """Two kinds, of 1 s and 2 s a point; what is saved counts no more."""
+    text = (
+        'title = "t"\n[axes]\nfrequency_ratio = [1, "1/2"]\nfriction = {start = 0.1, stop = 0.9, num = 5}\n'
+    )
+    table = unique_points(Study.from_text(text).grid).table
+    timed = []
+    slow = partial(timed_by_ratio, timed)
+    missing = np.ones(len(table), bool)
+    with mock.patch("swtstudy.runner.estimate.solve_chunk", slow):
+        assert estimate(table, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
+        missing[:3] = False
+        left = {1: 5, 2: 5}
+        left[int(table[0, COLUMNS.index("q")])] -= 3
+        assert estimate(table, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
+        assert estimate(table, np.zeros(len(table), bool), 1e-3, None) == 0.0
+
+
+def timed_by_ratio(timed, chunk, rtol, solver):
+    """A result that took q seconds a point."""
+    q = chunk.table[:, COLUMNS.index("q")]
+    return Result(np.arange(len(q)), None, np.zeros(len(q), bool), {}, float(q.sum()), "1")

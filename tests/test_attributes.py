@@ -1,0 +1,119 @@
+"""What stands beside the numbers of fields, averages and one point, in words that are not the package's."""
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy.audit.point import VERDICTS
+from swtstudy.mechanics.points import REGIMES
+
+STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}
+PLACES = {name: (f"{name}/a_H", "1") for name in "xyz"}
+TIME = {"time": (r"\omega_1 t", "rad")}
+
+
+def told(dataset, names):
+    """Symbol and unit of variables."""
+    return {name: (dataset[name].attrs.get("symbol"), dataset[name].attrs.get("units")) for name in names}
+
+
+def test_stress_field():
+    field = swtstudy.stress_field([0.1, 0.2], 0.0, [0.1], time=[0.0, 1.0])
+    expected = STRESS | PLACES | TIME
+    assert told(field, expected) == expected
+    for name in STRESS:
+        words = f"stress {name[-2:]} over E* sqrt(delta0/R), tension positive"
+        assert field[name].attrs["long_name"] == words
+    assert field.contact_radius.attrs["long_name"] == "contact radius, in units of a_H = sqrt(R delta0)"
+    assert field.contact_radius.attrs["units"] == "1"
+    assert field.time.attrs["long_name"] == "omega1 t, in the stationary cycle"
+    assert [field[name].attrs["long_name"] for name in "xyz"] == [
+        "position in the direction of sliding, in units of a_H = sqrt(R delta0)",
+        "position across the direction of sliding, in units of a_H = sqrt(R delta0)",
+        "depth, in units of a_H = sqrt(R delta0)",
+    ]
+
+
+def test_swt_field_and_slip_map():
+    field = swtstudy.swt_field([0.1, 0.9], 0.0, 0.1)
+    expected = {"s_local": ("swt", "1"), **{f"normal_{n}": (f"n_{n}", "1") for n in "xyz"}, **PLACES}
+    assert told(field, expected) == expected
+    assert field.s_local.attrs["long_name"] == "Smith-Watson-Topper parameter over E* delta0/R"
+    assert field.normal_x.attrs["long_name"] == "unit normal of the critical plane"
+    states = swtstudy.slip_map([0.1, 0.9], time=[0.0, 1.0])
+    expected = {"r": ("r/a_H", "1"), **TIME}
+    assert told(states, expected) == expected
+    assert states.state.attrs["flag_values"].tolist() == [0, 1, 2, 3]
+    assert states.state.attrs["flag_meanings"] == "open stick forward_slip backward_slip"
+    assert states.state.attrs["long_name"] == "state of the contact"
+    for name in ("contact_radius", "slip_radius"):
+        words = f"{name.replace('_', ' ')}, in units of a_H"
+        assert (states[name].attrs["long_name"], states[name].attrs["units"]) == (words, "1")
+
+
+def test_nonlocal_values():
+    found = swtstudy.nonlocal_swt(0.05, rtol=1e-2)
+    words = {name: found[name].attrs["long_name"] for name in ("s_volume", "s_point", "s_line")}
+    assert words == {
+        "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
+        "s_point": "swt/SWT0 at half the critical distance (point method)",
+        "s_line": "mean of swt/SWT0 over twice the critical distance (line method)",
+    }
+    assert {found[name].attrs["units"] for name in (*words, "critical_distance")} == {"1"}
+    assert found.critical_distance.attrs["symbol"] == r"\ell/a_H"
+    assert found.direction.values.tolist() == ["depth", "critical_plane"]
+
+
+def test_one_point():
+    point = swtstudy.inspect_point()
+    expected = {
+        "depth": r"\delta/\delta_0",
+        "displacement": r"G^* u/(\mu E^* \delta_0)",
+        "normal_stress": r"\sigma_n",
+        "normal_strain": r"\varepsilon_n",
+        "sigma_xx": r"\sigma_{xx}",
+        "sigma_xz": r"\sigma_{xz}",
+        "pressure": "p",
+        "traction": "q",
+        "compression": r"w/\delta_0",
+        "force": r"G^* u_{MDR}/(\mu E^* \delta_0)",
+        "s_local": "swt",
+        "shown_x": "x/a_H",
+        "permanent_stick_radius": "c/a_H",
+        "least_radius": "a/a_H",
+        "largest_radius": "a/a_H",
+        "x": "x/a_H",
+    }
+    assert told(point, expected) == {name: (symbol, "1") for name, symbol in expected.items()}
+    assert all(point[name].attrs["long_name"] for name in expected)
+    assert point.shown_angle.attrs["units"] == "degree"
+    assert point.attrs == swtstudy.inspect_point(friction=0.2).attrs
+
+
+def test_flags_are_those_of_the_words():
+    assert REGIMES == ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
+    assert VERDICTS == (
+        "none",
+        "line_search",
+        "plane_through_y",
+        "symmetry_line",
+        "surface",
+        "not_finite",
+    )
+
+
+@pytest.mark.parametrize(
+    ("parameters", "regime"),
+    [
+        ({"normal_amplitude": 0.5, "tangential_amplitude": 0.0}, "stick"),
+        ({"normal_amplitude": 0.0, "tangential_amplitude": 0.99}, "partial_slip"),
+        ({"normal_amplitude": 0.0, "tangential_amplitude": 1.01}, "gross_slip"),
+        ({"normal_amplitude": 1.01, "tangential_amplitude": 0.1}, "lift_off"),
+    ],
+)
+def test_regimes_of_known_motions(parameters, regime):
+    """With δA = 0 all slides from u_A = 1 (in δ0 of the springs) on; δA > δ0 loses the contact."""
+    found = swtstudy.solve(rtol=1e-2, **parameters)
+    names = found.regime.attrs["flag_meanings"].split()
+    assert names[int(found.regime)] == regime
+    assert np.isfinite(found.s)

@@ -1,0 +1,251 @@
+"""What each panel of the picture of one point draws, against numbers that do not come from the panels."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import swtstudy
+from swtstudy.figures import inspection_panels as panels
+
+#: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
+CATTANEO = {"normal_amplitude": 0, "tangential_amplitude": 0.36, "friction": 0.5}
+MOVING = {"frequency_ratio": "1/2", "phase": 0.4, "normal_amplitude": 0.5}
+
+
+@pytest.fixture(scope="module")
+def cattaneo():
+    return swtstudy.inspect_point(**CATTANEO)
+
+
+@pytest.fixture(scope="module")
+def moving():
+    return swtstudy.inspect_point(**MOVING)
+
+
+@pytest.fixture
+def axes():
+    return Figure().subplots()
+
+
+def levels(axes, upright):
+    """Places of the lines across the whole panel."""
+    lines = (
+        line.get_xdata() if upright else line.get_ydata() for line in axes.lines if len(line.get_xdata()) == 2
+    )
+    return sorted(float(ends[0]) for ends in lines if ends[0] == ends[1])
+
+
+def numbers(axes):
+    """The numbered discs: number and place."""
+    return {int(text.get_text()): text.get_position() for text in axes.texts if text.get_text().isdigit()}
+
+
+def test_load_path(moving, axes):
+    panels.draw_load(axes, moving)
+    time = moving.time.values  # ω1 t; ω2/ω1 = 1/2
+    u, depth = axes.lines[0].get_data()
+    np.testing.assert_allclose(u, 5 / 6 * np.sin(0.5 * time), atol=1e-12)
+    np.testing.assert_allclose(depth, 1 + 0.5 * np.sin(time + 0.4), atol=1e-12)
+    assert levels(axes, True) == [0.0]
+    assert levels(axes, False) == [1.0]
+    for (low, high), values in ((axes.get_xlim(), u), (axes.get_ylim(), depth)):
+        width = np.ptp(values)
+        assert values.min() - low == pytest.approx(0.14 * width)
+        assert high - values.max() == pytest.approx(0.14 * width)
+    at = moving.instant_time.values
+    for number, place in numbers(axes).items():
+        t = at[number - 1]
+        assert place == pytest.approx((5 / 6 * np.sin(0.5 * t), 1 + 0.5 * np.sin(t + 0.4)), abs=1e-9)
+    assert set(numbers(axes)) == set(moving.instant.values)
+
+
+def test_the_arrow_goes_with_time_and_away_from_the_marks(moving, axes):
+    panels.draw_load(axes, moving)
+    (arrow,) = (text for text in axes.texts if text.get_text() == "")
+    u, depth = moving.displacement.values, moving.depth.values
+    ends = [int(np.hypot(u - x, depth - y).argmin()) for x, y in (arrow.xyann, arrow.xy)]
+    assert ends[1] == ends[0] + 2
+    assert (u[ends[0]], depth[ends[0]]) == arrow.xyann
+    assert (u[ends[1]], depth[ends[1]]) == arrow.xy
+    # No other instant is further from its nearest mark.
+    marks = np.array(list(numbers(axes).values()))
+    distance = np.hypot(u[:, None] - marks[:, 0], depth[:, None] - marks[:, 1]).min(axis=1)
+    assert distance[ends[0] + 1] == pytest.approx(distance[1:-1].max())
+
+
+def test_no_contact_is_shaded(axes):
+    panels.draw_load(axes, swtstudy.inspect_point(normal_amplitude=1.5))
+    (words,) = (text.get_text() for text in axes.texts if text.get_text().startswith("no"))
+    assert words == "no contact"
+    (band,) = axes.patches
+    box = band.get_extents().transformed(axes.transData.inverted())
+    assert (box.y0, box.y1) == pytest.approx((axes.get_ylim()[0], 0.0))
+    assert axes.get_ylim()[0] == pytest.approx(-0.5 - 0.14 * 3.0)
+
+
+def test_slip(cattaneo, axes):
+    panels.draw_slip(axes, cattaneo)
+    # Stick for r < c = √(1 − U) always; the critical point is at the edge r = a.
+    assert levels(axes, False) == pytest.approx([0.8, 1.0], abs=1e-6)
+    assert abs(float(cattaneo.critical_x)) == pytest.approx(1.0, abs=1e-6)
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), 1.0)
+    assert levels(axes, True) == pytest.approx(cattaneo.instant_time.values)
+    top = axes.get_ylim()[1]
+    assert axes.get_ylim() == pytest.approx((0.0, 1.15))
+    for number, place in numbers(axes).items():
+        assert place == pytest.approx((float(cattaneo.instant_time[number - 1]), 0.95 * top))
+    words = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert words == ["stick", "forward slip", "backward slip", "critical point", "always sticks"]
+    mesh = axes.collections[0]
+    np.testing.assert_array_equal(
+        np.asarray(mesh.get_array()).reshape(cattaneo.state.T.shape), cattaneo.state.T
+    )
+
+
+def test_springs(cattaneo, axes):
+    """Springs of the paraboloid: w = 1 − ξ²; at the turning points τ = ±min(w, U)."""
+    panels.draw_springs(axes, cattaneo)
+    radius = cattaneo.r.values
+    w = np.maximum(1.0 - radius**2, 0.0)
+    curves = [line for line in axes.lines if len(line.get_xdata()) == len(radius)]
+    assert len(curves) == 3 * cattaneo.sizes["instant"]
+    named = [line for line in curves if line.get_label().isdigit()]
+    assert [line.get_label() for line in named] == [str(number) for number in cattaneo.instant.values]
+    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
+    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
+        np.testing.assert_allclose(upper, w, atol=1e-12)
+        np.testing.assert_allclose(lower, -w, atol=1e-12)
+    turning = 0
+    for time, line in zip(cattaneo.instant_time.values, named, strict=True):
+        u = 0.36 * np.sin(time)
+        if abs(u) > 0.36 - 1e-9:
+            turning += 1
+            np.testing.assert_allclose(line.get_ydata(), np.sign(u) * np.minimum(w, 0.36), atol=1e-9)
+    assert turning == 2
+    assert axes.get_xlim() == pytest.approx((0.0, 1.05))
+
+
+def test_tractions(cattaneo, axes):
+    """q between ±μ p, with the μ of the point: p = 2/π √(1 − r²) over E* √(δ0/R)."""
+    panels.draw_tractions(axes, cattaneo)
+    x = cattaneo.x.values
+    p = 2 / np.pi * np.sqrt(np.maximum(1.0 - x**2, 0.0))
+    curves = [line for line in axes.lines if len(line.get_xdata()) == len(x)]
+    named = [line for line in curves if line.get_label().isdigit()]
+    bounds = [line for line in curves if not line.get_label().isdigit()]
+    for line in curves:
+        np.testing.assert_array_equal(line.get_xdata(), x)
+    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
+        np.testing.assert_allclose(upper.get_ydata(), 0.5 * p, atol=1e-9)
+        np.testing.assert_allclose(lower.get_ydata(), -0.5 * p, atol=1e-9)
+    less = 2 / np.pi * np.sqrt(np.maximum(0.64 - x**2, 0.0))
+    turning = 0
+    for time, line in zip(cattaneo.instant_time.values, named, strict=True):
+        for turn, sense in ((np.pi / 2, 1.0), (3 * np.pi / 2, -1.0)):
+            if abs(time - turn) < 1e-9:
+                turning += 1
+                np.testing.assert_allclose(line.get_ydata(), sense * 0.5 * (p - less), atol=1e-9)
+    assert turning == 2
+    assert axes.get_xlim() == pytest.approx((-1.08, 1.08))
+    assert -axes.get_ylim()[0] == axes.get_ylim()[1] == pytest.approx(1.2 * 0.5 * 2 / np.pi, rel=0.02)
+    assert levels(axes, True) == [float(cattaneo.critical_x)]
+
+
+def test_stress_cycle(moving):
+    figure = Figure()
+    axes = figure.subplots()
+    panels.draw_stress(axes, moving)
+    (other,) = (each for each in figure.axes if each is not axes)
+    stress, strain, time = moving.normal_stress.values, moving.normal_strain.values, moving.time.values
+    np.testing.assert_array_equal(axes.lines[0].get_data(), (time, stress))
+    (curve,) = (line for line in other.lines if len(line.get_xdata()) == len(time))
+    np.testing.assert_array_equal(curve.get_data(), (time, strain))
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    assert dot.get_ydata() == [stress.max()]
+    assert dot.get_xdata() == [time[stress.argmax()]]
+    assert levels(other, False) == [strain.min(), strain.max()]
+    (arrow,) = (text for text in other.texts if text.get_text() == "")
+    assert (arrow.xyann, arrow.xy) == (
+        (pytest.approx(0.93 * time[-1]), strain.min()),
+        (pytest.approx(0.93 * time[-1]), strain.max()),
+    )
+    (words,) = (text for text in other.texts if "Delta" in text.get_text())
+    assert words.get_position() == pytest.approx((0.915 * time[-1], (strain.min() + strain.max()) / 2))
+    for each, values in ((axes, stress), (other, strain)):
+        low, high = each.get_ylim()
+        assert values.min() - low == pytest.approx(0.08 * np.ptp(values))
+        assert high - values.max() == pytest.approx(0.22 * np.ptp(values))
+    assert axes.get_xlim() == pytest.approx((0.0, 4 * np.pi))
+    assert levels(axes, True) == pytest.approx(moving.instant_time.values)
+    assert {number: place[0] for number, place in numbers(axes).items()} == pytest.approx(
+        dict(zip(moving.instant.values, moving.instant_time.values, strict=True))
+    )
+    assert axes.get_title("left") == f"on the critical plane at $x/a_H$ = ${float(moving.critical_x):.3f}$"
+    # What s is made of stands in the picture.
+    assert dot.get_ydata()[0] * (strain.max() - strain.min()) / 2 == pytest.approx(float(moving.s), rel=1e-4)
+
+
+def test_what_always_sticks_is_shaded(cattaneo, axes):
+    panels.draw_swt(axes, cattaneo)
+    (zone,) = axes.patches
+    box = zone.get_extents().transformed(axes.transData.inverted())
+    assert (box.x0, box.x1) == pytest.approx((-0.8, 0.8))
+    (words,) = (text for text in axes.texts if text.get_text() == "always\nsticks")
+    assert words.get_position() == pytest.approx((0.0, 0.04 * float(cattaneo.s)))
+
+
+def test_swt_along_the_surface(moving, axes):
+    panels.draw_swt(axes, moving)
+    np.testing.assert_array_equal(axes.lines[0].get_data(), (moving.x, moving.s_local))
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    assert dot.get_data() == (pytest.approx([float(moving.critical_x)]), pytest.approx([float(moving.s)]))
+    # a of the paraboloid: √δ, δ from 0.5 to 1.5.
+    low, high = np.sqrt([0.5, 1.5])
+    assert levels(axes, True) == pytest.approx([-high, -low, low, high])
+    places = {text.get_text(): text.get_position() for text in axes.texts}
+    top = float(moving.s)
+    assert places[r"$a_{\min}$"] == pytest.approx((low, 1.39 * top))
+    assert places[r"$a_{\max}$"] == pytest.approx((high, 1.39 * top))
+    assert axes.get_xlim() == pytest.approx((-1.2 * high, 1.2 * high))
+    assert axes.get_ylim() == pytest.approx((0.0, 1.45 * top))
+    assert axes.get_title("left") == "swt along the surface"
+
+
+@pytest.mark.parametrize("angle", [8.0, -8.0, 65.0, -65.0])
+def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
+    """x to the right, z down: the normal (cos φ, sin φ) points down for φ > 0, the plane into the body."""
+    panels._draw_plane(axes, moving.assign(shown_angle=angle))
+    (inset,) = axes.child_axes
+    cosine, sine = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    plane = inset.lines[1].get_xydata()
+    assert plane[0].tolist() == [0.0, 0.0]
+    assert np.hypot(*plane[1]) == pytest.approx(0.85)
+    assert plane[1] @ [cosine, -sine] == pytest.approx(0.0, abs=1e-12)
+    assert plane[1, 1] < 0.0
+    arrow = next(text for text in inset.texts if text.get_text() == "")
+    assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx([0.6 * cosine, -0.6 * sine])
+    assert arrow.xyann == pytest.approx(0.42 / 0.85 * plane[1])
+    assert [text.get_text() for text in inset.texts if text.get_text()] == [f"{angle:.1f}°"]
+
+
+def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
+    edge = {"profile": "truncated_paraboloid", "flat_radius": 1, "friction": 1.2, "phase": 1.5}
+    point = swtstudy.inspect_point(**edge)
+    assert np.isnan(point.s)
+    panels.draw_swt(axes, point)
+    assert axes.get_title("left") == "swt along the surface; dot: largest sampled"
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    assert dot.get_ydata() == [float(point.s_local.max())]
+    assert dot.get_xdata() == [float(point.x[int(point.s_local.values.argmax())])]
+    panels.draw_stress(Figure().subplots(), point)
+
+
+def test_what_does_not_change_has_room_too():
+    for value, size, middle in ((0.0, 0.0, 1.0), (2.0, 0.0, 2.0), (0.5, 1.0, 1.0)):
+        low, high = panels._limits(np.full(3, value), 0.1, 0.2, size)
+        assert low == pytest.approx(value - 0.05 * middle - 0.1 * 0.1 * middle)
+        assert high == pytest.approx(value + 0.05 * middle + 0.2 * 0.1 * middle)
+    # Rounding is no change, anything more is.
+    low, high = panels._limits(np.array([1.0, 1.0 + 9e-14]), 0.0, 0.0)
+    assert high - low == pytest.approx(0.1)
+    assert panels._limits(np.array([1.0, 1.0 + 1e-9]), 0.0, 0.0) == (1.0, 1.0 + 1e-9)
