@@ -118,7 +118,7 @@ def test_memory_does_not_grow_with_the_square_of_the_instants():
 def test_planes_are_searched_for_some_points_at_a_time(monkeypatch):
     line, depth = [0.4, 0.9], np.linspace(0.0, 1.0, 100)
     at_once = swtstudy.swt_field(line, 0.0, depth)
-    monkeypatch.setattr(body, "_VALUES", 1000)
+    monkeypatch.setattr(body, "VALUES", 1000)
     assert largest_memory(partial(swtstudy.swt_field, line, 0.0, depth)) < 8e6
     xr.testing.assert_allclose(swtstudy.swt_field(line, 0.0, depth), at_once, rtol=1e-9)
 

@@ -19,13 +19,13 @@ from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
-_SUBDIVISIONS = 6
+SUBDIVISIONS = 6
 #: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
-_HOT = 0.15
+HOT = 0.15
 #: Instants whose contact states are held at a time: their memory grows with the square of the number.
-_INSTANTS = 64
+INSTANTS = 64
 #: Points × instants whose planes are searched at a time: that takes about 1 kB for each.
-_VALUES = 65536
+VALUES = 65536
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ class Body:
         scene, interval, instant = self.scene, self.nodes.interval, self.nodes.instant
         material = float(scene.friction[0]), float(scene.poisson_ratio[0])
         stress = np.empty((*np.broadcast_shapes(*map(np.shape, (x, y, z))), instant.size, 6))
-        for first in range(0, instant.size, _INSTANTS):
-            part = slice(first, first + _INSTANTS)
+        for first in range(0, instant.size, INSTANTS):
+            part = slice(first, first + INSTANTS)
             states = contact_states(scene.cycle, scene.coordinate, interval[part], instant[part], self.cells)
             stress[..., part, :] = states.stress(x, y, z, *material)
         return stress
@@ -70,7 +70,7 @@ class Body:
         ν = float(self.scene.poisson_ratio[0])
         x, y, z = np.broadcast_arrays(x, y, z)
         swt, normal = np.empty(x.size), np.empty((x.size, 3))
-        columns = max(1, _VALUES // self.nodes.instant.size)
+        columns = max(1, VALUES // self.nodes.instant.size)
         for first in range(0, x.size, columns):
             part = slice(first, first + columns)
             stress = self.stress(x.flat[part], y.flat[part], z.flat[part])
@@ -121,7 +121,7 @@ def closer_nodes(
     looks
         How often the gaps beside the extremes over the cycle are divided.
     """
-    share = np.arange(1, _SUBDIVISIONS) / _SUBDIVISIONS
+    share = np.arange(1, SUBDIVISIONS) / SUBDIVISIONS
     for _ in range(looks):
         body = Body(scene, nodes, cells)
         stress, strain = _on_critical_plane(body, point)
@@ -164,7 +164,7 @@ def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> S
     stress, strain = _on_critical_plane(body, point)
     hot = np.zeros(len(nodes.instant), dtype=bool)
     for curve in curves(stress, strain):
-        hot |= near_maximum(curve, _HOT)
+        hot |= near_maximum(curve, HOT)
     return Spells(nodes.instant, hot[1:] | hot[:-1])
 
 

@@ -24,22 +24,22 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of the time nodes on a stretch: first look and climb, and value.
-_LOOK, _VALUE = 3, 5
+LOOK, VALUE = 3, 5
 #: Cells of a profile that is not a paraboloid and of each growth: stresses to about 1e-4 and 1e-6 p0.
-_CELLS, _VALUE_CELLS = 16, 60
+CELLS, VALUE_CELLS = 16, 60
 #: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius.
-_BETWEEN = 12
-_ANGLES = np.linspace(0.0, np.pi, 9)
-_DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
-_FIRST_STEPS = np.array([0.03, 0.15, 0.02])
-_SUMMITS = 3
+BETWEEN = 12
+ANGLES = np.linspace(0.0, np.pi, 9)
+DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
+FIRST_STEPS = np.array([0.03, 0.15, 0.02])
+SUMMITS = 3
 #: Places below this share of the highest in the first look are not climbed from; nor those below the second
 #: share once their instants resolve the cycle, nor further below the third.
-_PROMISING, _WORTHY, _NEAR = 0.75, 0.9, 0.97
-_ROUNDS = 8
+PROMISING, WORTHY, NEAR = 0.75, 0.9, 0.97
+ROUNDS = 8
 #: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
 #: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
-_RING = 1e-3
+RING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -98,12 +98,12 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
     flat = float(scene.profile.flat_radius[0])
-    search = _Search(scene, largest, min(_RING * largest, 0.9 * abs(own[0] - flat)))
+    search = _Search(scene, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
     place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
     both = np.stack([place, own])
     distinct = both[: 1 + bool(np.any(place != own))]
     nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
-    swt, normal = Body(scene, nodes, _VALUE_CELLS).swt(*_cartesian(both))
+    swt, normal = Body(scene, nodes, VALUE_CELLS).swt(*_cartesian(both))
     best = int(swt[1] >= swt[0])
     position = np.array(_cartesian(both[best]))
     return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
@@ -112,25 +112,25 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
 def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
     """Instants that resolve the extremes over the cycle at one place, and the parts of it that matter."""
     point = tuple(float(v) for v in _cartesian(place))
-    nodes = time_nodes(scene, _VALUE, place[:1])
-    spells = decisive_spells(Body(scene, nodes, _CELLS), nodes, point)
-    return closer_nodes(scene, spells.of(nodes), point, _CELLS, looks), spells
+    nodes = time_nodes(scene, VALUE, place[:1])
+    spells = decisive_spells(Body(scene, nodes, CELLS), nodes, point)
+    return closer_nodes(scene, spells.of(nodes), point, CELLS, looks), spells
 
 
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
     scene, largest = search.scene, search.largest
     grid = np.stack(
-        np.meshgrid(_radii(scene, largest), _ANGLES, largest * _DEPTHS, indexing="ij"), axis=-1
+        np.meshgrid(_radii(scene, largest), ANGLES, largest * DEPTHS, indexing="ij"), axis=-1
     ).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    swt = Body(scene, time_nodes(scene, _LOOK), _CELLS).coarse_swt(*_cartesian(grid))
+    swt = Body(scene, time_nodes(scene, LOOK), CELLS).coarse_swt(*_cartesian(grid))
     chosen = [own]
-    for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= _PROMISING * swt.max())]:
+    for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
         if apart.any(axis=1).all():
             chosen.append(place)
-        if len(chosen) > _SUMMITS:
+        if len(chosen) > SUMMITS:
             break
     return np.array(chosen[1:]).reshape(-1, 3)
 
@@ -142,7 +142,7 @@ def _radii(scene: Scene, largest: float) -> FloatArray:
     turns = np.maximum(np.concatenate([cycle.load.least_normal, cycle.load.largest_normal]), 0.0)
     cusps = scene.coordinate.radius(np.unique(np.concatenate([start, turns]))[None])[0]
     b = float(profile.flat_radius[0])
-    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _BETWEEN))
+    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
     return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
@@ -152,13 +152,13 @@ def _climb(search: _Search, places: FloatArray) -> FloatArray:
     resolved = [_closer(search.scene, place, looks=1) for place in places]
     height = np.array(
         [
-            Body(search.scene, nodes, _CELLS).swt(*_cartesian(place)).swt
+            Body(search.scene, nodes, CELLS).swt(*_cartesian(place)).swt
             for (nodes, _), place in zip(resolved, places, strict=True)
         ]
     )
     best, highest = places[0], float(height[0])
     for start in np.argsort(-height):
-        if height[start] < _WORTHY * highest:
+        if height[start] < WORTHY * highest:
             break
         nodes, spells = resolved[start]
         summit, swt = _climb_from(search, places[start], nodes, spells, highest)
@@ -173,16 +173,16 @@ def _climb_from(
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     scene = search.scene
-    steps = _FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
+    steps = FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
     height = 0.0
-    for _ in range(_ROUNDS):
+    for _ in range(ROUNDS):
         trial = _off_ring(search, _folded(place + steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
         # The trials have three radii, at each of which the stress has its own cusps in time.
-        aligned = time_nodes(scene, _LOOK, np.unique(trial[:, 0]))
+        aligned = time_nodes(scene, LOOK, np.unique(trial[:, 0]))
         nodes = together(scene, sharp, spells.of(aligned))
-        swt = Body(scene, nodes, _CELLS).swt(*_cartesian(trial)).swt
+        swt = Body(scene, nodes, CELLS).swt(*_cartesian(trial)).swt
         here = int(np.abs(trial - place).max(axis=1).argmin())
         best = int(swt.argmax())
         if swt[best] <= swt[here] * (1.0 + 1e-9):
@@ -190,7 +190,7 @@ def _climb_from(
         else:
             place = trial[best]
         height = float(swt[best])
-        if height < _NEAR * rival:
+        if height < NEAR * rival:
             break
     return place, height
 

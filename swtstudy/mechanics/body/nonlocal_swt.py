@@ -13,7 +13,7 @@ from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.points import FloatArray
 
 #: Gauss points over the radius, the polar angle and the azimuth of the half sphere, and over a line.
-_RADIAL, _POLAR, _AZIMUTH, _LINE = 8, 8, 12, 24
+RADIAL, POLAR, AZIMUTH, LINE = 8, 8, 12, 24
 
 
 def volume_mean(body: Body, x: float, distance: FloatArray) -> FloatArray:
@@ -33,10 +33,10 @@ def volume_mean(body: Body, x: float, distance: FloatArray) -> FloatArray:
     mean
         Shape (k,), over E* δ0/R.
     """
-    radius, radius_weight = _gauss(_RADIAL)
+    radius, radius_weight = _gauss(RADIAL)
     radius_weight = 3.0 * radius_weight * radius**2
-    cosine, cosine_weight = _gauss(_POLAR)
-    angle, angle_weight = _gauss(_AZIMUTH)
+    cosine, cosine_weight = _gauss(POLAR)
+    angle, angle_weight = _gauss(AZIMUTH)
     # y → −y is a symmetry: half of the azimuth is enough.
     ρ, c, φ = np.meshgrid(radius, cosine, np.pi * angle, indexing="ij")
     weight = radius_weight[:, None, None] * cosine_weight[:, None] * angle_weight
@@ -55,7 +55,7 @@ def at_distance(body: Body, x: float, direction: FloatArray, distance: FloatArra
 
 def line_mean(body: Body, x: float, direction: FloatArray, distance: FloatArray) -> FloatArray:
     """Mean of swt over the distances 0 … 2ℓ from the critical point (line method), shape (k,)."""
-    t, weight = _gauss(_LINE)
+    t, weight = _gauss(LINE)
     # Next to the surface the stress is smooth in the root of the depth.
     away = 2.0 * distance[:, None, None] * (t * t)[:, None] * direction
     swt = body.swt(x + away[..., 0], away[..., 1], away[..., 2]).swt

@@ -129,7 +129,7 @@ class TimeBrackets:
             higher = centre + rise > top
             top = np.where(higher, centre + rise, top)
             place, left = np.where(higher, middle + shift, place), np.where(higher, middle < STEPS, left)
-        power = _POWERS[np.where(corner, np.where(left, 1, 2), 0)]
+        power = POWERS[np.where(corner, np.where(left, 1, 2), 0)]
         low = np.maximum(place - 1.0, np.where(corner & ~left, STEPS, 0))
         high = np.minimum(place + 1.0, np.where(corner & left, STEPS, LAST))
         series = np.moveaxis(np.einsum("...pk,...k->...p", power, curve), -1, 0)
@@ -152,7 +152,7 @@ def _interpolation() -> FloatArray:
     return matrices
 
 
-_POWERS = _interpolation()
+POWERS = _interpolation()
 
 
 def _neighbours(

@@ -22,9 +22,9 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
 SAFE_POISSON_RATIO = 0.35
 #: Angles from the line that are looked at first, then in a narrower range.
-_ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
-_CLOSER = np.linspace(-1.0, 1.0, 9)[None] * _ANGLES[1]
-_TIME_STEPS, _DIGITS = 4, 5.5
+ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
+CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
+TIME_STEPS, DIGITS = 4, 5.5
 
 
 def circle_gain(
@@ -55,11 +55,11 @@ def circle_gain(
     if rows.size:
         some = scene.take(rows)
         history, normal = _decisive_history(some, position[rows], double_angle[rows])
-        swt = _on_circle(some, history, normal, np.broadcast_to(_ANGLES, (rows.size, _ANGLES.size)))
+        swt = _on_circle(some, history, normal, np.broadcast_to(ANGLES, (rows.size, ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
         off = np.flatnonzero((best > 0) & (base > 0.0))
         if off.size:
-            near = _ANGLES[best[off], None] + _CLOSER
+            near = ANGLES[best[off], None] + CLOSER
             found = _on_circle(some.take(off), history.take(off), normal[off], near)
             top = found.argmax(axis=1), np.arange(off.size)
             gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
@@ -75,7 +75,7 @@ def _decisive_history(
     A maximum at x < 0 is mirrored to x > 0.
     """
     r = np.abs(position)[:, None]
-    look = Look.at(scene, r, _TIME_STEPS, _DIGITS)
+    look = Look.at(scene, r, TIME_STEPS, DIGITS)
     side = np.where(position < 0.0, -1.0, 1.0)
 
     def planes(history: History) -> PlaneHistory:

@@ -24,7 +24,7 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Distances at which each round looks, in widths.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
-_POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
+POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
 #: How the width shrinks while the best position is the outermost one.
 WALKING = 2.0 / 3.0
 LEAST_ROUND_COUNT = 2
@@ -199,6 +199,6 @@ def _behind_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
 def _polynomial_maximum(values: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Maximum of the polynomials through the values (m, k) of a first round, near ``c`` of shape (m,)."""
     # Not a matrix product, see `chebyshev.running_integral`.
-    series = np.einsum("pk,mk->pm", _POWERS, values)
+    series = np.einsum("pk,mk->pm", POWERS, values)
     c = polynomial_maximum(series, c, c - FIRST_WIDTH, c + FIRST_WIDTH)
     return c, np.polynomial.polynomial.polyval(c, series, tensor=False)

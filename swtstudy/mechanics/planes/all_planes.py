@@ -21,15 +21,15 @@ from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 10° apart.
-_COARSE_PLANES = 256
+COARSE_PLANES = 256
 #: Highest planes of the coarse search, from which the climbs start. Not only its peaks: two summits can
 #: stand closer to one another than the planes.
-_CANDIDATES = 6
+CANDIDATES = 6
 #: Summits as high as this fraction of the highest may have a higher neighbour.
-_PROMISING = 0.9
-_LARGEST_SWAPS = 8
+PROMISING = 0.9
+LARGEST_SWAPS = 8
 #: Histories in the coarse search at a time: (planes × instants) stays in the processor's cache.
-_BLOCK = 8
+BLOCK = 8
 
 
 class CriticalPlane(NamedTuple):
@@ -54,11 +54,11 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
     history = history.reshape(-1, *history.shape[-2:])
     strain = strain_history(history, poisson_ratio, young_modulus)
     start = _starts(history, poisson_ratio)
-    index = np.tile(np.arange(len(history)), _CANDIDATES)
+    index = np.tile(np.arange(len(history)), CANDIDATES)
     swt, normal = climb(history[index], strain[index], start.reshape(-1, 3))
-    highest = swt.reshape(_CANDIDATES, -1).max(axis=0)
-    open_ = np.flatnonzero((swt > 0.0) & (swt >= _PROMISING * highest[index]) & _distinct(normal))
-    for _ in range(_LARGEST_SWAPS):
+    highest = swt.reshape(CANDIDATES, -1).max(axis=0)
+    open_ = np.flatnonzero((swt > 0.0) & (swt >= PROMISING * highest[index]) & _distinct(normal))
+    for _ in range(LARGEST_SWAPS):
         if not len(open_):
             break
         some = index[open_]
@@ -68,8 +68,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
         better = higher > swt[open_]
         open_ = open_[better]
         swt[open_], normal[open_] = higher[better], where[better]
-    best = swt.reshape(_CANDIDATES, -1).argmax(axis=0), np.arange(len(history))
-    swt, normal = swt.reshape(_CANDIDATES, -1)[best], normal.reshape(_CANDIDATES, -1, 3)[best]
+    best = swt.reshape(CANDIDATES, -1).argmax(axis=0), np.arange(len(history))
+    swt, normal = swt.reshape(CANDIDATES, -1)[best], normal.reshape(CANDIDATES, -1, 3)[best]
     # n and −n are the same plane: show the one whose first component that is not 0 is positive.
     first = np.argmax(np.abs(normal) > 1e-9, axis=1)
     normal = normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
@@ -120,21 +120,21 @@ def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, young_modulus: f
     history = np.asarray(stress, dtype=np.float32)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
-    normals = hemisphere(_COARSE_PLANES).astype(np.float32)
-    blocks = (history[first : first + _BLOCK] for first in range(0, len(history), _BLOCK))
+    normals = hemisphere(COARSE_PLANES).astype(np.float32)
+    blocks = (history[first : first + BLOCK] for first in range(0, len(history), BLOCK))
     swt = [swt_on_planes(block, normals, poisson_ratio, young_modulus).max(axis=1) for block in blocks]
     return np.concatenate([np.zeros(0), *swt]).reshape(batch)
 
 
 def _starts(stress: FloatArray, poisson_ratio: float) -> FloatArray:
     """Normals from which to climb, shape (candidates, n, 3)."""
-    normals = hemisphere(_COARSE_PLANES)
+    normals = hemisphere(COARSE_PLANES)
     single, single_normals = stress.astype(np.float32), normals.astype(np.float32)
-    start = np.empty((len(stress), _CANDIDATES, 3))
-    for first in range(0, len(stress), _BLOCK):
-        part = slice(first, first + _BLOCK)
+    start = np.empty((len(stress), CANDIDATES, 3))
+    for first in range(0, len(stress), BLOCK):
+        part = slice(first, first + BLOCK)
         swt = swt_on_planes(single[part], single_normals, poisson_ratio)
-        start[part] = normals[np.argpartition(-swt, _CANDIDATES, axis=1)[:, :_CANDIDATES]]
+        start[part] = normals[np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES]]
         # Tension may be confined to a cone too narrow for the coarse planes.
         blind = first + np.flatnonzero(swt.max(axis=1) <= 0.0)
         start[blind] = _most_tensile_direction(stress[blind])[:, None]
@@ -150,9 +150,9 @@ def _most_tensile_direction(stress: FloatArray) -> FloatArray:
 
 def _distinct(normal: FloatArray) -> np.ndarray:
     """False for summits that an earlier candidate of the same history has reached."""
-    summits = normal.reshape(_CANDIDATES, -1, 3)
+    summits = normal.reshape(CANDIDATES, -1, 3)
     distinct = np.ones(summits.shape[:2], dtype=bool)
-    for late in range(1, _CANDIDATES):
+    for late in range(1, CANDIDATES):
         closeness = np.abs((summits[:late] * summits[late]).sum(axis=-1))
         distinct[late] = (closeness < 1.0 - 1e-12).all(axis=0)
     return distinct.ravel()

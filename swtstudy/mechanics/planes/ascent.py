@@ -15,11 +15,11 @@ import numpy as np
 from swtstudy.mechanics.planes import criterion
 from swtstudy.mechanics.points import FloatArray
 
-_LARGEST_STEP = 0.2  # rad
-_SMALLEST_STEP = 1e-9  # rad: the height's relative error is the square of the angle's
-_LARGEST_ITERATIONS = 40
+LARGEST_STEP = 0.2  # rad
+SMALLEST_STEP = 1e-9  # rad: the height's relative error is the square of the angle's
+LARGEST_ITERATIONS = 40
 #: Instants that may take the place of an active one.
-_RIVALS = 16
+RIVALS = 16
 
 
 def normal_weights(normal: FloatArray) -> FloatArray:
@@ -60,9 +60,9 @@ def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[Fl
     """
     normal = start.copy()
     swt, tension, elongation = _active_forms(stress, strain, normal)
-    trust = np.full(len(normal), _LARGEST_STEP)
+    trust = np.full(len(normal), LARGEST_STEP)
     going = np.flatnonzero(swt > 0.0)
-    for _ in range(_LARGEST_ITERATIONS):
+    for _ in range(LARGEST_ITERATIONS):
         if not len(going):
             break
         here = normal[going]
@@ -76,7 +76,7 @@ def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[Fl
         swt[moved], normal[moved] = value[up], trial[up]
         tension[moved], elongation[moved] = new_tension[up], new_elongation[up]
         trust[going[~up]] = 0.25 * np.linalg.norm(step[~up], axis=-1)
-        going = going[np.minimum(np.linalg.norm(step, axis=-1), trust[going]) > _SMALLEST_STEP]
+        going = going[np.minimum(np.linalg.norm(step, axis=-1), trust[going]) > SMALLEST_STEP]
     return swt, normal
 
 
@@ -111,7 +111,7 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     possible[:, :: top.shape[1]] = False
     forms[~possible] = changes[~possible] = 1.0
     steps, gain = _newton_step(
-        forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, _LARGEST_STEP)
+        forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, LARGEST_STEP)
     )
     height = np.log(criterion.combined(forms[..., 0], changes[..., 0])) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
@@ -121,8 +121,8 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
 def _ranked(jets: FloatArray) -> FloatArray:
     """The jets of the highest values in time, highest first, shape (n, rivals, 6)."""
     value = jets[..., 0]
-    if value.shape[1] > _RIVALS:
-        highest = np.argpartition(-value, _RIVALS, axis=1)[:, :_RIVALS]
+    if value.shape[1] > RIVALS:
+        highest = np.argpartition(-value, RIVALS, axis=1)[:, :RIVALS]
     else:
         highest = np.broadcast_to(np.arange(value.shape[1]), value.shape)
     row = np.arange(len(jets))[:, None]

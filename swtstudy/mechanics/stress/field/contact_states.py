@@ -18,7 +18,7 @@ from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii
 from swtstudy.mechanics.stress.field.superposition import stress_history
 
 #: Breakpoints nearer than this, relative to the contact radius, are one.
-_SAME_RADIUS = 4e-16
+SAME_RADIUS = 4e-16
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _cell_ends(coordinate: Coordinate, breaks: FloatArray, cells: int) -> FloatA
     profile = coordinate.profile
     radius = np.maximum(coordinate.radius(breaks[None])[0], profile.flat_radius[0])
     ends = np.sort(np.concatenate([radius, _resolving_radii(profile, float(radius.max()), cells)]))
-    return ends[np.diff(ends, prepend=-1.0) > _SAME_RADIUS * ends[-1]]
+    return ends[np.diff(ends, prepend=-1.0) > SAME_RADIUS * ends[-1]]
 
 
 def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:

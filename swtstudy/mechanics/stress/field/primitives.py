@@ -21,7 +21,7 @@ from swtstudy.mechanics.stress.field.punch import PunchFunctions, complex_distan
 
 #: Below this |U| (the origin, seen from the punch of radius 0) the primitives are cut off; a slope that
 #: starts with g′(0) = 0 gives that end of its cell no weight.
-_SMALLEST_U = 1e-80
+SMALLEST_U = 1e-80
 
 
 def primitives(r: FloatArray, z: FloatArray, radius: FloatArray) -> tuple[PunchFunctions, PunchFunctions]:
@@ -40,8 +40,8 @@ def primitives(r: FloatArray, z: FloatArray, radius: FloatArray) -> tuple[PunchF
     R = complex_distance(r, z, radius)
     η = 1j * radius
     U = R + (z + η)
-    origin = np.abs(U) < _SMALLEST_U
-    U[origin] = _SMALLEST_U
+    origin = np.abs(U) < SMALLEST_U
+    U[origin] = SMALLEST_U
     L = 1.0 / U
     L[origin] = 0.0
     # At the edge of the punch in the surface z/R is 0/0, with the limit 0.

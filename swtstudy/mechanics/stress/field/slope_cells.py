@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike
 from swtstudy.mechanics.points import FloatArray
 
 #: Gauss points per cell for the integrals of the slopes.
-_GAUSS_POINTS = 8
+GAUSS_POINTS = 8
 #: Narrower cells keep the mean slope only: the digits of a gradient would be lost.
-_NARROW = 1e-6
+NARROW = 1e-6
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def slope_cells(
     # In t = √(ξ − start) the root singularities at the start are smooth: ξ = start + t², dξ = 2t dt, and
     # √(ξ² − start²) = t √(2 start + t²).
     root = np.sqrt(np.maximum(ends - start, 0.0))
-    nodes, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)
     t = 0.5 * (root[1:, None] + root[:-1, None] + nodes * np.diff(root)[:, None])
     width = np.diff(ends)
     values = np.asarray(weighted_slope(start + t**2)).reshape(-1, *t.shape)
@@ -89,7 +89,7 @@ def slope_cells(
     middle = 0.5 * (root[1:, None] ** 2 + root[:-1, None] ** 2)
     offset = (t**2 - middle) * (2.0 / width[:, None])
     mean = mass.sum(axis=-1) / width
-    gradient = np.where(width > _NARROW * ends[-1], 6.0 * (mass * offset).sum(axis=-1) / width**2, 0.0)
+    gradient = np.where(width > NARROW * ends[-1], 6.0 * (mass * offset).sum(axis=-1) / width**2, 0.0)
     if ends[0] == 0.0:
         # g′(0) = 0: an intercept, however small, would make the stress on the axis logarithmically infinite.
         gradient[:, 0] = 2.0 * mean[:, 0] / width[0]

@@ -18,7 +18,7 @@ from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_compone
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells
 
 #: Points × radii evaluated at a time: the temporaries stay in the processor's cache.
-_BLOCK = 16384
+BLOCK = 16384
 
 
 def cell_stress(
@@ -95,7 +95,7 @@ def stress_history(
     states = np.concatenate([touching[..., None, :], -friction * shares], axis=-2)
     jumps = csr_array(-np.diff(states, axis=-1, append=0.0).reshape(-1, states.shape[-2] * states.shape[-1]))
     stress = np.empty((x.size, jumps.shape[0], 6))
-    columns = max(1, _BLOCK // len(cells.radius))
+    columns = max(1, BLOCK // len(cells.radius))
     for first in range(0, x.size, columns):
         part = slice(first, first + columns)
         fields = cell_stress(x.flat[part], y.flat[part], z.flat[part], cells, poisson_ratio)
