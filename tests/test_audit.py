@@ -114,10 +114,10 @@ def test_command_goes_on_where_it_was(tmp_path):
 
 @pytest.mark.parametrize(("excess", "verdict"), [(0.999e-3, "none"), (1.001e-3, "line_search")])
 def test_an_excess_counts_from_a_thousandth(excess, verdict):
-    finding = made_up_finding(s=2.0, s_surface=2.0, s_body=2.0 * (1.0 + excess))
-    assert finding.verdict == verdict
-    assert finding.excess == pytest.approx(excess)
-    assert finding.remainder == pytest.approx(excess)
+    point = made_up_point(s=2.0, s_surface=2.0, s_body=2.0 * (1.0 + excess))
+    assert point.verdict == verdict
+    assert point.excess == pytest.approx(excess)
+    assert point.remainder == pytest.approx(excess)
 
 
 @pytest.mark.parametrize(("size", "zero"), [(0.99e-6, True), (1.01e-6, False)])
@@ -127,31 +127,31 @@ def test_what_counts_as_on_the_line(size, zero):
             ({"position": np.array([0.5, sign * size, 0.0])}, "symmetry_line"),
             ({"normal": np.array([1.0, sign * size, 0.0])}, "plane_through_y"),
         ):
-            assert made_up_finding(s_body=1.1, **where).verdict == ("line_search" if zero else verdict)
-    beneath = made_up_finding(s_body=1.1, position=np.array([0.5, 0.0, size]))
+            assert made_up_point(s_body=1.1, **where).verdict == ("line_search" if zero else verdict)
+    beneath = made_up_point(s_body=1.1, position=np.array([0.5, 0.0, size]))
     assert beneath.verdict == ("line_search" if zero else "surface")
 
 
 def test_excess_over_nothing_is_all_or_nothing():
-    assert made_up_finding(s=0.0, s_surface=0.0, s_body=0.0).excess == 0.0
-    finding = made_up_finding(s=0.0, s_surface=0.0, s_body=1e-9)
-    assert (finding.excess, finding.remainder, finding.verdict) == (1.0, 1.0, "line_search")
-    finding = made_up_finding(s=2.0, s_surface=2.5, s_body=3.0)
-    assert (finding.excess, finding.remainder) == (0.5, pytest.approx(0.2))
+    assert made_up_point(s=0.0, s_surface=0.0, s_body=0.0).excess == 0.0
+    point = made_up_point(s=0.0, s_surface=0.0, s_body=1e-9)
+    assert (point.excess, point.remainder, point.verdict) == (1.0, 1.0, "line_search")
+    point = made_up_point(s=2.0, s_surface=2.5, s_body=3.0)
+    assert (point.excess, point.remainder) == (0.5, pytest.approx(0.2))
 
 
 def test_the_report_counts_every_point():
     """Four on the line (two of them 0.05 % above s), one above s_surface too, one that is not finite."""
-    findings = [
-        *[made_up_finding(s_all_planes=1.0 + 2e-5)] * 2,
-        *[made_up_finding(s_body=1.0005, s_all_planes=1.0 - 4e-5)] * 2,
-        made_up_finding(s_body=1.08, s_surface=1.05, position=np.array([0.8, 0.6, 0.0]), regime="gross_slip"),
-        made_up_finding(s_surface=np.nan, s_body=np.nan, s_all_planes=np.nan, regime="not_finite"),
+    audited = [
+        *[made_up_point(s_all_planes=1.0 + 2e-5)] * 2,
+        *[made_up_point(s_body=1.0005, s_all_planes=1.0 - 4e-5)] * 2,
+        made_up_point(s_body=1.08, s_surface=1.05, position=np.array([0.8, 0.6, 0.0]), regime="gross_slip"),
+        made_up_point(s_surface=np.nan, s_body=np.nan, s_all_planes=np.nan, regime="not_finite"),
     ]
     rows = np.zeros((6, len(COLUMNS)))
     rows[:, COLUMNS.index("phase")] = np.arange(6)
     rows[:, COLUMNS.index("poisson_ratio")] = 0.0, 0.1, 0.35, 0.36, 0.5, 0.2
-    lines = report(findings_dataset(rows, findings).assign_attrs(title="six")).splitlines()
+    lines = report(audit_dataset(rows, audited).assign_attrs(title="six")).splitlines()
     assert lines[0] == "# six"
     assert lines[2].startswith("6 points, each solved")
     assert "counts from 0.1%" in lines[2]
