@@ -161,7 +161,7 @@ def test_the_report_counts_every_point():
         "| on the surface line, on a plane that is not through y | 0 | | |",
         "| on the surface, off the line | 1 | 8.0% | 0.50 |",
         "| beneath the surface | 0 | | |",
-        "| not looked for: s is not finite, or at the edge r = b of the truncated paraboloid | 1 | | |",
+        "| not searched: s is not finite, or at the edge r = b of the truncated paraboloid | 1 | | |",
     ]
     at = lines.index("| ν | points | above s | by up to | above s_surface by up to |")
     assert lines[at + 2 : at + 6] == [
