@@ -25,6 +25,7 @@ _WORDS = {
     "surface": "beneath the surface",
     "not_finite": "not searched: s is not finite, or at the edge r = b of the truncated paraboloid",
 }
+#: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
 #: How many of the points whose maximum the solver misses are listed one by one.
 _LISTED = 20

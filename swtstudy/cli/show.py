@@ -15,6 +15,8 @@ from swtstudy.cli.solve import with_parameters
 def show(output: str, style: str | None, **texts: str | None) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
+    The figure is that of swtstudy.inspect in Python.
+
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
     from swtstudy.figures.inspection import inspect

@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-#: Width and grey of guide lines, and their dashes.
+#: Width and grey of guide lines.
 _THIN, _FAINT = 0.9, "0.55"
+#: Their dashes.
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
 #: A curve whose range is a smaller fraction of its size is constant but for rounding.
 _ROUNDING = 1e-13
