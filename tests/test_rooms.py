@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from graphlib import TopologicalSorter
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -86,3 +87,10 @@ def test_no_imports_go_in_a_circle() -> None:
 def test_no_room_is_missing_in_the_lists() -> None:
     assert {room_of(name, 1) for name in MODULES} == {*ROOMS}
     assert {room_of(name, 2) for name in MODULES if name.startswith("swtstudy.mechanics")} == {*MECHANICS}
+
+
+@pytest.mark.parametrize("name", [name for name, path in MODULES.items() if "__all__" in path.read_text()])
+def test_what_a_module_offers_is_there(name):
+    offering = import_module(name)
+    for each in offering.__all__:
+        assert getattr(offering, each) is not None
