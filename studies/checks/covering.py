@@ -62,8 +62,8 @@ if TARGET in os.environ:
 class Covered:
     """What the plugin has written, in one file or in several."""
 
-    def __init__(self, files: Iterable[Path], project: Path, limit: float) -> None:
-        self.project, self.limit = project, limit
+    def __init__(self, files: Iterable[Path], project: Path) -> None:
+        self.project = project
         self.seconds: dict[str, float] = {}
         self.lines: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         for file in files:
@@ -73,7 +73,7 @@ class Covered:
                 for line, tests in lines.items():
                     self.lines[source][int(line)] |= set(tests) - {""}
 
-    def tests(self, file: str, line: int) -> tuple[list[str], float]:
+    def tests(self, file: str, line: int, limit: float) -> tuple[list[str], float]:
         """The tests of a line, quickest first, as many as the time allows, and how long they take.
 
         A line that no test runs by itself has the tests of its file, or of its folder.
@@ -90,7 +90,7 @@ class Covered:
         chosen, spent = [], 0.0
         for test in sorted(self.seconds, key=self.seconds.__getitem__):
             if test in found or test.split("::")[0] in fixtures:
-                if spent + self.seconds[test] > self.limit:
+                if spent + self.seconds[test] > limit:
                     break
                 spent += self.seconds[test]
                 chosen.append(test)

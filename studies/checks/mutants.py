@@ -36,6 +36,9 @@ OPTIONS = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0"]
 #: To collect many files of tests takes longer than most tests: those of so few are tried before all others.
 FIRST_FILES = 3
 
+#: So many times the time of the first tests have those that come last.
+LAST = 10
+
 #: How a mutant ends.
 KINDS = ("killed", "timeout", "survived", "may live")
 
@@ -98,12 +101,12 @@ def reasons() -> dict[tuple[str, str, str], str]:
     return {(f"swtstudy/{each['file']}", each["was"], each["now"]): each["why"] for each in table}
 
 
-def report(results: list[tuple[Mutant, str]], arguments: argparse.Namespace) -> Iterator[str]:
+def report(results: dict[Mutant, str], arguments: argparse.Namespace) -> Iterator[str]:
     """The outcome as Markdown, line by line."""
     known = reasons()
-    why = {mutant: known.get((mutant.file, mutant.was, mutant.now), "") for mutant, _ in results}
+    why = {mutant: known.get((mutant.file, mutant.was, mutant.now), "") for mutant in results}
     counts: dict[str, Counter[str]] = defaultdict(Counter)
-    for mutant, kind in results:
+    for mutant, kind in results.items():
         counts[mutant.room]["may live" if kind == "survived" and why[mutant] else kind] += 1
     total = sum(counts.values(), Counter())
     rest = len(results) - total["may live"]
@@ -118,7 +121,7 @@ def report(results: list[tuple[Mutant, str]], arguments: argparse.Namespace) -> 
         yield f"| {room} | " + " | ".join(str(count[kind]) for kind in KINDS) + " |"
     for title, excused in (("Survived", False), ("May live", True)):
         yield f"\n## {title}\n"
-        for mutant, kind in results:
+        for mutant, kind in results.items():
             if kind == "survived" and bool(why[mutant]) == excused:
                 words = f" ({why[mutant]})" if excused else ""
                 yield f"* {mutant.file}:{mutant.line}{words}\n  `{mutant.was}` → `{mutant.now}`"
@@ -128,7 +131,7 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--size", type=int, default=300, help="mutants, about")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--limit", type=float, default=20.0, help="seconds of tests for a mutant")
+    parser.add_argument("--limit", type=float, default=20.0, help="seconds of tests for a mutant, at first")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--covered", type=Path, help="folder that keeps what the tests cover")
     parser.add_argument("--results", type=Path, default=PROJECT / "results", help="where mutants.md goes")
@@ -146,15 +149,17 @@ def main() -> None:
             missing = [(names, covered / f"{Path(names[0]).stem}.json") for names in groups]
             missing = [(names, target) for names, target in missing if not target.exists()]
             list(pool.map(cover, *zip(*missing, strict=True)) if missing else [])
-            known = Covered(covered.iterdir(), PROJECT, arguments.limit)
+            known = Covered(covered.iterdir(), PROJECT)
             mutants = sample(PROJECT, package, arguments.size, random.Random(arguments.seed))
-            tests = [known.tests(mutant.file, mutant.line) for mutant in mutants]
-            kinds = pool.map(outcome, mutants, *zip(*tests, strict=True))
-            results = []
-            for mutant, kind in zip(mutants, kinds, strict=True):
-                results.append((mutant, kind))
-                place = f"{mutant.file}:{mutant.line}"
-                print(f"{len(results)} {kind} {place} {mutant.was} → {mutant.now}", flush=True)
+            results = dict.fromkeys(mutants, "survived")
+            # What the quickest tests do not notice all others may.
+            for limit in (arguments.limit, LAST * arguments.limit):
+                left = [mutant for mutant, kind in results.items() if kind == "survived"]
+                tests = [known.tests(mutant.file, mutant.line, limit) for mutant in left]
+                kinds = pool.map(outcome, left, *zip(*tests, strict=True)) if left else iter(())
+                for mutant, kind in zip(left, kinds, strict=True):
+                    results[mutant] = kind
+                    print(f"{kind} {mutant.file}:{mutant.line} {mutant.was} → {mutant.now}", flush=True)
     text = "\n".join(report(results, arguments)) + "\n"
     (arguments.results / "mutants.md").write_text(text, encoding="utf-8")
 
