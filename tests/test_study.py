@@ -465,3 +465,18 @@ def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
     assert list(found)[:2] == ["phase", "frequency_ratio"]
     # Nothing stands between the rows.
     assert html.count("</tr><tr>") == len(rows) - 1
+
+
+def test_axes_that_are_too_long_are_named(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.reading.LONGEST_AXIS", 3)
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]\n") == {
+        "axes.friction": "4 values; at most 3 values"
+    }
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 4}\n") == {
+        "axes.friction.num": "4; a whole number from 2 to 3"
+    }
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 1}\n") == {
+        "axes.friction.num": "1; a whole number from 2 to 3"
+    }
+    assert Study.from_text(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3]\n").grid.size == 3
+    assert Study.from_text(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 2}\n").grid.size == 2
