@@ -200,3 +200,22 @@ def test_the_accessor_is_there_whatever_is_imported_first(imports):
 def test_importing_the_package_imports_nothing_heavy():
     code = "import swtstudy, sys; sys.exit('heavy' if {'numpy', 'xarray'} & set(sys.modules) else 0)"
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_many_values_are_told_by_their_ends():
+    few, many = (
+        made_up(lambda friction: friction, friction=np.round(0.01 * np.arange(1, count + 1), 2))
+        for count in (12, 13)
+    )
+    for results, allowed in (
+        (few, "0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12"),
+        (many, "0.01, 0.02, 0.03, 0.04, 0.05, 0.06, …, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, (13 values)"),
+    ):
+        with pytest.raises(swtstudy.StudyError) as caught:
+            results.swt.slice(friction=0.5)
+        (mistake,) = caught.value.mistakes
+        assert (mistake.key, mistake.found, mistake.allowed) == (
+            "friction",
+            "0.5, which is not there",
+            allowed,
+        )

@@ -211,6 +211,14 @@ def test_well_outside_is_a_tenth_of_the_stick_zone(x, holds):
     )
 
 
+def test_on_the_bound_itself_a_statement_holds():
+    """2 over a stick radius of 2/1.1, and 19 of 20 points: exactly the bounds."""
+    results = of_points(20, critical_angle=(1, 90.0))
+    assert critical_point.normal_along_x(results).holds
+    exact = ratio_over("phase", {0.1: 1.1, 0.5: 9.0})
+    assert figure3.small_amplitude_is_flat(exact.assign(s=exact.s.round(3) * 10)).holds
+
+
 def test_periods_and_swings_are_those_of_the_turning_points():
     """A zigzag: turns at 1, 3, 6, 10 with the values 4, 1, 6, 0; ripples below a tenth do not count."""
     x = np.array([0.0, 1.0, 3.0, 4.0, 4.5, 6.0, 10.0, 11.0])

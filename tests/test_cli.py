@@ -513,3 +513,22 @@ def test_run_says_what_it_needs(tmp_path, monkeypatch):
     result = call("run")
     assert result.exit_code == 2
     assert "or --all" in result.stderr
+
+
+def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
+    from functools import partial
+
+    import stand_in
+
+    from swtstudy import mechanics
+
+    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    study = tmp_path / "failing.toml"
+    phases = "phase = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]"
+    study.write_text(f'title = "t"\n[fixed]\nfriction = 0.2\n[axes]\n{phases}\n')
+    result = call("run", study, "--results", tmp_path, "--workers", "1")
+    failed = [line for line in result.stderr.splitlines() if line.startswith("failed: ")]
+    assert len(failed) == 6
+    assert all("ZeroDivisionError: an injected failure" in line for line in failed[:5])
+    assert failed[5] == f"failed: 2 more, see swtstudy info {tmp_path / 'failing.nc'}"
+    assert "7 points failed; --retry-failed computes them anew" in result.stderr

@@ -211,3 +211,23 @@ def test_slip_map(axes):
     for code, patch in enumerate(patches):
         assert mesh.cmap(mesh.norm(code)) == patch.get_facecolor()
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), states.contact_radius)
+
+
+def test_places_of_the_optimum_are_labelled():
+    """At five of thirteen heights, half a sixth from the ends on; at the frame on its inner side."""
+    dataset = results(
+        lambda friction, phase: 1 + (phase - friction) ** 2,
+        friction=np.linspace(0.0, 1.2, 13),
+        phase=np.linspace(0.0, 1.0, 41),
+    )
+    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    labels = [text for text in axes.texts if text.get_text().endswith("°") and text.get_zorder() == 4]
+    least = {text.get_position()[1]: text for text in labels[:5]}
+    np.testing.assert_allclose(list(least), [0.2, 0.4, 0.6, 0.8, 1.0])
+    for height, text in least.items():
+        assert text.get_position()[0] == pytest.approx(height)
+        assert text.get_text() == f"{np.degrees(height):.0f}°"
+        assert text.get_ha() == ("right" if height > 0.96 else "center")
+    greatest = labels[5:]
+    assert [text.get_position()[0] for text in greatest] == [1.0, 1.0, 0.0, 0.0, 0.0]
+    assert [text.get_ha() for text in greatest] == ["right", "right", "left", "left", "left"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graphlib import TopologicalSorter
+from importlib import import_module
 
 import pytest
 from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
@@ -39,3 +40,10 @@ def test_no_imports_go_in_a_circle() -> None:
 @pytest.mark.parametrize("house", [WHOLE, MECHANICS], ids=lambda house: house.name)
 def test_no_room_is_missing_in_the_lists(house: House) -> None:
     assert {house.room_of(name) for name in MODULES} - {None} == {*house.rooms}
+
+
+@pytest.mark.parametrize("name", [name for name, path in MODULES.items() if "__all__" in path.read_text()])
+def test_what_a_module_offers_is_there(name: str) -> None:
+    offering = import_module(name)
+    for each in offering.__all__:
+        assert getattr(offering, each) is not None

@@ -15,7 +15,7 @@ import stand_in
 import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.grid.canonical import COLUMNS
-from swtstudy.grid.cost import SECONDS_PER_WEIGHT
+from swtstudy.grid.cost import SECONDS_PER_WEIGHT, duration, weights
 from swtstudy.grid.unique import unique_points
 from swtstudy.records.result import Result
 from swtstudy.runner import engine
@@ -293,3 +293,27 @@ def timed_by_ratio(timed, chunk, rtol, solver):
     """A result that took q seconds a point."""
     q = chunk.table[:, COLUMNS.index("q")]
     return Result(np.arange(len(q)), None, np.zeros(len(q), bool), {}, float(q.sum()), "1")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"),
+    [
+        (0.04, "0.0 s"),
+        (9.9, "9.9 s"),
+        (10, "10 s"),
+        (59.4, "59 s"),
+        (59.6, "1 min 0 s"),
+        (3599, "59 min 59 s"),
+        (3600, "1 h 0 min"),
+        (7379, "2 h 2 min"),
+        (360_000, "100 h 0 min"),
+    ],
+)
+def test_durations(seconds, words):
+    assert duration(seconds) == words
+
+
+def test_long_cycles_weigh_more():
+    text = 'title = "t"\n[axes]\nfrequency_ratio = [1, "2/3", "5/2"]\n'
+    table = unique_points(Study.from_text(text).grid).table
+    assert sorted(weights(table).tolist()) == [2, 5, 7]

@@ -14,7 +14,7 @@ import shown
 
 SCRIPTS = {str(script.relative_to(shown.ROOT)): script for script in shown.scripts()}
 #: Scripts that need what the tests can do without; their texts say so.
-NEEDS = {"extra ``bench``": "tamaas", "distributed": "distributed"}
+NEEDS = {"extra ``bench``": "tamaas", "extra ``mutation``": "mutmut", "distributed": "distributed"}
 #: The seconds that a script may take before it counts as stuck.
 STUCK = 300
 

@@ -1,4 +1,5 @@
 import math
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -432,3 +433,60 @@ def test_a_study_of_one_point_shows_itself_without_markup():
     study = Study.from_text('title = "<b>"\n')
     assert repr(study) == "<Study '<b>': 1 point, rtol 0.0001>"
     assert "<b>&lt;b&gt;</b>" in study._repr_html_()
+
+
+def test_a_name_that_is_no_study_is_told_of_those_of_the_paper(tmp_path):
+    with pytest.raises(StudyError) as caught:
+        Study.from_toml("figure33")
+    (mistake,) = caught.value.mistakes
+    assert (mistake.source, mistake.key, mistake.found) == ("figure33", "", "no such file")
+    start = "a study file (TOML), or a study of the paper: did you mean figure3? known: "
+    assert mistake.allowed.startswith(start)
+    with pytest.raises(StudyError) as caught:
+        Study.from_toml(tmp_path / "figure33.toml")
+    assert caught.value.mistakes[0].allowed == "a study file (TOML)"
+
+
+@pytest.mark.parametrize(("h", "more"), [("[0.01, 0.5]", ""), ("[0.01, 0.5, 0.6]", "; 1 more like it")])
+def test_shapes_that_are_refused_are_counted(h, more):
+    fixed = '[fixed]\nprofile = "wavy_paraboloid"\nwavelength = 3\n'
+    text = f"{MINIMAL}{fixed}[axes]\nwaviness_amplitude = {h.replace('0.01, ', '')}\n"
+    found = "; ".join(mistakes_of(text).values())
+    assert "waviness_amplitude = 0.5" in found
+    assert ("more like it" in found) == bool(more)
+    assert more in found
+
+
+def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
+    study = Study.from_text(
+        'title = "t"\n[fixed]\nfriction = 0.4\n[axes]\nphase = {start = 0, stop = 6, num = 7}\n'
+        'frequency_ratio = ["1/2", 1]\n[figure]\nx = "phase"\nhue = "frequency_ratio"\n'
+    )
+    html = study._repr_html_()
+    assert html.startswith(
+        "<div><b>t</b><br>14 points = 7 phase × 2 frequency_ratio, rtol 0.0001; very roughly "
+    )
+    assert html.endswith("</td></tr></table></div>")
+    rows = re.findall(r"<tr><td>(.*?)</td><td><b>(.*?)</b></td><td>(.*?)</td><td>(.*?)</td></tr>", html)
+    found = {name: (kind, values, meaning.partition("; figure: ")[2]) for kind, name, values, meaning in rows}
+    assert found["phase"] == ("axis", "0, 1 … 6 (7 values)", "x")
+    assert found["frequency_ratio"] == ("axis", "1/2, 1", "hue")
+    assert found["friction"] == ("fixed", "0.4", "")
+    assert list(found)[:2] == ["phase", "frequency_ratio"]
+    # Nothing stands between the rows.
+    assert html.count("</tr><tr>") == len(rows) - 1
+
+
+def test_axes_that_are_too_long_are_named(monkeypatch):
+    monkeypatch.setattr("swtstudy.grid.reading.LONGEST_AXIS", 3)
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]\n") == {
+        "axes.friction": "4 values; at most 3 values"
+    }
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 4}\n") == {
+        "axes.friction.num": "4; a whole number from 2 to 3"
+    }
+    assert mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 1}\n") == {
+        "axes.friction.num": "1; a whole number from 2 to 3"
+    }
+    assert Study.from_text(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3]\n").grid.size == 3
+    assert Study.from_text(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 2}\n").grid.size == 2
