@@ -28,8 +28,8 @@ SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
 #: Coordinates of cusps nearer than this, in the amplitudes of the motion, are one.
 SAME_DEPTH = 1e-9
-#: Share of the range below which a stretch between cusps is none.
-NO_STRETCH = 1e-12
+#: A stretch between cusps shorter than this share of the range is none.
+NO_LENGTH = 1e-12
 #: Angles α nearer than this to 0 or π are an end of the stretch.
 END = 1e-9
 
@@ -143,7 +143,7 @@ class _StretchesOfRange:
         low, high = ends[:, :-1], ends[:, 1:].copy()
         length, total = high - low, ends[:, -1:] - ends[:, :1]
         steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
-        real = length > NO_STRETCH * total
+        real = length > NO_LENGTH * total
         last = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
         # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
         high[np.arange(len(ends)), last] = ends[:, -1]
