@@ -29,8 +29,6 @@ JUMP, HIDDEN_SHARE = 0.15, 0.97
 TWIN = 0.01
 #: Positions nearer than this share of their range lie side by side.
 SIDE_BY_SIDE = 1e-4
-#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it.
-FIRST_HOT = 0.5
 #: Planes that are tried where the first look finds a local maximum.
 CLOSER_PLANES = 72
 
@@ -81,7 +79,7 @@ class FirstLook:
         planes = scene.take(point).planes(self.history.take(point, column), x_sign)
         _, angle = coarse_swt(planes, CLOSER_PLANES)
         both = angle, self.double_angle[point, side, column]
-        row, instant = np.nonzero(near_extremes(planes, both, FIRST_HOT))
+        row, instant = np.nonzero(near_extremes(planes, both))
         count = self.interval.shape[-1]
         at = point[row], instant // count, self.interval[point[row], column[row], instant % count]
         # Ranges of intervals, as steps up and down.

@@ -28,9 +28,6 @@ from swtstudy.mechanics.stress.scene import Scene
 ANGLE_ROUNDS = 2
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
-#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it, and at
-#: positions next to the one that is looked at.
-HOT = 0.35
 
 
 def hot_intervals(
@@ -49,7 +46,7 @@ def hot_intervals(
     """
     look = Look.at(scene, position[:, None], resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
-    near = near_extremes(planes, STARTS + double_angle[:, None], HOT)
+    near = near_extremes(planes, STARTS + double_angle[:, None])
     row, column, place = np.nonzero(near)
     hot = np.zeros(scene.cycle.begin.shape, dtype=bool)
     hot[row, look.placed.interval[row, column, place]] = True
