@@ -14,7 +14,8 @@ from scipy.integrate import simpson
 import swtstudy
 from swtstudy.fields import swt as swt_module
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics.body.body import body, nodes_at
+from swtstudy.mechanics.body import body
+from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.points import Points
