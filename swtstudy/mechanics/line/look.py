@@ -23,8 +23,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: A smooth maximum may be higher than the best instant by this share of the bend there: a parabola through
 #: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33.
 REACH = 0.4
-#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it, closer or
-#: at the next position. 0.35 and 1 after the first look: the same s to the bit at 1,000 and at 60 points.
+#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it or do so
+#: at the next position. 0.35 for the looks after the first: the same s to the bit at 1,001 points, no faster.
 HOT = 0.5
 #: Values of a curve that differ by less, relative, are as high.
 LEVEL = 1e-9

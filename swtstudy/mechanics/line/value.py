@@ -24,9 +24,12 @@ from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: How often the plane is improved and the extremes over the cycle are looked up anew.
+#: How often the plane is improved and the extremes over the cycle are looked up anew. Once: 9e-7 at rtol
+#: 1e-4, 3e-8 at 1e-6, hardly faster; four times: 3e-8 at 1e-4.
 ANGLE_ROUNDS = 2
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
+#: The first start alone: 1e-3 at some of 600 points (tests/test_narrow_maxima.py); half or twice: no
+#: change at 128.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
 
 
