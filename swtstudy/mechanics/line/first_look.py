@@ -21,17 +21,17 @@ from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Local maxima below this share of the largest are not followed: so far the few planes and instants are off.
-#: 0.95: no change at 128 points, less than 10 % faster.
+#: 0.95: no change at 128 points, nor at those of tests/test_narrow_maxima.py, less than 10 % faster.
 CANDIDATE_SHARE = 0.85
 #: Change of 2θ to the next position by which another plane has taken over, rad, and the share of the largest
 #: swt from which that is followed.
 JUMP, HIDDEN_SHARE = 0.15, 0.97
-#: Two local maxima whose heights differ by less, relative, are both followed. 0: no change at 128 points, but
-#: see the last of CASES in tests/test_narrow_maxima.py.
+#: Two local maxima whose heights differ by less, relative, are both followed. 0: no change at 128 points, nor
+#: at those of tests/test_narrow_maxima.py.
 TWIN = 0.01
 #: Positions nearer than this share of their range lie side by side.
 SIDE_BY_SIDE = 1e-4
-#: Planes that are tried where the first look finds a local maximum.
+#: Planes that are tried where the first look finds a local maximum. Half or twice: rounding, at 128 points.
 CLOSER_PLANES = 72
 
 
