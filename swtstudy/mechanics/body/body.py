@@ -20,7 +20,8 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle.
 SUBDIVISIONS = 6
-#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by.
+#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. The line's
+#: (`line.look.HOT`) is larger: there it costs an interval of few points, here instants of whole fields.
 HOT = 0.15
 #: Instants whose contact states are held at a time: their memory grows with the square of the number.
 INSTANTS = 64

@@ -13,7 +13,8 @@ from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.points import FloatArray
 
-#: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet.
+#: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet. A
+#: hundredth: 2e-7 and nothing; a hundred times: nothing.
 NO_STRETCH, GAP = 1e-12, 1e-10
 #: Stretches of each interval: two events cut it.
 PER_INTERVAL = 3

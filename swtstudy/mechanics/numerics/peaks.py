@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.points import FloatArray
 
-#: Newton steps from a parabola's vertex to a polynomial's maximum.
+#: Newton steps from a parabola's vertex to a polynomial's maximum. One: 1e-7 at rtol 1e-4, hardly
+#: faster; four: 1e-10.
 NEWTON_STEPS = 2
 
 

@@ -15,6 +15,7 @@ from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes import criterion
 from swtstudy.mechanics.points import FloatArray
 
+#: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.
 NEWTON_STEPS = 3
 #: Largest step of 2θ in one Newton step, rad.
 LARGEST_STEP = 0.4

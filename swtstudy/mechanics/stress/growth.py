@@ -19,7 +19,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.points import FloatArray
 
-#: Chebyshev nodes for each oscillation of the tangential load while the ground grows.
+#: Chebyshev nodes for each oscillation of the tangential load while the ground grows. Half: 3e-7, no faster.
 NODES_PER_OSCILLATION = 1.6
 
 #: Densities at abscissae of some ranges, see `_RunningIntegrals`.

@@ -1,0 +1,140 @@
+"""What each tuning constant of the mechanics is good for: s and time with it halved, doubled or taken away.
+
+``python studies/checks/constants.py [part of a name ...] [--points a profile]`` writes results/constants.md.
+A constant's module is compiled with another value of it, in a process of its own, so that all that is made
+from it follows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import itertools
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from altered import ROOT, assigned, in_a_process
+
+MECHANICS = ROOT / "swtstudy" / "mechanics"
+RTOL, REFERENCE_RTOL = 1e-5, 1e-8
+#: Samples that show what modules other than the search of the line do.
+KINDS = {"wavy": "wavy", "struve": "wavy", "circle_gain": "circle", "singular_edge": "edge"}
+KINDS |= {"flat_faced": "edge", ".field.": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
+#: Numbers that mean something rather than tune something.
+DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
+#: Other values than half and twice, or a hundredth and a hundred times: v is the constant.
+OTHERS = {
+    "accuracy.DIGITS_PER_ZOOM": ("4.0",),
+    "accuracy.SETTLED": ("1.0",),
+    "circle_gain.ANGLES": ("v[::2]",),
+    "circle_gain.CLOSER": ("v[:, ::2]",),
+    "circle_gain.DIGITS": ("3.5",),
+    "first_look.CANDIDATE_SHARE": ("0.95",),
+    "first_look.HIDDEN_SHARE": ("2.0",),
+    "first_look.JUMP": ("10 * v",),
+    "first_look.SIDE_BY_SIDE": ("0.0",),
+    "first_look.TWIN": ("0.0",),
+    "flat_faced.APPROACH_COUNT": ("5",),
+    "growth.NODES_PER_OSCILLATION": ("v / 2",),
+    "look.REACH": ("0.125",),
+    "maximum.BESIDE_FACE": ("0.0",),
+    "maximum.FAINT": ("0.0",),
+    "maximum.SCAN_RESOLUTION": ("Resolution(1, 0, 3.5)", "Resolution(2, 0, 2.5)"),
+    "maximum.SHARES": ("v[2:]", "(0.9,)"),
+    "maximum.NEIGHBOURS": ("4 * v",),
+    "positions.INNERMOST": ("10 * v",),
+    "positions.INNERMOST_OF_LOST": ("20 * v",),
+    "positions.SPREAD_PER_OSCILLATION": ("0",),
+    "positions.SPREAD_PER_WAVE": ("0",),
+    "roots.LARGEST_STEP_COUNT": ("10",),
+    "roots.LAST_STEP": ("100 * v",),
+    "round.CHANGE_SHARE": ("v / 10", "10 * v"),
+    "round.CORNER_CHANGE_SHARE": ("0.03",),
+    "round.LEAST_ROUND_COUNT": ("1",),
+    "round.OFFSETS": ("v / 1.5",),
+    "round.POLYNOMIAL_SHARE": ("v / 10",),
+    "round.TIE": ("0.0",),
+    "round.WALKING": ("v / 2",),
+    "singular_edge.FINER": ("v[:1]", "v[1:]"),
+    "stretches.PER_INTERVAL": (),
+    "struve.STEPS": ("(1e-2, 2e-2)",),
+    "value.STARTS": ("v[:1]", "v / 2", "2 * v"),
+    "wavy_paraboloid.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
+    "body_maximum.ANGLES": ("v[::2]",),
+    "body_maximum.DEPTHS": ("v[::2]",),
+    "body_maximum.FIRST_STEPS": ("v / 2", "2 * v"),
+}
+HEADER = "| constant | value | error | missed | change | time |\n|---|---|---|---|---|---|\n"
+
+
+def constants() -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
+    """Module, name, value as it is written, and the other values of each constant."""
+    for file in sorted(MECHANICS.rglob("*.py")):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        module = ".".join(file.relative_to(ROOT).with_suffix("").parts)
+        names = [n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
+        for name in dict.fromkeys(n for n in names if n == n.upper() and n not in DEFINITIONS):
+            for _, _, value in assigned(tree, name):
+                text, others = ast.unparse(value), OTHERS.get(f"{file.stem}.{name}")
+                try:
+                    number = ast.literal_eval(value)
+                except ValueError:
+                    number = None
+                if others is None and isinstance(number, int):
+                    others = ("max(v // 2, 1)" if number > 1 else "0", "2 * v")
+                elif others is None and isinstance(number, float):
+                    others = ("v / 100", "100 * v") if number < 1e-5 else ("v / 2", "2 * v")
+                yield module, name, text, others or ()
+
+
+class Sample:
+    """What a sample of points says about altered constants."""
+
+    def __init__(self, kind: str, count: int) -> None:
+        self.kind, self.count = kind, count
+        nothing = "swtstudy.mechanics.points", "", "v"
+        self.unaltered, (self.reference, _, _) = in_a_process(*nothing, kind, count, (RTOL, REFERENCE_RTOL))
+
+    def row(self, module: str, constant: str, expression: str) -> str:
+        """Cells: largest error, points that miss s_error, largest change, all relative, and the time."""
+        [(s, claimed, now)] = in_a_process(module, constant, expression, self.kind, self.count, (RTOL,))
+        regular = np.isfinite(self.reference) & (self.reference > 0.0)
+        reference, before = self.reference[regular], self.unaltered[0][regular]
+        error, change = np.abs(s[regular] - reference), np.abs(s[regular] - before)
+        missed = np.count_nonzero(error > claimed[regular])
+        cells = f"{(error / reference).max():.1e}", f"{missed}", f"{(change / reference).max():.1e}"
+        return " | ".join([*cells, f"{now / self.unaltered[2]:.2f}"])
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("names", nargs="*", help="parts of the constants' names")
+    arguments.add_argument("--points", type=int, default=32, help="points of each source")
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
+    arguments.add_argument("--quick", action="store_true", help="one constant at one point a profile")
+    given = arguments.parse_args()
+    count, names = (1, ["look.HOT"]) if given.quick else (given.points, given.names or [""])
+    samples: dict[str, Sample] = {}
+    lines = []
+    for part, (module, constant, text, others) in itertools.product(names, constants()):
+        name = f"{module.removeprefix('swtstudy.mechanics.')}.{constant}"
+        if part not in name:
+            continue
+        kind = next((kind for part, kind in KINDS.items() if part in module), "line")
+        if kind not in samples:
+            samples[kind] = Sample(kind, count)
+            lines.append(f"| as it is ({kind}) | | {samples[kind].row(module, constant, 'v')} |")
+            print(lines[-1], flush=True)
+        for expression in others:
+            cells = samples[kind].row(module, constant, expression)
+            lines.append(f"| {name} = {text} | {expression} | {cells} |")
+            print(lines[-1], flush=True)
+    title = f"Relative errors and changes of s at rtol = {RTOL:.0e}, {count} points of each source; "
+    title += "times vary by 8 %.\n\n"
+    given.results.mkdir(exist_ok=True)
+    (given.results / "constants.md").write_text(title + HEADER + "\n".join(lines) + "\n", "utf-8")
+
+
+if __name__ == "__main__":
+    main()
