@@ -128,16 +128,40 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     return _crests(curve, inside)[0]
 
 
+def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """How high the curve's maximum may really be, shape (…); see `lifted`."""
+    return np.asarray(_crests(curve, inside)[1].max(axis=-1))
+
+
 def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """`lifted`, and how high the smooth local maxima may really be."""
-    middle = curve[..., 1:-1]
-    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
-    at = np.nonzero(peak)
+    middle, inside = curve[..., 1:-1], inside[..., 1:-1]
+    peak = (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
+    at = np.nonzero(peak & inside)
     left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    result, reach = curve.copy(), curve.copy()
+    result, high = curve.copy(), curve.copy()
     result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
-    reach[..., 1:-1][at] = centre + REACH * (2.0 * centre - left - right)
-    return result, reach
+    high[..., 1:-1][at] = centre + REACH * (2.0 * centre - left - right)
+    at = np.nonzero(peak & ~inside)
+    high[..., 1:-1][at] += _rise_beside_end(curve, inside, at)
+    return result, high
+
+
+def _rise_beside_end(
+    curve: FloatArray, inside: NDArray[np.bool_], at: tuple[NDArray[np.intp], ...]
+) -> FloatArray:
+    """How much higher than an end ``at`` the parabolas through it and two instants of a stretch are, (m,)."""
+    inside = np.broadcast_to(inside, (*curve.shape[:-1], inside.shape[-1]))
+    *where, place = at
+    rise = np.zeros(place.size)
+    for step in (-1, 1):
+        next_one = np.clip(place + step, 0, inside.shape[-1] - 1)
+        end, first, second = (curve[(*where, (place + 1 + k * step) % curve.shape[-1])] for k in range(3))
+        slope, bend = 4.0 * first - 3.0 * end - second, 2.0 * first - end - second
+        beside = inside[(*where, next_one)] & (next_one != place) & (slope > 0.0) & (bend > 0.0)
+        more = np.divide(slope * slope, 8.0 * bend, out=np.zeros_like(end), where=beside)
+        rise = np.maximum(rise, more)
+    return rise
 
 
 def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray], share: float) -> NDArray[np.bool_]:
