@@ -27,8 +27,9 @@ SHAPES = {
     "wavy_paraboloid": {"waviness_amplitude": (0.003, 0.1), "wavelength": (4.5, 10.0)},
 }
 HEADER = (
-    "| profile | rtol | median error | 99 % | largest | error > s_error | s_error > rtol·s |\n"
-    "|---|---|---|---|---|---|---|\n"
+    "| profile | rtol | median error | 99 % | largest | error > s_error | and the reference's "
+    "| s_error > rtol·s |\n"
+    "|---|---|---|---|---|---|---|---|\n"
 )
 
 
@@ -87,8 +88,8 @@ def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -
 
 def rows(points: Points) -> list[str]:
     """Lines of the table for the points of one profile."""
-    reference = solve_points(points, REFERENCE_RTOL).s
-    regular = reference > 0.0
+    tight = solve_points(points, REFERENCE_RTOL)
+    reference, regular = tight.s, tight.s > 0.0
     lines = []
     for rtol in RTOLS:
         solution = solve_points(points, rtol)
@@ -96,9 +97,10 @@ def rows(points: Points) -> list[str]:
         claimed = solution.s_error[regular]
         median, most, largest = np.quantile(error / s, [0.5, 0.99, 1.0])
         missed, wide = np.mean(error > claimed), np.mean(claimed > rtol * s)
+        beyond = np.mean(error > claimed + tight.s_error[regular])
         lines.append(
             f"| {points.profile} | {rtol:.0e} | {median:.1e} | {most:.1e} | {largest:.1e} "
-            f"| {missed:.1%} | {wide:.1%} |"
+            f"| {missed:.1%} | {beyond:.1%} | {wide:.1%} |"
         )
     return lines
 

@@ -106,6 +106,27 @@ FROZEN = [
         {},
         0.0840700483,
     ),
+    # The largest ε_n of the plane that counts is between the end of a stretch and the instant before it.
+    (
+        "paraboloid",
+        (0.5, 0.00196378431892, 0.909306304318, 1.87128339734, 2.61799387799, 4, 1),
+        {},
+        9.6480002316e-06,
+    ),
+    # The rounding of an instant made pressure at the edge, which had arrived at r.
+    (
+        "paraboloid",
+        (0.5, 0.00221660980058, 9.02210516879, 0.00566247216277, 3.40902415344, 8, 7),
+        {},
+        8.8383584632e-08,
+    ),
+    # What sticks at touch-down takes up a slow tangential motion within a thin layer.
+    (
+        "paraboloid",
+        (0.49993889193, 4.58800383075, 0.636090314696, 0.000594840574927, 0.785398163397, 3, 1),
+        {},
+        0.017571311110,
+    ),
     # Nearer, where contact is lost.
     ("paraboloid", (0.5, 0.0081136441, 6.93747178, 7.5921989e-05, 2.34399114, 1, 2), {}, 1.170560e-08),
     ("paraboloid", (0.5, 0.05539213, 5.4026985, 5.6188342e-05, 5.16040084, 1, 1), {}, 3.221889e-07),

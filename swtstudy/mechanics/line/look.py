@@ -110,7 +110,7 @@ def extremes_and_rivals(
         heights = curve.copy()
         heights[..., 1:-1][crests.at] = crests.lifted
         best = heights.argmax(axis=-1)
-        heights[..., 1:-1][crests.at] = crests.reach
+        _reaching(heights, curve, inside, crests)
         # The rival is none of the neighbours.
         rows, flat = np.arange(best.size), heights.reshape(best.size, -1)
         for step in (-1, 0, 1):
@@ -140,29 +140,69 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     return result
 
 
+def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+    """How high the curve's maximum may really be, shape (…); see `lifted`."""
+    return np.asarray(_reaching(curve.copy(), curve, inside, _crests(curve, inside)).max(axis=-1))
+
+
 class _Crests(NamedTuple):
     """The c smooth local maxima of curves.
 
     Attributes
     ----------
     at
-        Where they are in the curves without their first and last values.
-    lifted, reach
-        Shape (c,): the height of the parabola through each, and how high it may really be.
+        Where they are in the curves without first and last values.
+    left, centre, right
+        Shape (c,): the values before, at and after them.
     """
 
     at: tuple[NDArray[np.intp], ...]
-    lifted: FloatArray
-    reach: FloatArray
+    left: FloatArray
+    centre: FloatArray
+    right: FloatArray
+
+    @property
+    def lifted(self) -> FloatArray:
+        """Heights of the parabolas through them."""
+        return self.centre + parabola(self.left, self.centre, self.right)[1]
 
 
 def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> _Crests:
+    at = np.nonzero(_peaks(curve) & inside[..., 1:-1])
+    return _Crests(at, *(curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3)))
+
+
+def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
     middle = curve[..., 1:-1]
-    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
-    at = np.nonzero(peak)
-    left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
-    reach = centre + REACH * (2.0 * centre - left - right)
-    return _Crests(at, centre + parabola(left, centre, right)[1], reach)
+    return np.asarray((middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
+
+
+def _reaching(
+    heights: FloatArray, curve: FloatArray, inside: NDArray[np.bool_], crests: _Crests
+) -> FloatArray:
+    """Heights with the local maxima of the curves as high as they may really be, in place."""
+    bend = 2.0 * crests.centre - crests.left - crests.right
+    heights[..., 1:-1][crests.at] = crests.centre + REACH * bend
+    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
+    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
+    return heights
+
+
+def _rise_beside_end(
+    curve: FloatArray, inside: NDArray[np.bool_], at: tuple[NDArray[np.intp], ...]
+) -> FloatArray:
+    """How much higher than an end ``at`` the parabolas through it and two instants of a stretch are, (m,)."""
+    inside = np.broadcast_to(inside, (*curve.shape[:-1], inside.shape[-1]))
+    *where, place = at
+    rise = np.zeros(place.size)
+    for step in (-1, 1):
+        next_one = np.clip(place + step, 0, inside.shape[-1] - 1)
+        end, first, second = (curve[(*where, (place + 1 + k * step) % curve.shape[-1])] for k in range(3))
+        slope, bend = 4.0 * first - 3.0 * end - second, 2.0 * first - end - second
+        beside = inside[(*where, next_one)] & (next_one != place) & (slope > 0.0) & (bend > 0.0)
+        more = np.divide(slope * slope, 8.0 * bend, out=np.zeros_like(end), where=beside)
+        rise = np.maximum(rise, more)
+    return rise
 
 
 def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray]) -> NDArray[np.bool_]:

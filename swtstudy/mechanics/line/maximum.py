@@ -16,6 +16,7 @@ from swtstudy.mechanics.line.positions import positions_of_first_look
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import arrival
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Planes that the first look tries. Half or twice: no change at 128 points, 5 % faster or slower.
@@ -29,10 +30,14 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance.
 LEAST_SHARE = 0.25
-#: What numbers next to r cannot tell apart counts where r − b is less than this share of r, beside a cusp as
-#: the root of 2e-16 r/(r − b), and where swt is smaller than this and so is 1/2 − ν: rounding leaves 1e-8 p.
-BESIDE_FACE, FAINT, NO_SPREAD = 0.05, 1e-6, 0.01
-NEIGHBOURS = np.array([-1.0, 1.0])
+#: Rounding is looked for where this share of what it may be is more than the error. It leaves 1e-8 p, and is
+#: looked for, too, where swt is smaller than this and so is 1/2 − ν.
+LARGEST_SHOWN, FAINT, NO_SPREAD = 0.5, 1e-6, 0.01
+#: What is looked at shows so much less than all of it.
+SHOWN = 1.5
+#: Numbers at and next to r, whose swt differs by rounding, and how often the extremes are looked at there:
+#: closer looks show more of it.
+NEIGHBOURS, ROUNDING_ZOOMS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8]), 5
 
 
 @dataclass(frozen=True)
@@ -85,24 +90,41 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
         found = found.put(doubtful[better], again.take(better))
-    face = scene.profile.flat_radius
-    beside = (face > 0.0) & (np.abs(found.position) - face < BESIDE_FACE * np.abs(found.position))
-    beside |= (found.swt < FAINT) & (0.5 - scene.poisson_ratio < NO_SPREAD)
-    rows = np.flatnonzero(beside & (found.swt > 0.0))
+    faint = (found.swt < FAINT) & (0.5 - scene.poisson_ratio < NO_SPREAD)
+    rows = np.flatnonzero(
+        (LARGEST_SHOWN * _rounding(scene, found) > found.error) | (faint & (found.swt > 0.0))
+    )
     if rows.size:
-        spread = _spread(scene.take(rows), found.take(rows), accuracy.check)
+        spread = SHOWN * _spread(scene.take(rows), found.take(rows), accuracy.check)
         found.error[rows] = np.maximum(found.error[rows], spread)
     return found
 
 
+def _rounding(scene: Scene, found: Maximum) -> FloatArray:
+    """How much of swt rounding may be, were it all at the scale of the smaller motion, shape (n,)."""
+    load, r = scene.cycle.load, np.abs(found.position)
+    normal = 0.5 * (load.largest_normal - load.least_normal)
+    tangential = load.motion - normal
+    motion = np.where(tangential > 0.0, np.minimum(normal, tangential), normal)
+    distance = arrival(load, scene.coordinate, r[:, None])[1][:, 0]
+    # Where the normal load rests, what arrives at the edge is there.
+    share = np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
+    return np.asarray(np.sqrt(share) * found.swt)
+
+
 def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
-    """How much swt varies over the numbers next to the positions of the n maxima, shape (n,)."""
+    """How much swt varies over the numbers at and next to the positions of the n maxima, shape (n,).
+
+    A maximum may be at a cusp, with a steep flank on one side: the better half of the numbers counts.
+    """
     r = np.abs(found.position)[:, None]
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
     near = np.maximum(r + NEIGHBOURS * np.spacing(r), scene.profile.flat_radius[:, None])
     angle = np.broadcast_to(found.double_angle[:, None], near.shape)
-    value, _ = refine(split, near, np.sign(found.position), angle, resolution)
-    return np.asarray(np.abs(value - found.swt[:, None]).max(axis=1))
+    closer = replace(resolution, zooms=max(resolution.zooms, ROUNDING_ZOOMS))
+    value, _ = refine(split, near, np.sign(found.position), angle, closer)
+    better = np.sort(value, axis=1)[:, NEIGHBOURS.size // 2 :]
+    return np.asarray(np.abs(better - found.swt[:, None]).max(axis=1))
 
 
 def _search(scene: Scene, accuracy: Accuracy) -> Maximum:

@@ -17,6 +17,7 @@ from swtstudy.mechanics.line.look import (
     extremes_and_rivals,
     lifted,
     near_extremes,
+    reach,
 )
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
@@ -31,6 +32,8 @@ ANGLE_ROUNDS = 2
 #: The first start alone: 1e-3 at some of 600 points (tests/test_narrow_maxima.py); half or twice: no
 #: change at 128.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
+#: Planes nearer than this are one, 2θ in rad.
+SAME_PLANE = 0.01
 
 
 def hot_intervals(
@@ -149,9 +152,17 @@ def _best_planes(
     found = []
     for top in (lambda curve: curve.max(axis=-1), lambda curve: lifted(curve, inside).max(axis=-1)):
         swt = of_maxima(*(top(curve) for curve in of_swt))
-        best = np.moveaxis(swt, 0, -1).argmax(axis=-1)
-        found.append(pick(np.moveaxis(angle, 0, -1), best))
-    return found[0], found[1]
+        found.append(np.moveaxis(swt, 0, -1))
+    angle = np.moveaxis(angle, 0, -1)
+    best, other = (swt.argmax(axis=-1) for swt in found)
+    # Between two instants a plane may reach higher than the parabolas say.
+    apart = np.abs(angle - pick(angle, best)[..., None]) > SAME_PLANE
+    at = np.nonzero(apart.any(axis=-1) & (best == other))
+    high = of_maxima(*(reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt))
+    high = np.where(apart[at], np.moveaxis(high, 0, -1), 0.0)
+    rival = high.argmax(axis=-1)
+    other[at] = np.where(pick(high, rival) > pick(found[0][at], best[at]), rival, best[at])
+    return pick(angle, best), pick(angle, other)
 
 
 def of_extremes(planes: PlaneHistory) -> FloatArray:

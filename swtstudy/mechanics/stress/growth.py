@@ -21,6 +21,10 @@ from swtstudy.mechanics.points import FloatArray
 
 #: Chebyshev nodes for each oscillation of the tangential load while the ground grows. Half: 3e-7, no faster.
 NODES_PER_OSCILLATION = 1.6
+#: Where the tangential load moves slower than this share of the normal one, the slope turns from ±1 to that
+#: share within the square of it, beside an end of the growth: with so many nodes more for each digit beyond
+#: the fifth the stress has its digits at shares of 3e-4, else six at most.
+SLOW, NODES_PER_DIGIT = 0.02, 24
 
 #: Densities at abscissae of some ranges, see `_RunningIntegrals`.
 Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
@@ -44,6 +48,9 @@ class GrowthIntegrals:
         normal, tangential = cycle.load.oscillations
         smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * (tangential / normal)
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
+        amplitude = 0.5 * (cycle.load.largest_normal - cycle.load.least_normal)
+        slow = tangential * (cycle.load.motion - amplitude) < SLOW * normal * amplitude
+        nodes = count + slow * math.ceil(NODES_PER_DIGIT * max(digits - 5.0, 0.0))
         growths = Growths.of(cycle.memory)
         self.count = growths.begin.shape[1]
         if not self.count:
@@ -57,9 +64,9 @@ class GrowthIntegrals:
         self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
         r, b = self.position, self.flat
         self.inner = _RunningIntegrals(
-            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, count
+            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
         )
-        self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, count)
+        self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
 
     def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
         """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
@@ -113,30 +120,39 @@ class _RunningIntegrals:
     density
         From the index of m ranges and abscissae (m, nodes) in them to c densities there, (c, m, nodes).
     count
-        Number of nodes.
+        Shape (n,), of the first axis of S: number of nodes.
     """
 
-    def __init__(self, low: FloatArray, high: FloatArray, density: Density, count: int) -> None:
+    def __init__(self, low: FloatArray, high: FloatArray, density: Density, count: NDArray[np.intp]) -> None:
         self.low, self.span = low, high - low
-        at = np.nonzero(self.span > 0.0)
-        low, span = low[at][:, None], self.span[at][:, None]
+        real, shape = self.span > 0.0, (-1,) + (1,) * (low.ndim - 1)
+        self.column = np.zeros(self.span.shape, dtype=np.intp)
+        #: Which ranges have the same number of nodes, of shape S, and their series (count + 1, c, m).
+        self.groups = []
+        for nodes in np.unique(count):
+            same = np.broadcast_to((count == nodes).reshape(shape), real.shape)
+            at = np.nonzero(real & same)
+            self.column[at] = np.arange(len(at[0]))
+            self.groups.append((same.ravel(), self._series(at, density, int(nodes))))
+
+    def _series(self, at: tuple[NDArray[np.intp], ...], density: Density, count: int) -> FloatArray:
+        low, span = self.low[at][:, None], self.span[at][:, None]
         y = np.sin(0.25 * np.pi * (1.0 + chebyshev.nodes(count)))
         # The sin² map.
         rate = 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
-        #: Shape (count + 1, c, m).
-        self.series = chebyshev.running_integral(density(at, low + span * (y * y)) * (rate * span))
-        self.column = np.zeros(self.span.shape, dtype=np.intp)
-        self.column[at] = np.arange(len(span))
+        return chebyshev.running_integral(density(at, low + span * (y * y)) * (rate * span))
 
     def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
         """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
-        result = np.zeros((self.series.shape[1], len(at)))
-        some = np.flatnonzero(self.span.take(at) > 0.0)
-        if some.size:
-            at = at[some]
-            part = np.clip((abscissa[some] - self.low.take(at)) / self.span.take(at), 0.0, 1.0)
-            y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
-            result[:, some] = chebyshev.evaluate(self.series, y, self.column.take(at))
+        result = np.zeros((self.groups[0][1].shape[1], len(at)))
+        real = self.span.take(at) > 0.0
+        for same, series in self.groups:
+            some = np.flatnonzero(real & same.take(at) if len(self.groups) > 1 else real)
+            if some.size:
+                these = at[some]
+                part = np.clip((abscissa[some] - self.low.take(these)) / self.span.take(these), 0.0, 1.0)
+                y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
+                result[:, some] = chebyshev.evaluate(series, y, self.column.take(these))
         return result
 
 

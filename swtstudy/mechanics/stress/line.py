@@ -14,13 +14,32 @@ from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
 
-#: A front or an edge whose coordinate is nearer than this to that of r, over the largest one, is at r.
-ARRIVED = 2e-15
+#: Rounding of a coordinate, over the largest one, and of an instant, rad.
+COORDINATE, INSTANT = 2e-15, 1e-15
+
+
+def arrival(load: Load, coordinate: Coordinate, position: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """How far from that of r, shape (n, X), rounding leaves the coordinate of what arrives there.
+
+    The stress shows the square root of this distance.
+
+    Returns
+    -------
+    edge, front
+        Shape (n, X): of a contact edge and of a slip front, which move at most at some rate.
+    """
+    normal, tangential = load.oscillations
+    amplitude = 0.5 * (load.largest_normal - load.least_normal)
+    of_edge = COORDINATE * load.largest_normal + INSTANT * normal * amplitude
+    of_front = of_edge + INSTANT * tangential * (load.motion - amplitude)
+    next_to_r = coordinate.of(position + np.spacing(position)) - coordinate.of(position)
+    return of_edge[:, None] + next_to_r, of_front[:, None] + next_to_r
 
 
 class SurfaceLine:
@@ -39,11 +58,12 @@ class SurfaceLine:
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
         self.cycle, self.coordinate, self.position = cycle, coordinate, position
         self.primitives = coordinate.profile.primitives(position, digits)
-        # The stress shows the square root of the distance at which rounding leaves what arrives at r.
-        at, next_to_r = coordinate.of(position), coordinate.of(position + np.spacing(position))
-        near = ARRIVED * cycle.load.largest_normal[:, None] + next_to_r - at
-        #: Shape (n, X, 1): what is in between has arrived at r.
-        self.least, self.largest = (coordinate.radius(v)[:, :, None] for v in (at - near, at + near))
+        at = coordinate.of(position)
+        #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
+        self.edge_at_r, self.front_at_r = (
+            tuple(coordinate.radius(v)[:, :, None] for v in (at - distance, at + distance))
+            for distance in arrival(cycle.load, coordinate, position)
+        )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         #: Shape (3, n, X, i·d): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
@@ -92,7 +112,8 @@ class SurfaceLine:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
         profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
-        edge, r = self._spread_radius(nodes, edge_radius), self.position[:, :, None]
+        edge = self._spread_radius(nodes, edge_radius, self.edge_at_r)
+        r = self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
@@ -100,10 +121,11 @@ class SurfaceLine:
         inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
 
-    def _spread_radius(self, nodes: Nodes, radius: FloatArray) -> FloatArray:
+    def _spread_radius(self, nodes: Nodes, radius: FloatArray, at_r: tuple[FloatArray, ...]) -> FloatArray:
         """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
         spread = nodes.spread(radius)
-        arrives = (spread >= self.least) & (spread <= self.largest)
+        least, largest = at_r
+        arrives = (spread >= least) & (spread <= largest)
         np.copyto(spread, self.position[:, :, None], where=arrives)
         return spread
 
@@ -112,7 +134,7 @@ class SurfaceLine:
         memory, (n, columns) = self.cycle.memory, self.position.shape
         place = nodes.interval * memory.start.shape[-1] + states.piece
         slope = gather(memory.slope.reshape(n, -1), place)
-        front = self._spread_radius(nodes, self.coordinate.radius(states.front))
+        front = self._spread_radius(nodes, self.coordinate.radius(states.front), self.front_at_r)
         at_place, sign = nodes.spread(place), nodes.spread(states.sign)
         bend = sign - nodes.spread(_line_slope(slope))
         rows, places = np.arange(n)[:, None, None], self.base.shape[-1]
