@@ -249,7 +249,7 @@ def test_phases_that_fall_where_they_should_rise_are_counted():
     assert not finding.holds
     degrees = math.degrees(PHASES[1])
     assert finding.measured == (
-        "mean over ψ, against b = 0, at b/a_H = 0: 1.00, 1: 2.00, 2: 2.73; the other way at 1 of 4 phases, "
+        "mean over ψ, against b = 0, at b/a_H = 0: 1.00, 1: 2.00, 2: 2.73; the opposite at 1 of 4 phases, "
         f"by up to 5.0% (b/a_H = 1 to 2, ψ = {degrees:.1f}°)"
     )
 

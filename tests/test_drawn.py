@@ -185,7 +185,7 @@ def test_map_of_swt(axes):
     assert axes.yaxis_inverted()
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("$x/a_H$", "$z/a_H$")
     assert mesh.get_coordinates()[..., 0].tolist() == [[-1.0, 0.0, 1.0]] * 2
-    with pytest.raises(ValueError, match="spans two of x, y and z; this one spans x"):
+    with pytest.raises(ValueError, match="found swt over x; allowed: two of x, y and z"):
         draw_swt_map(axes, field.isel(z=0), 0.2)
 
 

@@ -239,7 +239,7 @@ def limits() -> None:
 def versions() -> None:
     with (shown.ROOT / "pyproject.toml").open("rb") as file:
         lowest = dict(each.split(">=") for each in tomllib.load(file)["project"]["dependencies"])
-    (said,) = re.findall(r"run together, on Python 3.11: (.*?)\. MIT", README)
+    (said,) = re.findall(r"run together, on Python 3.11: (.*?\d)\. ", README)
     tested = dict(each.split() for each in said.split(", "))
     assert tested.keys() == lowest.keys()
     for name, version in lowest.items():

@@ -146,7 +146,7 @@ def test_the_longest_common_periods() -> None:
 
 @pytest.mark.parametrize("profile", ["rounded_punch", "truncated_paraboloid"])
 def test_face_to_nothing_and_to_a_thin_annulus(profile: str) -> None:
-    flat_radius = [0.0, TINY, 1e-300, 1e-12, 1e-9, 2.0, 5.0, 20.0, 100.0]
+    flat_radius = [0.0, TINY, 1e-300, 1e-12, 1e-9, 2.0, 5.0, 20.0]
     found = sound(points(profile, phase=0.7, flat_radius=flat_radius))
     paraboloid = solve_points(points(phase=0.7))
     close(found.s[:5], paraboloid.s[0], 3 * RTOL)
