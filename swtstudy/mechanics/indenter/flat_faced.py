@@ -164,6 +164,11 @@ class TruncatedParaboloid(FlatFaced):
         b, w = self._face(radius), self._rise(radius)
         return w * ((2.0 / 3.0) * w * w + b * b)
 
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        # The real root of the cubic w³ + (3/2) b² w = (3/2) H.
+        b = np.maximum(self._face(half_load), 1e-100)
+        return np.sqrt(2.0) * b * np.sinh(np.arcsinh(1.5 * np.sqrt(2.0) * half_load / b**3) / 3.0)
+
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return TruncatedPrimitives(self, position, self.radius(self.largest_depth), digits)
 

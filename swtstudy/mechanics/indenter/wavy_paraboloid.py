@@ -47,6 +47,9 @@ class WavyParaboloid(Profile):
         # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
         level = self.roughness(largest_depth, waviness_amplitude, wavelength).max(initial=0)
         self.phase = ROUGHNESS_STEP * float(level)
+        #: Those whose tables of first guesses these share, and which of them each one is.
+        self._origin: WavyParaboloid | None = None
+        self._row = np.arange(len(largest_depth))
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, *shape: FloatArray, **named: FloatArray) -> IntArray:
@@ -87,9 +90,11 @@ class WavyParaboloid(Profile):
         )
 
     def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
-        return WavyParaboloid(
+        taken = WavyParaboloid(
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
+        taken._origin, taken._row = self._origin or self, self._row[index]
+        return taken
 
     def extra_nodes(self, digits: float) -> int:
         return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
@@ -113,9 +118,7 @@ class WavyParaboloid(Profile):
 
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
-        guess, root = np.empty_like(depth), np.sqrt(depth)
-        for row, (known, radius) in enumerate(zip(*self._guesses, strict=True)):
-            guess[row] = np.interp(root[row], known, radius)
+        guess = self._interpolated(np.sqrt(depth), (self._origin or self)._guesses)
         # To the last digit: at a turning point an error of r is an error of its root in time.
         for _ in range(2):
             value, slope = self._with_slope(guess)
@@ -123,6 +126,16 @@ class WavyParaboloid(Profile):
             step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
             guess = np.maximum(guess - step, 0.0)
         return guess
+
+    def _interpolated(self, at: FloatArray, table: tuple[FloatArray, FloatArray]) -> FloatArray:
+        """Values at (n, …) in tables with one row for each of the profiles that these were taken from."""
+        result = np.empty_like(at)
+        order = np.argsort(self._row, kind="stable")
+        ends = np.flatnonzero(np.diff(self._row[order])) + 1
+        for same in np.split(order, ends) if order.size else ():
+            known, value = (column[self._row[same[0]]] for column in table)
+            result[same] = np.interp(at[same], known, value)
+        return result
 
     @cached_property
     def _guesses(self) -> tuple[FloatArray, FloatArray]:
@@ -145,6 +158,15 @@ class WavyParaboloid(Profile):
         wave = z * z * zeroth - z * first
         scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
         return (2.0 / 3.0) * radius**3 + scale * wave
+
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        return self._interpolated(np.cbrt(half_load), (self._origin or self)._guesses_by_load)
+
+    @cached_property
+    def _guesses_by_load(self) -> tuple[FloatArray, FloatArray]:
+        """The cubic root of `half_load`, nearly straight, at the radii of `_guesses`, each (n, k)."""
+        radius = self._guesses[1]
+        return np.cbrt(np.maximum(self.half_load(radius), 0.0)), radius
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         largest = self.radius(self.largest_depth)
