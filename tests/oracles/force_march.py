@@ -79,11 +79,16 @@ class ForceMarch:
 
 
 def second_round(
-    springs: ForceMarch, normal: Array, tangential: Array, normal_force: bool, tangential_force: bool
+    springs: ForceMarch,
+    normal: Array,
+    tangential: Array,
+    normal_force: bool,
+    tangential_force: bool,
+    moved: Array | None = None,
 ) -> Array:
     """Forces τ of the springs at each point of a closed path in its second round, (points, springs).
 
-    The path starts from its first normal load without a tangential one.
+    The path starts from its first normal load without a tangential one. ``moved`` takes the displacements.
     """
     depths = [springs.depth_at(value, normal_force) for value in normal]
     springs.step(depths[0], 0.0, is_force=False)
@@ -93,4 +98,6 @@ def second_round(
         for k, (depth, value) in enumerate(zip(depths, tangential, strict=True)):
             springs.step(depth, value, tangential_force)
             found[k] = springs.tau
+            if moved is not None:
+                moved[k] = springs.displacement
     return found

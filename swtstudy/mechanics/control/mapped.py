@@ -19,6 +19,9 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 #: Instants between two turns of the normal load at which turns of a slip line are looked for: so many, so
 #: many more for each tangential oscillation in that time, and for each wave that the contact edge passes.
 LEAST_COUNT, COUNT_PER_OSCILLATION, COUNT_PER_WAVE = 8, 32, 12
+#: The first of them lies so far behind the turn, in shares of π of the cosine's angle: where contact is made
+#: the map's derivative jumps.
+INSIDE = 1e-4
 #: Last step of Newton's method in rad; its square is the error.
 LAST_STEP = 1e-8
 
@@ -131,7 +134,7 @@ class MappedLoad(Load):
         n, m = turns.shape
         low = turns
         high = np.concatenate([turns[:, 1:], turns[:, :1] + PERIOD], axis=1)
-        angle = np.pi * np.linspace(0.0, 1.0, self._sample_count() + 1)
+        angle = np.pi * np.linspace(INSIDE, 1.0 - INSIDE, self._sample_count() + 1)
         instant = between(low[..., None], high[..., None], angle)
         samples = self._slip_line_rate(sense, instant.reshape(n, -1))
         row, first, last = sign_changes(angle, samples.reshape(n * m, -1))

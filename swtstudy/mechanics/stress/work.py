@@ -24,13 +24,13 @@ from swtstudy.mechanics.numerics.peaks import parabola
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Nodes of Gauss's rule for each growth and each interval of the cycle.
-NODES = 16
+#: Nodes of Gauss's rule for each growth and each interval of the cycle on a smooth profile, and the digits
+#: for which a wavy one has more.
+NODES, DIGITS = 16, 16.0
 #: Steps of each interval of the cycle between which the largest force ratio is looked for.
 SAMPLES = 32
 #: A normal force below this share of the largest is none.
 NO_CONTACT = 1e-9
-_NODE, _WEIGHT = np.polynomial.legendre.leggauss(NODES)
 
 
 @dataclass(frozen=True)
@@ -114,9 +114,10 @@ class _Conjugate:
         """∮ F_x du_x, shape (n,)."""
         cycle = self.cycle
         # Dense at both ends of the intervals, where the front starts or arrives.
-        angle = 0.5 * np.pi * (1.0 + _NODE)
+        node, weight = self._rule()
+        angle = 0.5 * np.pi * (1.0 + node)
         instant = between(cycle.begin[..., None], cycle.end[..., None], angle)
-        weight = 0.25 * np.pi * np.sin(angle) * _WEIGHT * (cycle.end - cycle.begin)[..., None]
+        weight = 0.25 * np.pi * np.sin(angle) * weight * (cycle.end - cycle.begin)[..., None]
         rate = cycle.load.tangential_rate(instant)
         work = (self.at(instant) * rate * weight).sum(axis=(1, 2))
         return np.maximum(-work if self.by_force else work, 0.0)
@@ -172,13 +173,19 @@ class _Conjugate:
             index, branch = row[grown], pieces.branch[grown]
             load, coordinate = self.cycle.load.take(index), self.coordinate.take(index)
             first, last = (load.touch_down(ends[grown], branch) for ends in (start, end))
-            instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * _NODE)
+            node, weight = self._rule()
+            instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * node)
             radius = np.maximum(coordinate.radius(load.normal(instant)), LEAST_RADIUS)
             unit = self.unit[index, None]
             stiffness = unit / radius if self.by_force else radius / unit
             rate = load.tangential_rate(instant) * stiffness
-            result[grown] = 0.5 * (last - first) * (rate * _WEIGHT).sum(axis=1)
+            result[grown] = 0.5 * (last - first) * (rate * weight).sum(axis=1)
         return result
+
+    def _rule(self) -> tuple[FloatArray, FloatArray]:
+        """Nodes and weights of Gauss's rule on [−1, 1]."""
+        node, weight = np.polynomial.legendre.leggauss(NODES + 2 * self.other.profile.extra_nodes(DIGITS))
+        return node, weight
 
     def _other(self, coordinate: FloatArray) -> FloatArray:
         return self.other.of(self.coordinate.radius(coordinate))
