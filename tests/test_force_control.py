@@ -75,16 +75,19 @@ def package_forces(scene: Scene, name: str, radius: Array, instant: float) -> Ar
     """τ of springs at radii: −∫ τ′ dG from the edge inwards, over the pieces of the package's diagram."""
     node, weight = np.polynomial.legendre.leggauss(10)
     share = 0.5 - 0.5 * np.cos(np.pi * np.linspace(0.0, 1.0, 7))
-    tau = np.zeros_like(radius)
+    # Over w = √(ξ² − b²), in which g is smooth.
+    b, tau = INDENTERS[name].flat_radius, np.zeros_like(radius)
+    own = np.sqrt(np.maximum(radius**2 - b**2, 0.0))
     for begin, end, slope in slopes(scene.cycle, instant):
-        first, last = scene.coordinate.radius(np.array([[begin, end]]))[0]
+        xi = scene.coordinate.radius(np.array([[begin, end]]))[0]
+        first, last = np.sqrt(np.maximum(xi**2 - b**2, 0.0))
         for ends in pairwise(first + (last - first) * share):
-            inside = np.clip(radius, *ends)
+            inside = np.clip(own, *ends)
             half = 0.5 * (ends[1] - inside)
-            xi = inside[:, None] + half[:, None] * (1.0 + node)
-            at = scene.coordinate.of(xi.reshape(1, -1))[0]
-            values = np.broadcast_to(slope(at), at.shape).reshape(xi.shape)
-            rate = (depth_of(name, xi + 1e-6) - depth_of(name, xi - 1e-6)) / 2e-6
+            w = inside[:, None] + half[:, None] * (1.0 + node)
+            at = scene.coordinate.of(np.hypot(w, b).reshape(1, -1))[0]
+            values = np.broadcast_to(slope(at), at.shape).reshape(w.shape)
+            rate = (depth_of(name, np.hypot(w + 1e-6, b)) - depth_of(name, np.hypot(w - 1e-6, b))) / 2e-6
             tau -= (half[:, None] * weight * values * rate).sum(axis=1)
     return tau
 
