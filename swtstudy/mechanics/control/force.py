@@ -41,7 +41,8 @@ class ForceCoordinate(Coordinate):
         return self.profile.radius_of_half_load(coordinate * align(self.unit, coordinate))
 
     def with_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return self.of(radius), self.profile.weighted_slope(radius)
+        half_load, slope = self.profile.half_load_and_weighted_slope(radius)
+        return half_load / align(self.unit, radius), slope
 
 
 def unit_half_load(name: str, shape: dict[str, FloatArray], count: int) -> FloatArray:

@@ -123,6 +123,10 @@ class Profile(ABC):
     def half_load(self, radius: FloatArray) -> FloatArray:
         """∫ ξ g′ dξ from b to ``radius``: half of the normal force over E* δ0 a_H."""
 
+    def half_load_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`half_load` and `weighted_slope` in one."""
+        return self.half_load(radius), self.weighted_slope(radius)
+
     def radius_of_half_load(self, half_load: FloatArray) -> FloatArray:
         """Contact radius ξ/a_H at the half of a normal force: the inverse of `half_load`, b at no force."""
         b, goal = align(self.flat_radius, half_load), np.maximum(half_load, 0.0)
@@ -131,7 +135,7 @@ class Profile(ABC):
         low, high = np.zeros_like(w), np.full_like(w, np.inf)
         for _ in range(LARGEST_STEP_COUNT):
             radius = np.hypot(w, b)
-            found, slope = self.half_load(radius), self.weighted_slope(radius)
+            found, slope = self.half_load_and_weighted_slope(radius)
             low, high = np.where(found < goal, w, low), np.where(found < goal, high, w)
             ratio = np.cbrt(np.divide(goal, found, out=np.ones_like(w), where=found > 0.0))
             step = np.divide(

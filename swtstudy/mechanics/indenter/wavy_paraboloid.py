@@ -111,10 +111,14 @@ class WavyParaboloid(Profile):
         """g and g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
-        zeroth, first = struve_functions(z)
+        struve = struve_functions(z)
+        return radius * radius + (0.5 * np.pi) * h * z * struve[0], self._slope(radius, struve)
+
+    def _slope(self, radius: FloatArray, struve: tuple[FloatArray, FloatArray]) -> FloatArray:
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        zeroth, first = struve
         wave = (0.5 * np.pi) * h
-        slope = 2.0 * radius + wave * k * (zeroth + z * (2.0 / np.pi - first))
-        return radius * radius + wave * z * zeroth, slope
+        return 2.0 * radius + wave * k * (zeroth + k * radius * (2.0 / np.pi - first))
 
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
@@ -151,10 +155,17 @@ class WavyParaboloid(Profile):
         return depth, radius * slope
 
     def half_load(self, radius: FloatArray) -> FloatArray:
+        return self._half_load(radius, struve_functions(align(self.wave_number, radius) * radius))
+
+    def half_load_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        struve = struve_functions(align(self.wave_number, radius) * radius)
+        return self._half_load(radius, struve), radius * self._slope(radius, struve)
+
+    def _half_load(self, radius: FloatArray, struve: tuple[FloatArray, FloatArray]) -> FloatArray:
         # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
-        zeroth, first = struve_functions(z)
+        zeroth, first = struve
         wave = z * z * zeroth - z * first
         scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
         return (2.0 / 3.0) * radius**3 + scale * wave
