@@ -18,7 +18,7 @@ from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_forc
 from swtstudy.mechanics.control.prescribed import Prescribed
 from swtstudy.mechanics.line.climb import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
-from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
+from swtstudy.mechanics.line.singular_edge import _seen_from_edge, at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
@@ -178,6 +178,7 @@ def test_the_radius_at_a_force_is_the_inverse_of_the_force(name: str) -> None:
     np.testing.assert_allclose(at, force, rtol=0.0, atol=1e-7)
     taken = coordinate.take(np.array([1, 0, 1]))
     np.testing.assert_array_equal(taken.radius(force[[1, 0, 1]]), radius[[1, 0, 1]])
+    np.testing.assert_array_equal(taken.take(np.array([2, 1])).radius(force[[1, 0]]), radius[[1, 0]])
     at_radius, slope = coordinate.with_weighted_slope(radius)
     np.testing.assert_array_equal(at_radius, coordinate.of(radius))
     np.testing.assert_array_equal(slope, profile.weighted_slope(radius))
@@ -236,6 +237,9 @@ def test_sliding_next_to_a_flat_faces_edge_is_the_same_in_both_controls() -> Non
         assert not out_of_equilibrium(scene.cycle.load, True, True)[0]
         accuracy = Accuracy.for_tolerance(1e-5)
         found.append(at_edge(scene, maximum(scene, accuracy), accuracy))
+    edge, force = _seen_from_edge(scene.coordinate, np.ones((1, 1))), np.array([[0.3, 1.0]])
+    np.testing.assert_allclose(edge.radius(force), scene.coordinate.radius(force))
+    np.testing.assert_allclose(edge.of(flat), scene.coordinate.of(np.hypot(flat, 1e-7 * flat)), rtol=0.05)
     assert [abs(one.position[0]) for one in found] == [flat[0], flat[0]]
     assert found[1].swt[0] == pytest.approx(found[0].swt[0], rel=2e-5)
 
@@ -288,7 +292,7 @@ def test_what_cannot_be_carried_is_told() -> None:
     assert not out_of_equilibrium(load, False, False).any()
     psi = np.linspace(0.0, 3.0, 7)
     limit = -0.6 * np.abs(np.cos(psi)) + np.sqrt(1.0 - 0.36 * np.sin(psi) ** 2)
-    for share, lost in ((1.0 - 1e-9, False), (1.0 + 1e-9, True)):
+    for share, lost in ((1.0 - 1e-9, False), (1.0, False), (1.0 + 1e-9, True)):
         load = BimodalLoad(np.full(7, 0.6), share * limit, psi, 1, 1)
         np.testing.assert_array_equal(out_of_equilibrium(load, True, True), lost)
 

@@ -65,6 +65,32 @@ def test_sides_along_the_slip_lines_are_ties() -> None:
     np.testing.assert_allclose(tangential_force(cycle, depths, instants), expected, rtol=0.0, atol=1e-12)
 
 
+def test_both_components_are_exact_at_the_vertices() -> None:
+    rng = np.random.default_rng(4)
+    load = PolygonLoad.of([random_loop(rng, k) for k in (7, 11, 49)])
+    for row, sides in enumerate(load.sides):
+        one = load.take(np.array([row]))
+        at = 2.0 * np.pi / sides * np.arange(sides + 1)[None]
+        np.testing.assert_array_equal(one.normal(at), one.corner_normal[:, : sides + 1])
+        np.testing.assert_array_equal(one.tangential(at), one.corner_tangential[:, : sides + 1])
+
+
+@pytest.mark.parametrize("less", [1e-15, 3e-15, 1e-14, 1e-13, 1e-12])
+def test_growth_nearly_along_the_slip_line(less: float) -> None:
+    rng = np.random.default_rng(6)
+    for _ in range(12):
+        a, b, c, d = rng.uniform(0.05, 0.3, 4)
+        step = [[0.0, 0.0], [a, 0.2 * a], [b, b * (1.0 - less)], [c, -0.3 * c], [-0.05, 0.2 * d], [0.0, d]]
+        loop = np.array([0.7, 0.013]) + np.cumsum(step, axis=0)
+        load = PolygonLoad.of([loop])
+        depths, instants = np.linspace(0.0, 1.6, 401), np.sort(rng.uniform(0.0, PERIOD, 60))
+        path = np.concatenate([[[0.7, 0.0]], loop, loop, loop, loop[:1]])
+        place = 1.0 + load.sides[0] * (instants / PERIOD + 2.0)
+        expected = spring_forces(polygon(*path.T), depths, place)
+        found = tangential_force(solve_cycle(load), depths, instants)
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11)
+
+
 def test_sampled_cycles_converge_to_the_harmonic_one() -> None:
     one = np.ones(1)
     exact = s_of(BimodalLoad(0.75 * one, 5 / 6 * one, 2.3 * one, 1, 1)).swt[0]
