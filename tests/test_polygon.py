@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 
 from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.memory import Memory
+from swtstudy.mechanics.contact.slip_front import slip_states
 from swtstudy.mechanics.control.prescribed import Prescribed
 from swtstudy.mechanics.line.climb import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
@@ -173,3 +175,19 @@ def test_passages_are_where_the_loads_have_the_values() -> None:
             brackets = load.slip_line_brackets(sense, begin[:, i], end[:, i])
             at = load.slip_line_instant(sense, goal[:, i], brackets)
             np.testing.assert_allclose(at, instant[:, i], rtol=0.0, atol=1e-11)
+
+
+def test_a_front_in_a_line_as_steep_as_the_slip_line_stays_in_its_piece() -> None:
+    # Its distance is a quotient of roundings: 2, beyond the edge.
+    tiny = 2.0**-52
+    tangential = 0.5 - tiny
+    load = PolygonLoad.of([np.array([[1.5, tangential], [1.5, 0.1]])])
+    memory = Memory.empty(1, 1, 2)
+    memory.start[...], memory.offset[...], memory.slope[...] = (
+        [0.0, 0.5],
+        [-1.0, -0.5 - tiny],
+        [1.0 - 0.5 * tiny, 0.0],
+    )
+    yes, no = np.ones((1, 1), dtype=bool), np.zeros((1, 1), dtype=bool)
+    states = slip_states(load, memory, (yes, no), np.zeros((1, 1), dtype=np.intp), np.zeros((1, 1)))
+    assert states.front[0, 0] == 0.5
