@@ -256,6 +256,9 @@ def test_dissipated_work_is_mindlins() -> None:
     assert np.isnan(found.permanent_stick_radius[-1])
     np.testing.assert_allclose(found.largest_radius, 1.0)
     np.testing.assert_allclose(found.largest_force_ratio, 1.0 - stick**1.5, rtol=1e-9)
+    straight = PolygonLoad.of([np.array([[1.0, value], [1.0, -value]]) for value in u])
+    found = cycle_results(scene_of(straight, Prescribed()), units(straight, "paraboloid"))
+    np.testing.assert_allclose(found.dissipated_work, expected, rtol=1e-7, atol=1e-13)
 
 
 @pytest.mark.parametrize(("normal_force", "tangential_force"), EVERY)
