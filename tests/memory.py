@@ -67,8 +67,9 @@ def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[f
     def piece_slope(g: float, k: int) -> float:
         if slope[k] != GROWTH:
             return -float(slope[k])
-        touch = load.touch_down(np.array([g]), branch[k : k + 1])
-        return -float((load.tangential_rate(touch) / load.normal_rate(touch))[0])
+        touch = load.touch_down(np.reshape(g, (1, -1)), branch[k : k + 1])
+        rate = -load.tangential_rate(touch) / load.normal_rate(touch)
+        return rate.reshape(np.shape(g))[()]
 
     ends = np.append(np.minimum(start[: piece + 1], front), front)
     found: list[tuple[float, float, Callable[[float], float]]] = [

@@ -31,6 +31,8 @@ class _Course:
         Shape (n, i): whether springs may slip forward or backward, and whether ground is gained in stick.
     branch
         Shape (n, i): the load's branch in which the interval lies.
+    growth
+        Shape (n, i): slope of what grows in stick: `GROWTH`, or that of a line.
     """
 
     instant: FloatArray
@@ -40,6 +42,7 @@ class _Course:
     backward: NDArray[np.bool_]
     grows: NDArray[np.bool_]
     branch: IntArray
+    growth: FloatArray
 
 
 def solve_cycle(load: Load) -> Cycle:
@@ -86,14 +89,17 @@ def _course(load: Load) -> _Course:
     forward, backward = tangential_rate > normal_rate, tangential_rate < -normal_rate
     edge = np.maximum(load.normal(instant), 0.0)
     grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > NO_GROWTH)
-    return _Course(instant, edge, load.tangential(instant), forward, backward, grows, load.branch(middle))
+    growth = np.full(grows.shape, GROWTH)
+    if load.grows_in_lines:
+        np.divide(tangential_rate, normal_rate, out=growth, where=grows)
+    tangential, branch = load.tangential(instant), load.branch(middle)
+    return _Course(instant, edge, tangential, forward, backward, grows, branch, growth)
 
 
 def _grow(stack: Memory, course: _Course, i: int) -> None:
     """What is gained in stick remembers the tangential load at touch-down."""
-    before, now, flat = course.edge[:, i], course.edge[:, i + 1], np.full(len(course.grows), GROWTH)
-    number = np.full(len(flat), i)
-    piece = Memory(before, course.tangential[:, i], flat, now, course.branch[:, i], number)
+    before, now, number = course.edge[:, i], course.edge[:, i + 1], np.full(len(course.grows), i)
+    piece = Memory(before, course.tangential[:, i], course.growth[:, i], now, course.branch[:, i], number)
     _push(stack, course.grows[:, i], piece)
 
 

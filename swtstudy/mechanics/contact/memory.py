@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Value of `Memory.slope` that marks a piece left by growth in stick.
+#: Value of `Memory.slope` that marks a piece left by growth in stick which is no line.
 GROWTH = 2.0
 
 
@@ -25,7 +26,7 @@ class Memory:
     offset
         o at the start.
     slope
-        do/dG of the piece: −1, 0, +1 or `GROWTH`.
+        do/dG of the piece, from −1 to 1, or `GROWTH`.
     stop
         Of a growth: the coordinate at which it ended.
     branch
@@ -111,3 +112,52 @@ class Growths:
         index = np.zeros(grown.shape, dtype=np.intp)
         index[grown] = place
         return cls(begin, end, branch, index)
+
+
+@dataclass(frozen=True)
+class DistinctPieces:
+    """The distinct pieces of the memory of n cycles, m at most in a row; shorter rows repeat their first.
+
+    What lies beneath a piece of a stack never changes, so that many intervals share a piece and all of it.
+
+    Attributes
+    ----------
+    start, slope
+        Shape (n, m): as in `Memory`; an empty stack is a piece that starts at 0.
+    first
+        Shape (n, m): where in the flattened memory (n, i·d) each is first met.
+    level
+        Shape (n, m): number of pieces beneath.
+    below
+        Shape (n, m): number of the piece right beneath, its own for the lowest.
+    index
+        Shape (n, i, d): the number of each piece of the memory.
+    """
+
+    start: FloatArray
+    slope: FloatArray
+    first: NDArray[np.intp]
+    level: NDArray[np.intp]
+    below: NDArray[np.intp]
+    index: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, memory: Memory) -> DistinctPieces:
+        """The pieces of a memory of shape (n, i, d)."""
+        n, intervals, depth = memory.start.shape
+        finite = np.isfinite(memory.start)
+        new = np.ones(finite.shape, dtype=bool)
+        same = memory.start[:, 1:] == memory.start[:, :-1]
+        same &= memory.slope[:, 1:] == memory.slope[:, :-1]
+        same &= memory.growth[:, 1:] == memory.growth[:, :-1]
+        new[:, 1:] = ~np.logical_and.accumulate(same, axis=-1)
+        new[..., 1:] &= finite[..., 1:]
+        interval = np.arange(intervals)[:, None]
+        since = np.maximum.accumulate(np.where(new, interval, 0), axis=1)
+        number = np.cumsum(new.reshape(n, -1), axis=1) - 1
+        index = gather(number, (since * depth + np.arange(depth)).reshape(n, -1)).reshape(finite.shape)
+        below = np.concatenate([index[..., :1], index[..., :-1]], axis=-1)
+        every = np.broadcast_to(np.arange(intervals * depth), (n, intervals * depth))
+        (first,) = packed(new.reshape(n, -1), every)
+        start, slope, below = (gather(v.reshape(n, -1), first) for v in (memory.start, memory.slope, below))
+        return cls(np.where(np.isfinite(start), start, 0.0), slope, first, first % depth, below, index)

@@ -99,6 +99,9 @@ def _front_in_piece(
     # On a line of the same sense h is constant: the front is at its end, in a tie that recurs every cycle.
     end = np.where(known == last, np.inf, memory.start.take(at + (known < last)))
     front = np.where(steep > 0.0, start + fall / np.where(steep > 0.0, steep, 1.0), end)
+    if load.grows_in_lines:
+        # A line may be nearly as steep as the slip line: rounding leads out of its piece.
+        front = np.clip(front, start, end)
     grown = active & (slope == GROWTH) & (piece >= 0)
     if np.any(grown):
         row = np.nonzero(grown)[0]

@@ -12,7 +12,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, IntArray
+
+#: Steps that invert the normal force fall back to bisection, so this many always suffice; the last one,
+#: relative: its square is the error.
+LARGEST_STEP_COUNT, LAST_STEP = 60, 1e-8
 
 
 class Primitives(ABC):
@@ -130,6 +135,37 @@ class Profile(ABC):
     @abstractmethod
     def half_load(self, radius: FloatArray) -> FloatArray:
         """∫ ξ g′ dξ from b to ``radius``: half of the normal force over E* δ0 a_H."""
+
+    def half_load_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`half_load` and `weighted_slope` in one."""
+        return self.half_load(radius), self.weighted_slope(radius)
+
+    def radius_of_half_load(self, half_load: FloatArray) -> FloatArray:
+        """Contact radius ξ/a_H at the half of a normal force: the inverse of `half_load`, b at no force."""
+        b, goal = align(self.flat_radius, half_load), np.maximum(half_load, 0.0)
+        # dH/dw = m in w = √(ξ² − b²), in which H is nearly a cubic power.
+        w = self._rise_at_half_load(goal)
+        low, high = np.zeros_like(w), np.full_like(w, np.inf)
+        for _ in range(LARGEST_STEP_COUNT):
+            radius = np.hypot(w, b)
+            found, slope = self.half_load_and_weighted_slope(radius)
+            low, high = np.where(found < goal, w, low), np.where(found < goal, high, w)
+            ratio = np.cbrt(np.divide(goal, found, out=np.ones_like(w), where=found > 0.0))
+            step = np.divide(
+                3.0 * found * (ratio - 1.0), slope, out=np.full_like(w, np.inf), where=slope > 0.0
+            )
+            step = np.where(found == goal, 0.0, step)
+            new = w + step
+            middle = np.where(np.isfinite(high), 0.5 * (low + high), 2.0 * w)
+            new = np.where((new >= low) & (new <= high), new, middle)
+            last, w = np.abs(new - w), new
+            if np.all(last <= LAST_STEP * w):
+                break
+        return np.hypot(w, b)
+
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        """A first guess of w = √(ξ² − b²) at the half of a normal force."""
+        return np.cbrt(2.0 * half_load)
 
     @abstractmethod
     def primitives(self, position: FloatArray, digits: float) -> Primitives:

@@ -75,6 +75,11 @@ class RoundedPunch(FlatFaced):
         b, w = self._face(radius), self._rise(radius)
         return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * np.arctan2(w, b) - b * w)
 
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        root = np.cbrt(half_load)
+        ratio = self._face(half_load) / np.maximum(root, 1e-100)
+        return root * np.interp(1.0 / (1.0 + ratio), *_rise_by_load_table())
+
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return RoundedPrimitives(self, position, self.radius(self.largest_depth), digits)
 
@@ -137,6 +142,20 @@ def _rise_table() -> tuple[FloatArray, FloatArray]:
     return np.concatenate([[0.0], abscissa, [1.0]]), np.concatenate([[1.0], ratio, [1.0]])
 
 
+@lru_cache(maxsize=1)
+def _rise_by_load_table() -> tuple[FloatArray, FloatArray]:
+    """w/H^⅓ over 1/(1 + b/H^⅓), for `RoundedPunch.radius_of_half_load`."""
+    angle = np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
+    # With b = 1: w = tan; the series keeps the difference exact for small angles.
+    w = np.tan(angle)
+    series = w**3 / 3.0 + w**5 / 15.0 - w**7 / 35.0
+    half_load = np.where(angle < 0.02, series, (2.0 / 3.0) * w**3 - 0.5 * ((w * w + 1.0) * angle - w))
+    root = np.cbrt(half_load)
+    ends = np.cbrt(3.0), np.cbrt(1.5)
+    abscissa = root / (1.0 + root)
+    return np.concatenate([[0.0], abscissa, [1.0]]), np.concatenate([ends[:1], w / root, ends[1:]])
+
+
 class TruncatedParaboloid(FlatFaced):
     """g = ξ w; the pressure is logarithmically infinite at r = b."""
 
@@ -167,6 +186,11 @@ class TruncatedParaboloid(FlatFaced):
     def half_load(self, radius: FloatArray) -> FloatArray:
         b, w = self._face(radius), self._rise(radius)
         return w * ((2.0 / 3.0) * w * w + b * b)
+
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        # The real root of the cubic w³ + (3/2) b² w = (3/2) H.
+        b = np.maximum(self._face(half_load), 1e-100)
+        return np.sqrt(2.0) * b * np.sinh(np.arcsinh(1.5 * np.sqrt(2.0) * half_load / b**3) / 3.0)
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return TruncatedPrimitives(self, position, self.radius(self.largest_depth), digits)

@@ -51,5 +51,8 @@ class Paraboloid(Profile):
     def half_load(self, radius: FloatArray) -> FloatArray:
         return (2.0 / 3.0) * radius**3
 
+    def radius_of_half_load(self, half_load: FloatArray) -> FloatArray:
+        return np.cbrt(1.5 * np.maximum(half_load, 0.0))
+
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return ParaboloidPrimitives(position)

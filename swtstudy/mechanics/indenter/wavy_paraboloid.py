@@ -49,6 +49,9 @@ class WavyParaboloid(Profile):
         shape = {"waviness_amplitude": waviness_amplitude, "wavelength": wavelength}
         level = self.roughness(largest_depth, **shape).max(initial=0)
         self.phase = ROUGHNESS_STEP * float(level)
+        #: Those whose tables of first guesses these share, and which of them each one is.
+        self._origin: WavyParaboloid | None = None
+        self._row = np.arange(len(largest_depth))
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
@@ -85,9 +88,11 @@ class WavyParaboloid(Profile):
         return "wavelength", float(_smallest_wavelength(largest_depth, h, wavelength))
 
     def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
-        return WavyParaboloid(
+        taken = WavyParaboloid(
             self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
         )
+        taken._origin, taken._row = self._origin or self, self._row[index]
+        return taken
 
     def extra_nodes(self, digits: float) -> int:
         return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
@@ -104,16 +109,18 @@ class WavyParaboloid(Profile):
         """g and g′ = 2ξ + (π/2) h k [H₀ + z (2/π − H₁)]."""
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
-        zeroth, first = struve_functions(z)
+        struve = struve_functions(z)
+        return radius * radius + (0.5 * np.pi) * h * z * struve[0], self._slope(radius, struve)
+
+    def _slope(self, radius: FloatArray, struve: tuple[FloatArray, FloatArray]) -> FloatArray:
+        h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
+        zeroth, first = struve
         wave = (0.5 * np.pi) * h
-        slope = 2.0 * radius + wave * k * (zeroth + z * (2.0 / np.pi - first))
-        return radius * radius + wave * z * zeroth, slope
+        return 2.0 * radius + wave * k * (zeroth + k * radius * (2.0 / np.pi - first))
 
     def radius(self, depth: FloatArray) -> FloatArray:
         depth = np.maximum(depth, 0.0)
-        guess, root = np.empty_like(depth), np.sqrt(depth)
-        for row, (known, radius) in enumerate(zip(*self._guesses, strict=True)):
-            guess[row] = np.interp(root[row], known, radius)
+        guess = self._interpolated(np.sqrt(depth), (self._origin or self)._guesses)
         # To the last digit: at a turning point an error of r is an error of its root in time.
         for _ in range(2):
             value, slope = self._with_slope(guess)
@@ -121,6 +128,16 @@ class WavyParaboloid(Profile):
             step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
             guess = np.maximum(guess - step, 0.0)
         return guess
+
+    def _interpolated(self, at: FloatArray, table: tuple[FloatArray, FloatArray]) -> FloatArray:
+        """Values at (n, …) in tables with one row for each of the profiles that these were taken from."""
+        result = np.empty_like(at)
+        order = np.argsort(self._row, kind="stable")
+        ends = np.flatnonzero(np.diff(self._row[order])) + 1
+        for same in np.split(order, ends) if order.size else ():
+            known, value = (column[self._row[same[0]]] for column in table)
+            result[same] = np.interp(at[same], known, value)
+        return result
 
     @cached_property
     def _guesses(self) -> tuple[FloatArray, FloatArray]:
@@ -136,13 +153,29 @@ class WavyParaboloid(Profile):
         return depth, radius * slope
 
     def half_load(self, radius: FloatArray) -> FloatArray:
+        return self._half_load(radius, struve_functions(align(self.wave_number, radius) * radius))
+
+    def half_load_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        struve = struve_functions(align(self.wave_number, radius) * radius)
+        return self._half_load(radius, struve), radius * self._slope(radius, struve)
+
+    def _half_load(self, radius: FloatArray, struve: tuple[FloatArray, FloatArray]) -> FloatArray:
         # ∫ ξ g′ dξ = ξ g − ∫ g dξ, and ∫ z H₀ dz = z H₁.
         h, k = align(self.waviness_amplitude, radius), align(self.wave_number, radius)
         z = k * radius
-        zeroth, first = struve_functions(z)
+        zeroth, first = struve
         wave = z * z * zeroth - z * first
         scale = np.divide(0.5 * np.pi * h, k, out=np.zeros_like(k), where=k > 0.0)
         return (2.0 / 3.0) * radius**3 + scale * wave
+
+    def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
+        return self._interpolated(np.cbrt(half_load), (self._origin or self)._guesses_by_load)
+
+    @cached_property
+    def _guesses_by_load(self) -> tuple[FloatArray, FloatArray]:
+        """The cubic root of `half_load`, nearly straight, at the radii of `_guesses`, each (n, k)."""
+        radius = self._guesses[1]
+        return np.cbrt(np.maximum(self.half_load(radius), 0.0)), radius
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         largest = self.radius(self.largest_depth)

@@ -23,7 +23,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.control.coordinate import DepthCoordinate
+from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
+from swtstudy.mechanics.control.force import ForceCoordinate
 from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives, Profile
@@ -174,7 +175,7 @@ def _swt(
     is interpolated only where its neighbours belong to the same smooth stretch.
     """
     profile = scene.profile
-    edge = _EdgeCoordinate(_SeenFromEdge(profile.largest_depth, profile.flat_radius, distance))
+    edge = _seen_from_edge(scene.coordinate, distance)
     position = np.broadcast_to(profile.flat_radius[:, None], distance.shape)
     look = Look.at(replace(scene, coordinate=edge), position, steps, digits)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
@@ -207,6 +208,23 @@ class _EdgeCoordinate(DepthCoordinate):
 
     def of(self, radius: FloatArray) -> FloatArray:
         return np.maximum(super().of(radius), ONSET * align(self.profile.flat_radius, radius) ** 2)
+
+
+class _EdgeForceCoordinate(ForceCoordinate):
+    """The same by the normal force, which is b² w/unit there."""
+
+    def of(self, radius: FloatArray) -> FloatArray:
+        onset = ONSET * self.profile.flat_radius**3 / self.unit
+        return np.maximum(super().of(radius), align(onset, radius))
+
+
+def _seen_from_edge(coordinate: Coordinate, distance: FloatArray) -> Coordinate:
+    """The coordinate of n truncated paraboloids as it is seen from r = b⁺, at L of shape (n, X)."""
+    profile = coordinate.profile
+    seen = _SeenFromEdge(profile.largest_depth, profile.flat_radius, distance)
+    if isinstance(coordinate, ForceCoordinate):
+        return _EdgeForceCoordinate(seen, coordinate.unit)
+    return _EdgeCoordinate(seen)
 
 
 @dataclass(frozen=True)

@@ -84,11 +84,14 @@ class BimodalLoad(Load):
         return self.q % 2 == 0
 
     def turning_instants(self) -> FloatArray:
-        q = self.q
+        slip_lines = [_turning_points_of_slip_line(self, sign) for sign in (1.0, -1.0)]
+        return np.sort(np.concatenate([self.normal_turning_instants(), *slip_lines], axis=1), axis=1)
+
+    def normal_turning_instants(self) -> FloatArray:
+        """Those of `turning_instants` at which the normal load turns, or contact is made or lost."""
+        q, d = self.q, self.normal_amplitude
         quarter = np.pi * (np.arange(2 * q) + 0.5)
         columns = [np.mod((quarter - self.phase[:, None]) / q, PERIOD)]
-        columns += [_turning_points_of_slip_line(self, sign) for sign in (1.0, -1.0)]
-        d = self.normal_amplitude
         if np.any(d > 1.0):
             fall = np.arcsin(1.0 / np.maximum(d, 1.0))
             turns = 2.0 * np.pi * np.arange(q)
@@ -106,13 +109,16 @@ class BimodalLoad(Load):
         return self._on_branch(self._sine(normal), branch)
 
     def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
-        sine = self._sine(normal)
-        d = align(self.normal_amplitude, normal)
-        normal_rate = self.q * d * np.sqrt(1.0 - sine * sine)
-        rate = self.tangential_rate(self._on_branch(sine, branch))
+        rate, normal_rate = self.rates_at_touch_down(normal, branch)
         # At a common turning point of both loads the ratio is bounded by 1, as everywhere in stick.
         ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
         return -np.clip(ratio, -1.0, 1.0)
+
+    def rates_at_touch_down(self, normal: FloatArray, branch: IntArray) -> tuple[FloatArray, FloatArray]:
+        """The rates of the tangential and the normal load at `touch_down`."""
+        sine = self._sine(normal)
+        normal_rate = self.q * align(self.normal_amplitude, normal) * np.sqrt(1.0 - sine * sine)
+        return self.tangential_rate(self._on_branch(sine, branch)), normal_rate
 
     def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
         low, high, psi = begin[:, None], end[:, None], self.phase[:, None, None]

@@ -82,6 +82,11 @@ class Load(ABC):
     def mirrored_half(self) -> bool:
         """Whether half a period later the normal load is the same and the tangential one has changed sign."""
 
+    @property
+    def grows_in_lines(self) -> bool:
+        """Whether the ratio of both rates is constant between turning instants."""
+        return False
+
     @abstractmethod
     def turning_instants(self) -> FloatArray:
         """All instants at which a component or a slip line turns, or contact is made or lost.

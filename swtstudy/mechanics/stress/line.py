@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
@@ -65,43 +65,52 @@ class SurfaceLine:
             for distance in arrival(cycle.load, coordinate, position)
         )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
-        #: Shape (3, n, X, i·d): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
+        self.pieces = DistinctPieces.of(cycle.memory)
+        #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
 
     def _base(self) -> FloatArray:
-        """Integrals over all pieces inside of each piece, and slope · A at its start."""
-        memory, (n, columns) = self.cycle.memory, self.position.shape
-        starts = np.where(np.isfinite(memory.start), memory.start, 0.0)
-        breakpoints, number = distinct(starts.reshape(n, -1))
+        """Integrals over all pieces inside of each distinct piece, and slope · A at its start."""
+        pieces, (n, columns) = self.pieces, self.position.shape
+        breakpoints, number = distinct(pieces.start)
         radius = self.coordinate.radius(breakpoints)
-        at_start = np.empty((3, n, columns, *starts.shape[1:]))
+        at_start = np.empty((3, n, columns, pieces.start.shape[1]))
         for component, values in zip(at_start, self._full_slip(radius[:, None]), strict=True):
-            component[...] = gather(values, number[:, None]).reshape(component.shape)
-        slope = _line_slope(memory.slope)[:, None]
-        piece = -slope[..., :-1] * np.diff(at_start, axis=-1)
+            component[...] = gather(values, number[:, None])
+        slope = _line_slope(pieces.slope)
+        base = slope[:, None] * at_start
+        if pieces.level.max(initial=0) == 0:
+            return base
+        below = gather(slope, pieces.below)[:, None]
+        part = -below * (at_start - gather(at_start, pieces.below[:, None]))
         if self.growth.count:
-            self._put_growths(piece, gather(radius, number).reshape(starts.shape))
-        inside = np.zeros_like(at_start)
-        np.cumsum(piece, axis=-1, out=inside[..., 1:])
-        return (inside + slope * at_start).reshape(3, n, columns, -1)
+            self._put_growths(part, gather(radius, number))
+        inside = np.zeros_like(part)
+        for level in range(1, int(pieces.level.max()) + 1):
+            row, piece = np.nonzero(pieces.level == level)
+            of_lower = inside[:, row, :, pieces.below[row, piece]]
+            inside[:, row, :, piece] = of_lower + part[:, row, :, piece]
+        return inside + base
 
-    def _put_growths(self, piece: FloatArray, start: FloatArray) -> None:
-        """Put the integrals over growths that end at the start of the next piece among those of the lines.
+    def _put_growths(self, part: FloatArray, start: FloatArray) -> None:
+        """Put the integrals over growths right beneath pieces among those of the lines.
 
         Parameters
         ----------
-        piece
-            Shape (3, n, X, i, d − 1).
+        part
+            Shape (3, n, X, m).
         start
-            Shape (n, i, d): radius at which each piece begins.
+            Shape (n, m): radius at which each piece begins.
         """
-        memory, columns = self.cycle.memory, self.position.shape[1]
-        finite = np.isfinite(memory.start)
-        row, i, d = np.nonzero((finite & (memory.slope == GROWTH))[..., :-1] & finite[..., 1:])
-        up_to, index = start[row, i, d + 1], self.growth.index[row, i, d]
-        many = np.broadcast_arrays(row[:, None], np.arange(columns), index[:, None], up_to[:, None])
-        part = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
-        piece[:, row, :, i, d] = np.moveaxis(part, 0, 1)
+        pieces, columns = self.pieces, self.position.shape[1]
+        grown = (gather(pieces.slope, pieces.below) == GROWTH) & (pieces.level > 0)
+        row, piece = np.nonzero(grown)
+        index = self.growth.index.reshape(len(start), -1)[row, pieces.first[row, pieces.below[row, piece]]]
+        many = np.broadcast_arrays(
+            row[:, None], np.arange(columns), index[:, None], start[row, piece][:, None]
+        )
+        found = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
+        part[:, row, :, piece] = np.moveaxis(found, 0, 1)
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
@@ -131,14 +140,15 @@ class SurfaceLine:
 
     def _tangential(self, nodes: Nodes, states: SlipStates, at_edge: tuple[FloatArray, ...]) -> FloatArray:
         """T1, T3 and the traction, each over π, from the full-slip integrals up to the edge, (3, n, X, T)."""
-        memory, (n, columns) = self.cycle.memory, self.position.shape
-        place = nodes.interval * memory.start.shape[-1] + states.piece
-        slope = gather(memory.slope.reshape(n, -1), place)
+        pieces, (n, columns) = self.pieces, self.position.shape
+        place = nodes.interval * pieces.index.shape[-1] + states.piece
+        piece = gather(pieces.index.reshape(n, -1), place)
+        slope = gather(pieces.slope, piece)
         front = self._spread_radius(nodes, self.coordinate.radius(states.front), self.front_at_r)
-        at_place, sign = nodes.spread(place), nodes.spread(states.sign)
+        at_piece, sign = nodes.spread(piece), nodes.spread(states.sign)
         bend = sign - nodes.spread(_line_slope(slope))
-        rows, places = np.arange(n)[:, None, None], self.base.shape[-1]
-        of_base = (rows * columns + np.arange(columns)[:, None]) * places + at_place
+        rows, count = np.arange(n)[:, None, None], self.base.shape[-1]
+        of_base = (rows * columns + np.arange(columns)[:, None]) * count + at_piece
         total = self._full_slip(front)
         for result, base, edge_part in zip(total, self.base, at_edge, strict=True):
             result *= bend
@@ -148,7 +158,7 @@ class SurfaceLine:
         if np.any(grown):
             # The part of a growth inside of the front, where the front cuts it.
             row, column, _ = where = np.nonzero(nodes.spread(grown))
-            index = self.growth.index.reshape(n, -1)[row, at_place[where]]
+            index = self.growth.index.reshape(n, -1)[row, pieces.first[row, at_piece[where]]]
             parts = self.growth.up_to(row, column, index, front[where])
             for component, part in zip(total, parts, strict=True):
                 component[where] += part

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
+from swtstudy.mechanics.control.prescribed import Prescribed
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
@@ -69,3 +71,33 @@ def scene_of(points: Points) -> Scene:
     load = load_of(points)
     profile = make_profile(points.profile, points.shape, load.largest_normal)
     return Scene(solve_cycle(load), DepthCoordinate(profile), points.poisson_ratio, points.friction)
+
+
+def prescribed_scene(
+    load: Load,
+    prescribed: Prescribed,
+    poisson_ratio: FloatArray,
+    friction: FloatArray,
+    profile: str = "paraboloid",
+    shape: dict[str, FloatArray] | None = None,
+) -> Scene:
+    """The scenes of n loads of one kind, prescribed as displacements or forces.
+
+    Parameters
+    ----------
+    load
+        n loads as they are prescribed.
+    prescribed
+        What of them is a force.
+    poisson_ratio, friction
+        Shape (n,).
+    profile, shape
+        Family and shape parameters, each of shape (n,), of n profiles of one roughness.
+
+    Raises
+    ------
+    ValueError
+        See `Prescribed.diagram`.
+    """
+    in_diagram, coordinate = prescribed.diagram(profile, shape or {}, load)
+    return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)

@@ -1,0 +1,37 @@
+"""Whether prescribed forces can be carried at all: otherwise the body slides away or falls apart."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.load.load import Load
+
+#: Excess that is rounding, in the largest normal load.
+ROUNDING = 1e-12
+
+
+def out_of_equilibrium(load: Load, normal_force: bool, tangential_force: bool) -> NDArray[np.bool_]:
+    """Whether there is no state of equilibrium at some instant, so that there is no stationary cycle.
+
+    A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.
+
+    Parameters
+    ----------
+    load
+        n loads in the coordinate of the memory diagram.
+    normal_force, tangential_force
+        What of them is prescribed as a force.
+
+    Returns
+    -------
+    Shape (n,).
+    """
+    least = -ROUNDING * load.largest_normal
+    lost = load.least_normal < least if normal_force else np.zeros(len(load), dtype=bool)
+    if tangential_force:
+        instants = load.turning_instants()
+        # The normal force has none where the bodies are apart.
+        normal, tangential = np.maximum(load.normal(instants), 0.0), np.abs(load.tangential(instants))
+        lost = lost | ((normal - tangential).min(axis=1) < least)
+    return np.asarray(lost)

@@ -1,0 +1,161 @@
+"""A load whose normal component is prescribed in the other coordinate than the diagram's."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.control.normal_map import NormalMap
+from swtstudy.mechanics.load.bimodal import NO_AMPLITUDE, BimodalLoad
+from swtstudy.mechanics.load.load import PERIOD, Load
+from swtstudy.mechanics.numerics.arrays import filled_rows
+from swtstudy.mechanics.numerics.cosine import between
+from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+#: Instants between two turns of the normal load at which turns of a slip line are looked for: so many, so
+#: many more for each tangential oscillation in that time, and for each wave that the contact edge passes.
+LEAST_COUNT, COUNT_PER_OSCILLATION, COUNT_PER_WAVE = 8, 32, 12
+#: The first of them lies so far behind the turn, in shares of π of the cosine's angle: where contact is made
+#: the map's derivative jumps.
+INSIDE = 1e-4
+#: Last step of Newton's method in rad; its square is the error.
+LAST_STEP = 1e-8
+
+
+@dataclass(frozen=True)
+class MappedLoad(Load):
+    """n harmonic loads with their normal components mapped.
+
+    Attributes
+    ----------
+    given
+        The loads as they are prescribed.
+    map
+        n monotone functions to the normal loads of the diagram.
+    """
+
+    given: BimodalLoad
+    map: NormalMap
+
+    def __len__(self) -> int:
+        return len(self.given)
+
+    def take(self, index: NDArray[np.intp]) -> MappedLoad:
+        return MappedLoad(self.given.take(index), self.map.take(index))
+
+    def normal(self, instant: FloatArray) -> FloatArray:
+        return self.map.value(self.given.normal(instant))
+
+    def tangential(self, instant: FloatArray) -> FloatArray:
+        return self.given.tangential(instant)
+
+    def normal_rate(self, instant: FloatArray) -> FloatArray:
+        return self.map.slope(self.given.normal(instant)) * self.given.normal_rate(instant)
+
+    def tangential_rate(self, instant: FloatArray) -> FloatArray:
+        return self.given.tangential_rate(instant)
+
+    @property
+    def least_normal(self) -> FloatArray:
+        return self.map.value(self.given.least_normal)
+
+    @property
+    def largest_normal(self) -> FloatArray:
+        return self.map.value(self.given.largest_normal)
+
+    @property
+    def motion(self) -> FloatArray:
+        range_ = 0.5 * (self.largest_normal - self.least_normal)
+        return np.asarray(range_ + self.given.tangential_amplitude)
+
+    @property
+    def moves_tangentially(self) -> NDArray[np.bool_]:
+        return self.given.moves_tangentially
+
+    @property
+    def oscillations(self) -> tuple[int, int]:
+        return self.given.oscillations
+
+    @property
+    def mirrored_half(self) -> bool:
+        return self.given.mirrored_half
+
+    def turning_instants(self) -> FloatArray:
+        turns = self.given.normal_turning_instants()
+        columns = [turns, *(self._turning_points_of_slip_line(sign, turns) for sign in (1.0, -1.0))]
+        return np.sort(np.concatenate(columns, axis=1), axis=1)
+
+    def branch(self, instant: FloatArray) -> IntArray:
+        return self.given.branch(instant)
+
+    def touch_down(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        return self.given.touch_down(self.map.inverse(normal), branch)
+
+    def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        given = self.map.inverse(normal)
+        rate, normal_rate = self.given.rates_at_touch_down(given, branch)
+        normal_rate = normal_rate * self.map.slope(given)
+        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
+        return -np.clip(ratio, -1.0, 1.0)
+
+    def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
+        return self.given.passage(self.map.inverse(normal), begin, end)
+
+    def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
+        return Brackets.of(self._slip_line(sense), low, high)
+
+    def slip_line_instant(self, sense: float, goal: FloatArray, brackets: Brackets) -> FloatArray:
+        return monotone_roots(self._slip_line(sense), goal, brackets)
+
+    def _slip_line(self, sense: float) -> Function:
+        """The slip line sense·tangential − normal of the loads, and two derivatives."""
+
+        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+            one = self.given.take(active)
+            level, rate = one.normal(instant), one.normal_rate(instant)
+            value, slope, bend = self.map.take(active).with_derivatives(level)
+            u = one.tangential(instant)
+            first = sense * one.tangential_rate(instant) - slope * rate
+            second = one.q**2 * slope * (level - 1.0) - bend * rate * rate - sense * one.p**2 * u
+            return sense * u - value, first, second
+
+        return line
+
+    def _turning_points_of_slip_line(self, sense: float, turns: FloatArray) -> FloatArray:
+        """Zeros of d(sense·tangential − normal)/dφ in a period, shape (n, k), filled up with its end.
+
+        Between two of the normal load's ``turns`` the rate is smooth but for its ends, where the map's
+        derivative may have no bound: cosine-spaced instants resolve it.
+        """
+        n, m = turns.shape
+        low = turns
+        high = np.concatenate([turns[:, 1:], turns[:, :1] + PERIOD], axis=1)
+        angle = np.pi * np.linspace(INSIDE, 1.0 - INSIDE, self._sample_count() + 1)
+        instant = between(low[..., None], high[..., None], angle)
+        samples = self._slip_line_rate(sense, instant.reshape(n, -1))
+        row, first, last = sign_changes(angle, samples.reshape(n * m, -1))
+        slip_line = self.take(row // m)._slip_line(sense)
+
+        def rate(at: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+            _, slope, bend = slip_line(at, active)
+            return slope, bend, np.zeros_like(slope)
+
+        begin, end = (between(low.take(row), high.take(row), where) for where in (first, last))
+        zero = np.zeros(len(row))
+        roots = monotone_roots(rate, zero, Brackets.of(rate, begin, end), LAST_STEP)
+        return filled_rows(row // m, np.mod(roots, PERIOD), n, PERIOD)
+
+    def _slip_line_rate(self, sense: float, instant: FloatArray) -> FloatArray:
+        return sense * self.tangential_rate(instant) - self.normal_rate(instant)
+
+    def _sample_count(self) -> int:
+        normal, tangential = self.oscillations
+        profile = self.map.force.profile
+        reach = profile.radius(profile.largest_depth)
+        waves = float(np.max(reach / profile.feature_length, initial=0.0))
+        count = LEAST_COUNT + COUNT_PER_OSCILLATION * max(0.5 * tangential / normal, 0.5)
+        return math.ceil(count + COUNT_PER_WAVE * waves)

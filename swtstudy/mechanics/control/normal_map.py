@@ -1,0 +1,116 @@
+"""The normal load in the diagram's coordinate, where it is prescribed in the other one.
+
+The diagram's coordinate is that of the tangential control. A prescribed depth becomes the force N(δ), a
+prescribed force the depth G(N): monotone functions of the indenter. Where the bodies are apart, at negative
+values, any monotone continuation will do: the value itself.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.control.force import ForceCoordinate
+from swtstudy.mechanics.points import FloatArray
+
+#: Least contact radius for which derivatives are computed: they have no bound at the tip.
+LEAST_RADIUS = 1e-8
+
+
+@dataclass(frozen=True)
+class NormalMap(ABC):
+    """Monotone functions of n indenters from the prescribed normal load to that of the diagram.
+
+    Attributes
+    ----------
+    force
+        The n indenters, and their normal force over that at δ0.
+    """
+
+    force: ForceCoordinate
+
+    def take(self, index: NDArray[np.intp]) -> NormalMap:
+        """The functions at ``index``, repetitions allowed."""
+        return type(self)(self.force.take(index))
+
+    def value(self, load: FloatArray) -> FloatArray:
+        """The diagram's normal load, shape (n, …)."""
+        return np.where(load > 0.0, self._value(np.maximum(load, 0.0)), load)
+
+    def inverse(self, value: FloatArray) -> FloatArray:
+        """The prescribed normal load at which the diagram has the value, shape (n, …)."""
+        return np.where(value > 0.0, self._inverse(np.maximum(value, 0.0)), value)
+
+    def with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """`value` and two derivatives."""
+        radius = np.maximum(self._radius(np.maximum(load, 0.0)), LEAST_RADIUS)
+        value, slope, bend = self._derivatives(radius)
+        touches = load > 0.0
+        return np.where(touches, value, load), np.where(touches, slope, 1.0), np.where(touches, bend, 0.0)
+
+    def slope(self, load: FloatArray) -> FloatArray:
+        """Derivative of `value`."""
+        return self.with_derivatives(load)[1]
+
+    def _slope_of_depth(self, radius: FloatArray) -> FloatArray:
+        """g′ at radii, nowhere 0."""
+        b = self.force.profile.flat_radius.reshape((-1,) + (1,) * (radius.ndim - 1))
+        rise = np.sqrt(np.maximum((radius - b) * (radius + b), LEAST_RADIUS**2))
+        return np.maximum(self.force.profile.weighted_slope(radius) / rise, LEAST_RADIUS)
+
+    def _unit(self, like: FloatArray) -> FloatArray:
+        return self.force.unit.reshape((-1,) + (1,) * (like.ndim - 1))
+
+    @abstractmethod
+    def _value(self, load: FloatArray) -> FloatArray:
+        """`value` where there is contact."""
+
+    @abstractmethod
+    def _inverse(self, value: FloatArray) -> FloatArray:
+        """`inverse` where there is contact."""
+
+    @abstractmethod
+    def _radius(self, load: FloatArray) -> FloatArray:
+        """Contact radius at the prescribed load."""
+
+    @abstractmethod
+    def _derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """The diagram's normal load at contact radii, and its derivatives by the prescribed one."""
+
+
+class ForceOfDepth(NormalMap):
+    """N(δ), for a tangential force with the depth prescribed: dN = ξ g′ dξ/unit, dδ = g′ dξ."""
+
+    def _value(self, load: FloatArray) -> FloatArray:
+        return self.force.of(self.force.profile.radius(load))
+
+    def _inverse(self, value: FloatArray) -> FloatArray:
+        return self.force.profile.depth(self.force.radius(value))
+
+    def _radius(self, load: FloatArray) -> FloatArray:
+        return self.force.profile.radius(load)
+
+    def _derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        unit = self._unit(radius)
+        return self.force.of(radius), radius / unit, 1.0 / (unit * self._slope_of_depth(radius))
+
+
+class DepthOfForce(NormalMap):
+    """G(N), for a tangential displacement with the normal force prescribed."""
+
+    def _value(self, load: FloatArray) -> FloatArray:
+        return self.force.profile.depth(self.force.radius(load))
+
+    def _inverse(self, value: FloatArray) -> FloatArray:
+        return self.force.of(self.force.profile.radius(value))
+
+    def _radius(self, load: FloatArray) -> FloatArray:
+        return self.force.radius(load)
+
+    def _derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        slope = self._unit(radius) / radius
+        bend = -(slope**2) / (radius * self._slope_of_depth(radius))
+        return self.force.profile.depth(radius), slope, bend
