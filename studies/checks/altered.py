@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import importlib
 import multiprocessing
 import sys
 import time
@@ -60,7 +59,8 @@ def measure(
     Altered.module, Altered.constant, Altered.expression = module, constant, expression
     sys.meta_path.insert(0, Altered)
     sys.path[:0] = [str(ROOT), str(ROOT / "studies")]
-    solved = importlib.import_module("samples").solved
+    from samples import solved
+
     found = []
     for rtol in rtols:
         begin = time.process_time()
