@@ -129,21 +129,23 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
 
 
 def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """How high the curve's maximum may really be, shape (…); see `lifted`."""
-    return np.asarray(_crests(curve, inside)[1].max(axis=-1))
+    """How high the curve's maximum may really be, shape (…), and beside ends of stretches; see `lifted`."""
+    high = _crests(curve, inside)[1]
+    middle, inside = curve[..., 1:-1], inside[..., 1:-1]
+    at = np.nonzero(~inside & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
+    high[..., 1:-1][at] += _rise_beside_end(curve, inside, at)
+    return np.asarray(high.max(axis=-1))
 
 
 def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """`lifted`, and how high the smooth local maxima may really be."""
-    middle, inside = curve[..., 1:-1], inside[..., 1:-1]
-    peak = (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
-    at = np.nonzero(peak & inside)
+    middle = curve[..., 1:-1]
+    peak = inside[..., 1:-1] & (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
+    at = np.nonzero(peak)
     left, centre, right = (curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3))
     result, high = curve.copy(), curve.copy()
     result[..., 1:-1][at] = centre + parabola(left, centre, right)[1]
     high[..., 1:-1][at] = centre + REACH * (2.0 * centre - left - right)
-    at = np.nonzero(peak & ~inside)
-    high[..., 1:-1][at] += _rise_beside_end(curve, inside, at)
     return result, high
 
 
