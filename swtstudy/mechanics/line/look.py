@@ -110,7 +110,7 @@ def extremes_and_rivals(
         heights = curve.copy()
         heights[..., 1:-1][crests.at] = crests.lifted
         best = heights.argmax(axis=-1)
-        _reaching(heights, curve, inside, crests)
+        _reaching(heights, crests)
         # The rival is none of the neighbours.
         rows, flat = np.arange(best.size), heights.reshape(best.size, -1)
         for step in (-1, 0, 1):
@@ -141,8 +141,11 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
 
 
 def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """How high the curve's maximum may really be, shape (…); see `lifted`."""
-    return np.asarray(_reaching(curve.copy(), curve, inside, _crests(curve, inside)).max(axis=-1))
+    """How high the curve's maximum may really be, shape (…), and beside ends of stretches; see `lifted`."""
+    heights = _reaching(curve.copy(), _crests(curve, inside))
+    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
+    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
+    return np.asarray(heights.max(axis=-1))
 
 
 class _Crests(NamedTuple):
@@ -177,14 +180,10 @@ def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
     return np.asarray((middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
 
 
-def _reaching(
-    heights: FloatArray, curve: FloatArray, inside: NDArray[np.bool_], crests: _Crests
-) -> FloatArray:
-    """Heights with the local maxima of the curves as high as they may really be, in place."""
+def _reaching(heights: FloatArray, crests: _Crests) -> FloatArray:
+    """Heights with the smooth local maxima of the curves as high as they may really be, in place."""
     bend = 2.0 * crests.centre - crests.left - crests.right
     heights[..., 1:-1][crests.at] = crests.centre + REACH * bend
-    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
-    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
     return heights
 
 

@@ -102,11 +102,11 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _rounding(scene: Scene, found: Maximum) -> FloatArray:
     """How much of swt rounding may be, were it all at the scale of the smaller motion, shape (n,)."""
-    load, r = scene.cycle.load, np.abs(found.position)
+    load, r = scene.cycle.load, np.abs(found.position)[:, None]
     normal = 0.5 * (load.largest_normal - load.least_normal)
     tangential = load.motion - normal
     motion = np.where(tangential > 0.0, np.minimum(normal, tangential), normal)
-    distance = arrival(load, scene.coordinate, r[:, None])[1][:, 0]
+    distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
     # Where the normal load rests, what arrives at the edge is there.
     share = np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
     return np.asarray(np.sqrt(share) * found.swt)

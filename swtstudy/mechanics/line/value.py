@@ -158,10 +158,11 @@ def _best_planes(
     # Between two instants a plane may reach higher than the parabolas say.
     apart = np.abs(angle - pick(angle, best)[..., None]) > SAME_PLANE
     at = np.nonzero(apart.any(axis=-1) & (best == other))
-    high = of_maxima(*(reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt))
-    high = np.where(apart[at], np.moveaxis(high, 0, -1), 0.0)
-    rival = high.argmax(axis=-1)
-    other[at] = np.where(pick(high, rival) > pick(found[0][at], best[at]), rival, best[at])
+    if at[0].size:
+        high = of_maxima(*(reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt))
+        high = np.where(apart[at], np.moveaxis(high, 0, -1), 0.0)
+        rival = high.argmax(axis=-1)
+        other[at] = np.where(pick(high, rival) > pick(found[1][at], best[at]), rival, best[at])
     return pick(angle, best), pick(angle, other)
 
 

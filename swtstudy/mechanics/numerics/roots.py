@@ -13,7 +13,7 @@ from swtstudy.mechanics.points import FloatArray
 #: Steps fall back to bisection when they leave the bracket, so this many always suffice. Ten do at 56 points.
 LARGEST_STEP_COUNT = 60
 
-#: No step follows a smaller one, rad: the error is about its cube.
+#: Last step of a root in time, rad.
 LAST_STEP = 1e-5
 
 #: Maps abscissae, and the numbers of the brackets they belong to, to values and two derivatives.
@@ -53,7 +53,9 @@ class Brackets:
         return Brackets(*(values[index] for values in vars(self).values()))
 
 
-def monotone_roots(function: Function, goal: FloatArray, brackets: Brackets) -> FloatArray:
+def monotone_roots(
+    function: Function, goal: FloatArray, brackets: Brackets, last_step: float = LAST_STEP
+) -> FloatArray:
     """Where monotone functions reach a goal: Halley's method, safeguarded by bisection.
 
     Parameters
@@ -64,6 +66,9 @@ def monotone_roots(function: Function, goal: FloatArray, brackets: Brackets) -> 
         Shape (n,).
     brackets
         n brackets. Where the goal is not between the values at the ends, the nearer end is returned.
+    last_step
+        No step follows a smaller one: the error is about its cube, or its square where the second derivative
+        is left out.
 
     Returns
     -------
@@ -86,7 +91,7 @@ def monotone_roots(function: Function, goal: FloatArray, brackets: Brackets) -> 
         new = root + step
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
         result[active] = new
-        going = np.abs(new - root) > LAST_STEP
+        going = np.abs(new - root) > last_step
         if not np.any(going):
             break
         active, rising, goal = active[going], rising[going], goal[going]

@@ -24,8 +24,10 @@ from swtstudy.mechanics.stress.history import History
 COORDINATE, INSTANT = 2e-15, 1e-15
 
 
-def arrival(load: Load, coordinate: Coordinate, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """How far from that of r, shape (n, X), rounding leaves the coordinate of what arrives there.
+def arrival(
+    load: Load, coordinate: Coordinate, position: FloatArray, at: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """How far from ``at``, the coordinate of r, shape (n, X), rounding leaves that of what arrives there.
 
     The stress shows the square root of this distance.
 
@@ -38,7 +40,7 @@ def arrival(load: Load, coordinate: Coordinate, position: FloatArray) -> tuple[F
     amplitude = 0.5 * (load.largest_normal - load.least_normal)
     of_edge = COORDINATE * load.largest_normal + INSTANT * normal * amplitude
     of_front = of_edge + INSTANT * tangential * (load.motion - amplitude)
-    next_to_r = coordinate.of(position + np.spacing(position)) - coordinate.of(position)
+    next_to_r = coordinate.of(position + np.spacing(position)) - at
     return of_edge[:, None] + next_to_r, of_front[:, None] + next_to_r
 
 
@@ -62,7 +64,7 @@ class SurfaceLine:
         #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
         self.edge_at_r, self.front_at_r = (
             tuple(coordinate.radius(v)[:, :, None] for v in (at - distance, at + distance))
-            for distance in arrival(cycle.load, coordinate, position)
+            for distance in arrival(cycle.load, coordinate, position, at)
         )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
