@@ -456,3 +456,15 @@ def test_the_search_keeps_off_the_edge_of_a_flat_face():
     smooth = _Search(read_scene({}), 1.3, 0.01)
     near_axis = np.array([[0.005, 0.7, 0.1]])
     np.testing.assert_array_equal(_off_ring(smooth, near_axis), near_axis)
+
+
+def test_the_lines_own_maximum_is_looked_at_on_its_side():
+    """Here at x = 0.5; at x = −0.5 swt is another."""
+    parameters = {"normal_amplitude": 0.75, "tangential_amplitude": 0.1, "phase": 0.0}
+    solved = swtstudy.solve(rtol=1e-4, **parameters)
+    assert float(solved.critical_x) == pytest.approx(0.5, abs=1e-3)
+    found, at_line = body_maximum(scene_of(one_point(**parameters)), float(solved.critical_x))
+    assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-3)
+    assert found.swt >= at_line.swt
+    assert found.position == pytest.approx([0.5, 0.0, 0.0], abs=1e-2)
+    assert abs(swt_at(-0.5, 0.0, 0.0, parameters) / float(solved.s) - 1.0) > 0.1

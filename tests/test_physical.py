@@ -20,6 +20,7 @@ from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.scales import SCALES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.sizes import wrong_size
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
 STEEL = FatigueConstants(
@@ -487,3 +488,21 @@ def test_the_worked_example():
     lives = [float(one.cycles(example["MATERIAL"], one.solve(rtol=1e-3).s[0])) for one in (worst, best)]
     assert lives[1] / lives[0] == pytest.approx(6.2, abs=0.2)
     assert lives[0] == pytest.approx(1.03e5, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("value", "sign", "zero", "allowed"),
+    [
+        (1e-100, 1.0, False, None),
+        (1e100, 1.0, False, None),
+        (-2.0, -1.0, False, None),
+        (0, 1.0, True, None),
+        (0, 1.0, False, "a length"),
+        (-1.0, 1.0, True, "a length"),
+        (9e-101, 1.0, True, "a length, in magnitude from 1e-100 to 1e+100"),
+        (-2e100, -1.0, False, "a length, in magnitude from 1e-100 to 1e+100"),
+    ],
+)
+def test_sizes_that_can_be_computed_with(value, sign, zero, allowed):
+    found = [mistake.allowed for mistake in wrong_size("radius", value, "a length", sign, zero)]
+    assert found == ([] if allowed is None else [allowed])

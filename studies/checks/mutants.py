@@ -4,7 +4,8 @@ python studies/checks/mutants.py --size 300 --seed 2
 
 The changes are those of mutmut, which would make every change there is, for days; here each room of the
 package has its share of a sample. A copy of the project is changed at one place, and the tests that cover the
-place run, quickest first, until one fails. What they cover is found out before.
+place run, quickest first, until one fails; what they cover is found out before. Reasons why some changes may
+live stand in mutants_that_may_live.toml.
 Needs the extra ``mutation``. Writes results/mutants.md.
 """
 
@@ -111,11 +112,11 @@ def report(results: dict[Mutant, str], arguments: argparse.Namespace) -> Iterato
     total = sum(counts.values(), Counter())
     rest = len(results) - total["may live"]
     yield "# Changes of the package that the tests notice\n"
-    command = f"python studies/checks/mutants.py --size {arguments.size} --seed {arguments.seed}"
-    yield f"`{command}`: {len(results)} changes at random places of every room, each against the"
-    yield f"tests that cover its line, quickest first, at most {arguments.limit:g} s of them. Of the {rest}"
+    options = f"--size {arguments.size} --seed {arguments.seed} --limit {arguments.limit:g}"
     noticed = (rest - total["survived"]) / rest
-    yield f"that a test could tell from the package the tests notice {noticed:.0%}.\n"
+    yield f"`python studies/checks/mutants.py {options}`: {len(results)} changes at random"
+    yield f"places of every room, each against the tests that cover its line, quickest first. Of the {rest} that a"
+    yield f"test could tell from the package the tests notice {noticed:.0%}.\n"
     yield "| room | " + " | ".join(KINDS) + " |\n|---|" + "---|" * len(KINDS)
     for room, count in [*sorted(counts.items()), ("all", total)]:
         yield f"| {room} | " + " | ".join(str(count[kind]) for kind in KINDS) + " |"
