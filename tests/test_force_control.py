@@ -16,7 +16,7 @@ from scipy.special import struve
 from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
 from swtstudy.mechanics.control.prescribed import Prescribed
-from swtstudy.mechanics.line.climb import Accuracy
+from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import _seen_from_edge, at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.bimodal import BimodalLoad

@@ -12,7 +12,7 @@ from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import slip_states
 from swtstudy.mechanics.control.prescribed import Prescribed
-from swtstudy.mechanics.line.climb import Accuracy
+from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
