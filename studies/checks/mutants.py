@@ -115,8 +115,8 @@ def report(results: dict[Mutant, str], arguments: argparse.Namespace) -> Iterato
     options = f"--size {arguments.size} --seed {arguments.seed} --limit {arguments.limit:g}"
     noticed = (rest - total["survived"]) / rest
     yield f"`python studies/checks/mutants.py {options}`: {len(results)} changes at random"
-    yield f"places of every room, each against the tests that cover its line, quickest first. Of the {rest} that a"
-    yield f"test could tell from the package the tests notice {noticed:.0%}.\n"
+    yield "places of every room, each against the tests that cover its line, quickest first. Of the"
+    yield f"{rest} that a test could tell from the package the tests notice {noticed:.0%}.\n"
     yield "| room | " + " | ".join(KINDS) + " |\n|---|" + "---|" * len(KINDS)
     for room, count in [*sorted(counts.items()), ("all", total)]:
         yield f"| {room} | " + " | ".join(str(count[kind]) for kind in KINDS) + " |"
