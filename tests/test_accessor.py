@@ -216,6 +216,6 @@ def test_many_values_are_told_by_their_ends():
         (mistake,) = caught.value.mistakes
         assert (mistake.key, mistake.found, mistake.allowed) == (
             "friction",
-            "0.5, which is not there",
+            "0.5, which is not in these results",
             allowed,
         )

@@ -531,4 +531,4 @@ def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
     assert len(failed) == 6
     assert all("ZeroDivisionError: an injected failure" in line for line in failed[:5])
     assert failed[5] == f"failed: 2 more, see swtstudy info {tmp_path / 'failing.nc'}"
-    assert "7 points failed; --retry-failed computes them anew" in result.stderr
+    assert "7 points failed; --retry-failed recomputes them" in result.stderr

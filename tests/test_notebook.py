@@ -23,10 +23,13 @@ def texts(notebook) -> dict[str, str]:
     }
 
 
-def printed(notebook) -> list[list[str]]:
-    """What every cell prints or shows as text; a picture's text is its size."""
+def printed(notebook) -> list[tuple[str, list[str]]]:
+    """What every cell prints, in however many pieces it came, and shows as text: of a picture its size."""
     return [
-        [output.get("text") or output.get("data", {}).get("text/plain", "") for output in cell.outputs]
+        (
+            "".join(output.get("text", "") for output in cell.outputs),
+            [output["data"].get("text/plain", "") for output in cell.outputs if "data" in output],
+        )
         for cell in notebook.cells
         if cell.cell_type == "code"
     ]
