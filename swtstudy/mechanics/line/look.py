@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -64,8 +65,6 @@ class Look:
         Steps of each stretch.
     nodes, placed
         The T instants, and where they lie in the stretches.
-    history
-        Building blocks of the stress at them.
     """
 
     line: SurfaceLine
@@ -73,7 +72,6 @@ class Look:
     count: int
     nodes: Nodes
     placed: Placed
-    history: History
 
     @classmethod
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
@@ -81,7 +79,12 @@ class Look:
         line = SurfaceLine(scene.cycle, scene.coordinate, position, digits)
         parts = stretches(scene.cycle, scene.coordinate.of(position))
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
-        return cls(line, parts, count, nodes, placed, line.history(nodes))
+        return cls(line, parts, count, nodes, placed)
+
+    @cached_property
+    def history(self) -> History:
+        """Building blocks of the stress at the instants: not every look needs them."""
+        return self.line.history(self.nodes)
 
     @property
     def inside(self) -> NDArray[np.bool_]:
