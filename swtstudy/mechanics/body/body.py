@@ -21,8 +21,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Parts into which a gap between instants is divided beside an extreme over the cycle. Three: 5e-4 in 16
 #: values of bodies, 10 % faster; twelve: 3e-5, 10 % slower.
 SUBDIVISIONS = 6
-#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. The line's
-#: (`line.look.HOT`) is larger: there it costs an interval of few points, here instants of whole fields.
+#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. Half: 7e-7
+#: in 16 values of bodies; twice: 2e-6. The line's (`line.look.HOT`) is larger: few points cost it little.
 HOT = 0.15
 #: Instants whose contact states are held at a time: their memory grows with the square of the number.
 INSTANTS = 64
