@@ -22,7 +22,8 @@ LEAST_COUNT, COUNT_PER_OSCILLATION, COUNT_PER_WAVE = 8, 32, 12
 #: The first of them lies so far behind the turn, in shares of π of the cosine's angle: where contact is made
 #: the map's derivative jumps.
 INSIDE = 1e-4
-#: Last step of Newton's method in rad; its square is the error.
+#: Last step of Newton's method in rad; its square is the error. 1e-5: 2e-10 at 144 points; 1e-11: 7e-14, 7 %
+#: slower.
 LAST_STEP = 1e-8
 
 
