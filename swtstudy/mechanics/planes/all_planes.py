@@ -30,7 +30,8 @@ CANDIDATES = 6
 PROMISING = 0.9
 #: Looks for a higher neighbour at most. Half or twice: no change in 16 values of bodies.
 LARGEST_SWAPS = 8
-#: Histories in the coarse search at a time: (planes × instants) stays in the processor's cache.
+#: Histories in the coarse search at a time: (planes × instants) stays in the processor's cache. 1 or 64: the
+#: same time to 8 % at 229 instants.
 BLOCK = 8
 
 
