@@ -24,7 +24,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of the time nodes on a stretch: first look and climb, and value. Half or twice the first: no change
-#: in 16 values of bodies; half the second: 9e-7; twice: 7e-6, which follows the cells; the same time.
+#: in 16 values of bodies; half the second: 9e-7; twice: 7e-6, as half of `INSTANTS`; the same time.
 LOOK, VALUE = 3, 5
 #: Cells of a profile that is not a paraboloid and of each growth, while searching and for the value. Half or
 #: twice the first: no change in 16 values of bodies; half the second: 2e-5; twice: 2e-6, the same time.
