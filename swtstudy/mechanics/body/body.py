@@ -18,14 +18,17 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Parts into which a gap between instants is divided beside an extreme over the cycle.
+#: Parts into which a gap between instants is divided beside an extreme over the cycle. Three: 5e-4 in 16
+#: values of bodies, 10 % faster; twelve: 3e-5, 10 % slower.
 SUBDIVISIONS = 6
-#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. The line's
-#: (`line.look.HOT`) is larger: there it costs an interval of few points, here instants of whole fields.
+#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. Half: 7e-7
+#: in 16 values of bodies; twice: 2e-6. The line's (`line.look.HOT`) is larger: few points cost it little.
 HOT = 0.15
-#: Instants whose contact states are held at a time: their memory grows with the square of the number.
+#: Instants whose contact states are held at a time: memory grows with its square. 16: 20 % slower; 1024: 20 %
+#: faster, 1 MB more at 229 instants. The cells follow it: s by up to 7e-6 in 16 values of bodies.
 INSTANTS = 64
-#: Points × instants whose planes are searched at a time: that takes about 1 kB for each.
+#: Points × instants whose planes are searched at a time: that takes about 1 kB for each. An eighth: 45 MB
+#: less at 1,200 points, 40 % slower; eight times: 150 MB more, no faster.
 VALUES = 65536
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.points import FloatArray
 
-#: Gauss points over the radius, the polar angle and the azimuth of the half sphere, and over a line.
+#: Gauss points over the radius, the polar angle and the azimuth of the half sphere, and over a line. Half:
+#: 2e-3, 2e-2, 4e-2 and 8e-3 of four bodies' means, up to twice as fast; twice: 8e-4, 2e-3, 1e-2 and 2e-3.
 RADIAL, POLAR, AZIMUTH, LINE = 8, 8, 12, 24
 
 

@@ -13,7 +13,8 @@ from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.points import FloatArray
 
-#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative.
+#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative. 0: stick is called
+#: slip at 79 of 4,000 points, 1e-15: at 8; 1e-11 and 1e-9: no change.
 NO_SLIP = 1e-13
 
 

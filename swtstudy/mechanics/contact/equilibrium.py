@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import Load
 
-#: Excess that is rounding, in the largest normal load.
+#: Excess that is rounding, in the largest normal load: 2e-16 at most for 20,000 sines that just reach T = N.
 ROUNDING = 1e-12
 
 

@@ -15,7 +15,7 @@ from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Growth of the contact's coordinate below which there is none: turning instants come in pairs that differ
-#: by rounding.
+#: by rounding. 1e-14 or 1e-10: no change at 128 points.
 NO_GROWTH = 1e-12
 
 

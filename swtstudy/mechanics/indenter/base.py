@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Steps that invert the normal force fall back to bisection, so this many always suffice; the last one,
-#: relative: its square is the error.
+#: Steps that invert the normal force fall back to bisection, so this many always suffice (10 do at 144
+#: points); the last one, relative: its square is the error. 1e-4: 1e-4 at 42 of 144; 1e-11: 5e-11.
 LARGEST_STEP_COUNT, LAST_STEP = 60, 1e-8
 
 

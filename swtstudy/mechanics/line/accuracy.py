@@ -8,9 +8,9 @@ import numpy as np
 
 from swtstudy.mechanics.line.look import Resolution
 
-#: Digits that a zoom gains at least.
+#: Digits that a zoom gains at least. 4.0, which saves a zoom at rtol 1e-5: 4e-8, no faster.
 DIGITS_PER_ZOOM = 3.2
-#: Error left to the search over x, as a share of the tolerance.
+#: Error left to the search over x, as a share of the tolerance. All of it: 9e-7 at rtol 1e-5, no faster.
 SETTLED = 0.3
 
 

@@ -19,11 +19,15 @@ from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there.
+#: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there. 0.45: no
+#: change at 300 points from 0.36 to 0.5, 7 % faster.
 SAFE_POISSON_RATIO = 0.35
-#: Angles from the line that are looked at first, then in a narrower range.
+#: Angles from the line that are looked at first, then in a narrower range. Half of either: 9e-5 at 5 of 300
+#: points with ν > 0.35, no faster.
 ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
 CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
+#: Steps of a smooth stretch of the cycle, and digits of tables. Half of the steps: 3e-4 at 6 of 300 points;
+#: 3.5 digits: 1e-4 at 8; no faster. Twice: 7e-5; 7.5: 4e-6.
 TIME_STEPS, DIGITS = 4, 5.5
 
 

@@ -29,7 +29,7 @@ JUMP, HIDDEN_SHARE = 0.15, 0.97
 #: Two local maxima whose heights differ by less, relative, are both followed. 0: no change at 128 points, nor
 #: at those of tests/test_narrow_maxima.py.
 TWIN = 0.01
-#: Positions nearer than this share of their range lie side by side.
+#: Positions nearer than this share of their range lie side by side. 0: no change at 128 points.
 SIDE_BY_SIDE = 1e-4
 #: Planes that are tried where the first look finds a local maximum. Half or twice: rounding, at 128 points.
 CLOSER_PLANES = 72

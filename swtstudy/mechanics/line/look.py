@@ -23,12 +23,12 @@ from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
 
 #: A smooth maximum may be higher than the best instant by this share of the bend there: a parabola through
-#: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33.
+#: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33. 1/8: no change at 128 points.
 REACH = 0.4
 #: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it or do so
-#: at the next position. 0.35 for the looks after the first: the same s to the bit at 1,001 points, no faster.
+#: at the next position. 0.25: 9e-5 at 1 of 128 points; 0.35 after the first look: none of 1,001, no faster.
 HOT = 0.5
-#: Values of a curve that differ by less, relative, are as high.
+#: Values of a curve that differ by less, relative, are as high. 1e-11 or 1e-7: no change at 128 points.
 LEVEL = 1e-9
 
 

@@ -32,7 +32,7 @@ ANGLE_ROUNDS = 2
 #: The first start alone: 1e-3 at some of 600 points (tests/test_narrow_maxima.py); half or twice: no
 #: change at 128.
 STARTS = np.array([0.0, -0.25, 0.25])[:, None, None]
-#: Planes nearer than this are one, 2θ in rad.
+#: Planes nearer than this are one, 2θ in rad. Half or twice: no change at 128 points.
 SAME_PLANE = 0.01
 #: A plane whose swt, interpolated, is below this share of the best one's is no rival: 4e-4 of s was lost at a
 #: point where the two were nearer (tests/test_narrow_maxima.py), and looking at all planes costs 2 %.

@@ -13,7 +13,7 @@ from swtstudy.mechanics.points import FloatArray
 #: Steps fall back to bisection when they leave the bracket, so this many always suffice. Ten do at 56 points.
 LARGEST_STEP_COUNT = 60
 
-#: Last step of a root in time, rad.
+#: Last step of a root in time, rad. A hundred times: 4e-5 at 3 of 128 points at rtol 1e-5, no faster.
 LAST_STEP = 1e-5
 
 #: Maps abscissae, and the numbers of the brackets they belong to, to values and two derivatives.

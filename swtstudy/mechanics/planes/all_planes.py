@@ -20,15 +20,18 @@ from swtstudy.mechanics.planes.criterion import of_maxima
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
-#: Planes of the coarse search, about 10° apart.
+#: Planes of the coarse search, about 10° apart. Half: 1e-6 in 16 values of bodies, no faster; twice: 6e-7.
 COARSE_PLANES = 256
 #: Highest planes of the coarse search, from which the climbs start. Not only its peaks: two summits can
-#: stand closer to one another than the planes.
+#: stand closer to one another than the planes. 3: rounding in 16 values of bodies, 20 % faster; 12: rounding.
 CANDIDATES = 6
-#: Summits as high as this fraction of the highest may have a higher neighbour.
+#: Summits as high as this fraction of the highest may have a higher neighbour. Half: no change in 16 values
+#: of bodies; no such summits: 1e-6, 5 % faster.
 PROMISING = 0.9
+#: Looks for a higher neighbour at most. Half or twice: no change in 16 values of bodies.
 LARGEST_SWAPS = 8
-#: Histories in the coarse search at a time: (planes × instants) stays in the processor's cache.
+#: Histories in the coarse search at a time: (planes × instants) stays in the processor's cache. 1 or 64: the
+#: same time to 8 % at 229 instants.
 BLOCK = 8
 
 

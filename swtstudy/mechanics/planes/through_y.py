@@ -17,7 +17,7 @@ from swtstudy.mechanics.points import FloatArray
 
 #: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.
 NEWTON_STEPS = 3
-#: Largest step of 2θ in one Newton step, rad.
+#: Largest step of 2θ in one Newton step, rad. Half or twice: no change at 128 points.
 LARGEST_STEP = 0.4
 
 

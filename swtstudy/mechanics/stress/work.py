@@ -24,12 +24,14 @@ from swtstudy.mechanics.numerics.peaks import parabola
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Nodes of Gauss's rule for each growth and each interval of the cycle on a smooth profile, and the digits
-#: for which a wavy one has more.
+#: Gauss nodes for each growth and interval on a smooth profile, and digits for which a wavy one has more.
+#: Half the nodes: over 1e-6 of the work at 284 of 305 points; twice: at 30, 2e-4 at most; other digits:
+#: 3e-11.
 NODES, DIGITS = 16, 16.0
-#: Steps of each interval of the cycle between which the largest force ratio is looked for.
+#: Steps of each interval of the cycle between which the largest force ratio is looked for. Half: 4e-3 of it,
+#: 15 % faster; twice: 5e-4 at most, more than 1e-6 at 91 of 305 points, 40 % slower.
 SAMPLES = 32
-#: A normal force below this share of the largest is none.
+#: A normal force below this share of the largest is none. 0, 1e-12 or 1e-6: no change at 305 points.
 NO_CONTACT = 1e-9
 
 

@@ -19,8 +19,8 @@ import numpy as np
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.punch import PunchFunctions, complex_distance
 
-#: Below this |U| (the origin, seen from the punch of radius 0) the primitives are cut off; a slope that
-#: starts with g′(0) = 0 gives that end of its cell no weight.
+#: Below this |U| (the origin, seen from the punch of radius 0) the primitives are cut off: U⁻³ is a number. A
+#: slope that starts with g′(0) = 0 gives that end of its cell no weight. 1e-82 or 1e-78: no change.
 SMALLEST_U = 1e-80
 
 

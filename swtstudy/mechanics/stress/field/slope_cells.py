@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.points import FloatArray
 
-#: Gauss points per cell for the integrals of the slopes.
+#: Gauss points per cell for the integrals of the slopes. Half: 8e-11 in 16 values of bodies; twice: 2e-14;
+#: the same time.
 GAUSS_POINTS = 8
-#: Narrower cells keep the mean slope only: the digits of a gradient would be lost.
+#: Narrower cells keep the mean slope only: the digits of a gradient would be lost. A hundredth: 5e-9 in 16
+#: values of bodies; a hundred times: 9e-6.
 NARROW = 1e-6
 
 

@@ -17,7 +17,8 @@ from swtstudy.mechanics.stress.field.primitives import primitives
 from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_components, tangential_components
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells
 
-#: Points × radii evaluated at a time: the temporaries stay in the processor's cache.
+#: Points × radii evaluated at a time: the temporaries stay in the processor's cache. A sixteenth or 64 times:
+#: 30 % slower.
 BLOCK = 16384
 
 
