@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.points import Points
+from swtstudy.mechanics.points import FloatArray, Points
 
 
 def load_of(points: Points) -> Load:
@@ -24,6 +24,14 @@ def alike(points: Points) -> list[NDArray[np.intp]]:
     order = np.lexsort((*of_load, points.p, points.q))
     ratio = np.stack([points.p, points.q])[:, order]
     return np.split(order, np.flatnonzero((np.diff(ratio, axis=1) != 0).any(axis=0)) + 1)
+
+
+def largest_normal(points: Points) -> FloatArray:
+    """The largest normal load of each point, shape (n,)."""
+    largest = np.empty(len(points))
+    for index in alike(points):
+        largest[index] = load_of(points.take(index)).largest_normal
+    return largest
 
 
 def largest_turn_count(points: Points) -> int:
