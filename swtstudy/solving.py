@@ -75,7 +75,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
+    solution = joined([solve_points(points_from(block, unique.definitions), float(rtol)) for block in blocks])
     dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
 

@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.grid.canonical import describe_point
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
@@ -57,16 +58,16 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
-    dataset.status.attrs["failures"] = json.dumps(failures(records))
+    dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))
 
 
-def failures(records: Records) -> list[dict[str, Any]]:
+def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]:
     """The failed points: canonical row, description and message of each."""
     return [
         {
             "row": records.table[index].tolist(),
-            "point": describe_point(records.table[index]),
+            "point": describe_point(records.table[index], definitions),
             "message": records.messages.get(int(index), ""),
         }
         for index in np.flatnonzero(records.status == FAILED)
@@ -93,6 +94,12 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "study": study.text,
         "runs": json.dumps([asdict(run) for run in records.runs]),
     }
+    defined = [
+        {"parameter": each.parameter, "name": each.name, "content": each.content()}
+        for each in study.grid.definitions.values()
+    ]
+    if defined:
+        attributes["definitions"] = json.dumps(defined)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

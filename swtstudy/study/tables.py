@@ -44,6 +44,13 @@ class FigureTable(_Table):
     regimes: bool = False
 
 
+class LoadTable(_Table):
+    """A loop of loads: its vertices, or the file that has them."""
+
+    vertices: Any = None
+    file: str | None = None
+
+
 class StudyTable(_Table):
     """A study file."""
 
@@ -51,4 +58,5 @@ class StudyTable(_Table):
     rtol: float = Field(default=DEFAULT_RTOL, ge=SMALLEST_RTOL, le=LARGEST_RTOL)
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
+    loads: dict[str, LoadTable] = {}
     figure: FigureTable | None = None
