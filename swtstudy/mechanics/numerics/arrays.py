@@ -36,6 +36,25 @@ def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
     return gather(values, index[..., None])[..., 0]
 
 
+def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) -> NDArray[np.intp]:
+    """How many of the values in its row are below each level.
+
+    Parameters
+    ----------
+    values
+        Shape (…, k).
+    row
+        Shape (m,) or broadcast to it: rows of the flattened leading axes.
+    level
+        Shape (m,).
+    """
+    count = np.zeros(level.shape, dtype=np.intp)
+    # One column after the other: sums of short rows are slow.
+    for column in values.reshape(-1, values.shape[-1]).T:
+        count += column.take(row) < level
+    return count
+
+
 def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
     """The kept entries of each row, moved to its front; shorter rows repeat their first kept entry.
 
