@@ -85,6 +85,31 @@ class TimeBrackets:
         interval = sides // PER_INTERVAL
         return cls(low, high, interval, start, np.pi / count, corner, np.zeros(place.shape), 1.0)
 
+    def take(self, index: NDArray[np.intp]) -> TimeBrackets:
+        """The brackets of the cycles at ``index``."""
+        return replace(
+            self,
+            low=self.low[index],
+            high=self.high[index],
+            interval=self.interval[index],
+            start=self.start[index],
+            corner=self.corner[index],
+            centre=self.centre[index],
+        )
+
+    def or_other(self, own: NDArray[np.bool_], other: TimeBrackets) -> TimeBrackets:
+        """These brackets where ``own``, shape (n, X, e), elsewhere other ones of the same step and width."""
+        two = own[..., None]
+        return replace(
+            self,
+            low=np.where(two, self.low, other.low),
+            high=np.where(two, self.high, other.high),
+            interval=np.where(two, self.interval, other.interval),
+            start=np.where(two, self.start, other.start),
+            corner=np.where(own, self.corner, other.corner),
+            centre=np.where(own, self.centre, other.centre),
+        )
+
     def samples(self) -> Nodes:
         """The samples of the extremes, index of shape (n, X, e · k)."""
         c = self.centre[..., None] + self.width * OFFSETS

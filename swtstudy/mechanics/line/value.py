@@ -6,6 +6,8 @@ that make swt (the largest σ_n, the largest and the smallest ε_n), ever closer
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -90,50 +92,79 @@ def refine(
     best, other = _best_planes(planes, look.inside, double_angle + STARTS)
     found, rival = extremes_and_rivals(planes, best, look.inside)
     elsewhere = extreme_instants(planes, other, look.inside)
-    swt, angle = _zoomed(scene, look, side, best, found, resolution.zooms)
+    first = _Zoom.at(scene, look, side, found)
+    swt, angle = first.to_maximum(best, resolution.zooms)
     # Two planes, or two instants, that the nodes cannot tell apart are both followed; neighbouring nodes have
     # the same bracket.
-    for plane, extremes in ((other, elsewhere), (best, rival)):
-        rows = np.flatnonzero((np.abs(found - extremes) > 1).any(axis=(1, 2)))
-        if not rows.size:
-            continue
-        some, at, there = scene.take(rows), plane[rows], extremes[rows]
-        again = Look.at(some, position[rows], resolution.nodes, resolution.digits)
-        if extremes is rival:
-            there = _higher(some, again, side[rows], at, (found[rows], there))
-        more, at = _zoomed(some, again, side[rows], at, there, resolution.zooms)
-        better = more > swt[rows]
-        swt[rows] = np.where(better, more, swt[rows])
-        angle[rows] = np.where(better, at, angle[rows])
+    others, rivals = (
+        np.flatnonzero((np.abs(found - extremes) > 1).any(axis=(1, 2))) for extremes in (elsewhere, rival)
+    )
+    rows, is_rival = np.concatenate([others, rivals]), np.repeat([False, True], [others.size, rivals.size])
+    if rows.size:
+        plane = np.concatenate([other[others], best[rivals]])
+        extremes = np.concatenate([elsewhere[others], rival[rivals]])
+        second = _Zoom.at(scene.take(rows), look.take(rows), side[rows], extremes)
+        second = second.or_higher(first, rows, plane, is_rival)
+        more, at = second.to_maximum(plane, resolution.zooms)
+        for which in (~is_rival, is_rival):
+            again, value, turned = rows[which], more[which], at[which]
+            better = value > swt[again]
+            swt[again] = np.where(better, value, swt[again])
+            angle[again] = np.where(better, turned, angle[again])
     return swt, angle
 
 
-def _higher(
-    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, either: tuple[NDArray[np.intp], ...]
-) -> NDArray[np.intp]:
-    """Of two instants for each extreme on a plane, both (n, X, 3), the one around which it is higher."""
-    tops = []
-    for extremes in either:
-        brackets = look.brackets(extremes)
-        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
-        tops.append(on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle))
-    return np.where(tops[1] > tops[0], either[1], either[0])
+@dataclass(frozen=True)
+class _Zoom:
+    """Samples around three extremes at n × X positions, ever closer.
 
+    Attributes
+    ----------
+    scene, look, side
+        n points, their look and the signs of x.
+    brackets
+        Where the k samples of each extreme lie.
+    near
+        Shape (3, n, X, 3, k), see `of_extremes`.
+    """
 
-def _zoomed(
-    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, extremes: NDArray[np.intp], zooms: int
-) -> tuple[FloatArray, FloatArray]:
-    """swt and 2θ near a plane (n, X), from samples ever closer around the instants of its extremes."""
-    brackets = look.brackets(extremes)
-    for turn in range(zooms):
-        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
-        for _ in range(ANGLE_ROUNDS):
-            peak, high, low = _at_peaks(near, brackets, angle)
-            angle = best_angle(peak, high + low, angle)
-        if turn < zooms - 1:
-            brackets = brackets.narrowed(on_plane(near, angle).argmax(axis=-1))
-    tops = on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
-    return of_maxima(*np.moveaxis(tops, -1, 0)), angle
+    scene: Scene
+    look: Look
+    side: FloatArray
+    brackets: TimeBrackets
+    near: FloatArray
+
+    @classmethod
+    def at(cls, scene: Scene, look: Look, side: FloatArray, extremes: NDArray[np.intp]) -> _Zoom:
+        """Around instants of the look, shape (n, X, 3)."""
+        return cls._sampled(scene, look, side, look.brackets(extremes))
+
+    @classmethod
+    def _sampled(cls, scene: Scene, look: Look, side: FloatArray, brackets: TimeBrackets) -> _Zoom:
+        planes = scene.planes(look.line.history(brackets.samples()), side[:, None, None])
+        return cls(scene, look, side, brackets, of_extremes(planes))
+
+    def or_higher(
+        self, first: _Zoom, rows: NDArray[np.intp], angle: FloatArray, asked: NDArray[np.bool_]
+    ) -> _Zoom:
+        """Where ``asked``, each extreme that is no lower in the ``rows`` of the first zoom is that one."""
+        brackets, near = first.brackets.take(rows), first.near[:, rows]
+        here = _tops(self.near, self.brackets, angle) > _tops(near, brackets, angle)
+        here |= ~asked[:, None, None]
+        brackets = self.brackets.or_other(here, brackets)
+        return replace(self, brackets=brackets, near=np.where(here[..., None], self.near, near))
+
+    def to_maximum(self, angle: FloatArray, zooms: int) -> tuple[FloatArray, FloatArray]:
+        """swt and 2θ near a plane (n, X)."""
+        zoom = self
+        for turn in range(zooms):
+            for _ in range(ANGLE_ROUNDS):
+                peak, high, low = _at_peaks(zoom.near, zoom.brackets, angle)
+                angle = best_angle(peak, high + low, angle)
+            if turn < zooms - 1:
+                closer = zoom.brackets.narrowed(on_plane(zoom.near, angle).argmax(axis=-1))
+                zoom = self._sampled(self.scene, self.look, self.side, closer)
+        return of_maxima(*np.moveaxis(_tops(zoom.near, zoom.brackets, angle), -1, 0)), angle
 
 
 def _best_planes(
@@ -181,6 +212,11 @@ def on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
     a, b, c = coefficients
     angle = angle.reshape(angle.shape + (1,) * (a.ndim - angle.ndim))
     return np.asarray(a + b * np.cos(angle) + c * np.sin(angle))
+
+
+def _tops(near: FloatArray, brackets: TimeBrackets, angle: FloatArray) -> FloatArray:
+    """Maxima of σ_n, ε_n and −ε_n between the samples, shape (n, X, 3)."""
+    return on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
 
 
 def _at_peaks(near: FloatArray, brackets: TimeBrackets, angle: FloatArray) -> tuple[FloatArray, ...]:

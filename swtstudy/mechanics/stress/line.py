@@ -7,7 +7,10 @@ The stress at x is a short sum over the memory diagram: with the full-slip primi
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
@@ -59,7 +62,7 @@ class SurfaceLine:
     """
 
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
-        self.cycle, self.coordinate, self.position = cycle, coordinate, position
+        self.cycle, self.coordinate, self.position, self.digits = cycle, coordinate, position, digits
         self.primitives = coordinate.profile.primitives(position, digits)
         at = coordinate.of(position)
         #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
@@ -71,6 +74,18 @@ class SurfaceLine:
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
+
+    def take(self, index: NDArray[np.intp]) -> SurfaceLine:
+        """The lines at ``index`` with their positions, repetitions allowed."""
+        taken = copy(self)
+        taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
+        taken.position, taken.base = self.position[index], self.base[:, index]
+        taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
+        taken.edge_at_r, taken.front_at_r = (
+            tuple(ends[index] for ends in at_r) for at_r in (self.edge_at_r, self.front_at_r)
+        )
+        taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
+        return taken
 
     def _base(self) -> FloatArray:
         """Integrals over all pieces inside of each distinct piece, and slope · A at its start."""
