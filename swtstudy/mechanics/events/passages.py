@@ -68,7 +68,7 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
 def _slip_line_passes(
     cycle: Cycle, sense: float, row: NDArray[np.intp], interval: NDArray[np.intp], goal: FloatArray
 ) -> tuple[NDArray[np.intp], FloatArray]:
-    """Which goals the slip line sense·T − N rises through in their intervals, each of shape (m,), and when."""
+    """Which goals, shape (m,), the slip line sense·T − N rises through in their intervals, and when."""
     load = cycle.load
     first, last = (
         sense * load.tangential(instant) - load.normal(instant) for instant in (cycle.begin, cycle.end)
