@@ -69,16 +69,17 @@ def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ..
     -------
     Arrays of shape (…, m), where m is the largest number of kept entries.
     """
+    lead, k = keep.shape[:-1], keep.shape[-1]
     place = np.cumsum(keep, axis=-1)
     width = int(place[..., -1].max(initial=1))
-    where = np.nonzero(keep)
-    target = (*where[:-1], place[where] - 1)
+    kept = np.flatnonzero(keep)
+    target = kept // k * width + place.ravel()[kept] - 1
     first = keep.argmax(axis=-1)
     result = []
     for values in arrays:
-        out = np.repeat(pick(values, first)[..., None], width, axis=-1)
-        out[target] = values[where]
-        result.append(out)
+        out = np.repeat(pick(values, first), width)
+        out[target] = values.ravel()[kept]
+        result.append(out.reshape(*lead, width))
     return tuple(result)
 
 
