@@ -83,6 +83,36 @@ def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ..
     return tuple(result)
 
 
+class RowTable:
+    """n functions, each known at k ascending abscissae.
+
+    Parameters
+    ----------
+    abscissa, value
+        Shape (n, k).
+    """
+
+    def __init__(self, abscissa: FloatArray, value: FloatArray) -> None:
+        self.abscissa, self.value = abscissa, value
+        self._width = abscissa[:, -1:] - abscissa[:, :1]
+        #: All rows as one ascending row, each within a unit of its own.
+        self._key = self._keys(np.arange(len(abscissa))[:, None], abscissa).ravel()
+
+    def interpolated(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+        """The functions number ``row`` at (…), linear between their abscissae and constant beyond."""
+        k = self.abscissa.shape[1]
+        place = np.searchsorted(self._key, self._keys(row, at), side="right") - 1
+        place = np.clip(place, row * k, row * k + k - 2)
+        low, first = self.abscissa.take(place), self.value.take(place)
+        high, last = self.abscissa.take(place + 1), self.value.take(place + 1)
+        slope = (last - first) / (high - low)
+        return np.asarray(slope * (np.clip(at, low, high) - low) + first)
+
+    def _keys(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+        share = (at - self.abscissa[row, 0]) / self._width[row, 0]
+        return np.asarray(row + 0.5 * np.clip(share, 0.0, 1.0))
+
+
 def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
     """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
     sizes = np.bincount(row, minlength=count)
@@ -93,7 +123,7 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     return filled
 
 
-def align(values: FloatArray, like: FloatArray) -> FloatArray:
+def align(values: NDArray[T], like: FloatArray) -> NDArray[T]:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
 

@@ -131,8 +131,7 @@ class SurfaceLine:
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
-        inner, outer = self.primitives.inner(radius), self.primitives.outer(radius)
-        return np.concatenate([inner, outer[:1]])
+        return np.concatenate([self.primitives.inner(radius), self.primitives.pressure(radius)[None]])
 
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
