@@ -12,7 +12,7 @@ from scenes import random_points
 from swtstudy.mechanics.events.nodes import _places
 from swtstudy.mechanics.line.first_look import local_maxima
 from swtstudy.mechanics.line.look import Look
-from swtstudy.mechanics.line.value import of_extremes
+from swtstudy.mechanics.line.samples import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
 R = np.arange(1.0, 11.0)
