@@ -18,8 +18,8 @@ from swtstudy.mechanics.points import FloatArray
 INNER_NODES, OUTER_NODES_PER_DIGIT = 6, 1.3
 #: r/a at which the two outer series meet: their singularities, at 0 and at 1, are equally far in (r/a)².
 MEETING = math.sqrt(0.5)
-#: Below this exponent swt may be largest at the tip, where it turns within any radius (up to 1.55 and friction
-#: 5 in 243 points). Positions on the way there, up to this share of rⁿ⁻¹ or of r, whichever comes first.
+#: Below this exponent swt may be largest at the tip, where it turns within any radius (1.55 at friction 5
+#: in 243 points). Positions on the way there, up to this share of rⁿ⁻¹ or of r, whichever comes first.
 BLUNTEST_TIP, APPROACH_COUNT, NEAREST_POWER, NEAREST = 1.6, 9, 1e-9, 1e-140
 #: Terms of the power series from which the series for small r/a is made: 2⁻⁵² at `MEETING`.
 TERMS = 52

@@ -145,7 +145,7 @@ def _adapted_radii(profile: Profile, end: float, cells: int) -> FloatArray:
         chord = np.diff(profile.depth(radius[None])[0]) / width
         bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord)
         bend *= np.sqrt(np.minimum(width * (cells / end), 1.0))
-        bent = bend > chord.max() / cells**2
+        bent = bend > chord.max() / (2 * cells) ** 2
         if not bent.any() or len(radius) > 8 * cells:
             return radius
         radius = np.sort(np.append(radius, middle[bent]))
