@@ -10,7 +10,7 @@ import xarray as xr
 from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, STATES
+from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -29,6 +29,9 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     for name in PARAMETERS:
         if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
+    asked = made_by(read_runs(attributes["runs"]))
+    if asked:
+        yield f"  quantities     {', '.join(asked)}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.cost import weights
 from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.runner.chunk import Chunk
+from swtstudy.runner.chunk import ONLY_S, Asked, Chunk
 
 
-def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
+def chunks(
+    table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float], asked: Asked = ONLY_S
+) -> Iterator[Chunk]:
     """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
 
     Parameters
@@ -24,6 +26,8 @@ def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], floa
         Shape (len(table),): the points to be solved.
     size
         Called for every chunk, so that later chunks follow the timing of earlier ones.
+    asked
+        What is asked of the points of the table.
     """
     weight = weights(table)
     blocks: list[IntArray] = []
@@ -36,9 +40,9 @@ def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], floa
             continue
         block_weight = int(weight[rows].sum())
         if blocks and heaviness + block_weight > size():
-            yield Chunk.of(table, blocks)
+            yield Chunk.of(table, blocks, asked)
             blocks, heaviness = [], 0
         blocks.append(rows)
         heaviness += block_weight
     if blocks:
-        yield Chunk.of(table, blocks)
+        yield Chunk.of(table, blocks, asked)
