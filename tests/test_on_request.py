@@ -66,6 +66,20 @@ def test_under_a_constant_normal_load_they_are_those_of_cattaneo_and_mindlin() -
     assert found.dissipation.attrs["ancillary_variables"] == "dissipation_error"
 
 
+def test_under_a_prescribed_force_they_are_those_of_the_displacement_that_belongs_to_it() -> None:
+    u = np.array([0.2, 0.6])
+    force = 1.0 - (1.0 - u) ** 1.5
+    own = swtstudy.solve(normal_amplitude=0, tangential_amplitude=u, quantities=EVERY, rtol=1e-2)
+    asked = {"quantities": EVERY, "rtol": 1e-2, "normal_force_amplitude": 0}
+    found = swtstudy.solve(tangential_force_amplitude=force, **asked)
+    for name in EVERY:
+        np.testing.assert_allclose(found[name], own[name], rtol=1e-6)
+    lost = swtstudy.solve(tangential_force_amplitude=1.1, **asked)
+    assert lost.regime.attrs["flag_meanings"].split()[int(lost.regime)] == "no_equilibrium"
+    for name in variables_of(EVERY):
+        assert np.isnan(lost[name])
+
+
 def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple[float, float, float]:
     """Work, largest force ratio and contact radius from springs that are marched through two periods."""
     one = points.take(np.array([index]))

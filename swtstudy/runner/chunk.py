@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES, FloatArray, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
 from swtstudy.quantities import variables_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
@@ -145,7 +145,7 @@ def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[
 
     points, asked = points_from(chunk.table), chunk.asked
     solution = solver(points, rtol) if asked.known is None else asked.known
-    lost = np.isnan(solution.s) & (np.asarray(solution.regime) != REGIMES.index("not_finite"))
+    lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")
     if not asked.quantities:
