@@ -14,6 +14,7 @@ from swtstudy.grid.reading import Range, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import read_quantities, variables_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -37,6 +38,8 @@ class Study:
         Its points.
     rtol
         Relative accuracy asked of s.
+    quantities
+        Names of what is asked beside s, of `swtstudy.quantities.QUANTITIES`.
     figure
         Layout of the figure, or None.
     text
@@ -57,6 +60,7 @@ class Study:
     title: str
     grid: Grid
     rtol: float
+    quantities: tuple[str, ...]
     figure: FigureLayout | None
     text: str
 
@@ -148,19 +152,20 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
 
     grid, found = read_grid(fixed, axes, keys, source, known=known)
     mistakes += found
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed, source))
+
+    quantities = read_quantities(raw.get("quantities", []), "quantities", report)
     figure = _figure_from(raw)
     if figure is not None:
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
-
-        def report(key: str, found: str, allowed: str) -> None:
-            mistakes.append(Mistake(key, found, allowed, source))
-
-        check_figure(figure, names, grid, report)
+        check_figure(figure, names, grid, variables_of(quantities), report)
     if mistakes or table is None or grid is None:
         raise StudyError(mistakes)
-    return Study(table.title, grid, table.rtol, figure, text)
+    return Study(table.title, grid, table.rtol, quantities, figure, text)
 
 
 def _definitions(
