@@ -16,6 +16,8 @@ from swtstudy.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.grid.grid import Grid
+
 
 def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     """Normalised SWT parameter s on the grid spanned by named parameters.
@@ -50,12 +52,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    from swtstudy.grid.blocks import block_ends
-    from swtstudy.grid.unique import unique_points
-    from swtstudy.mechanics import solve_points
-    from swtstudy.records.labelled import arrays_of, label
-    from swtstudy.records.solutions import joined, solution_at
-
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
@@ -73,11 +69,22 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     grid, found = read_grid(fixed, axes, others=("rtol",))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
+    return solve_grid(grid, float(rtol))
+
+
+def solve_grid(grid: Grid, rtol: float) -> xr.Dataset:
+    """s on a grid, solved in this process in bounded memory, as `solve` returns it."""
+    from swtstudy.grid.blocks import block_ends
+    from swtstudy.grid.unique import unique_points
+    from swtstudy.mechanics import solve_points
+    from swtstudy.records.labelled import arrays_of, label
+    from swtstudy.records.solutions import joined, solution_at
+
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
+    solution = joined([solve_points(points_from(block), rtol) for block in blocks])
     dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
-    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
+    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def _dimensions(raw: object) -> int:

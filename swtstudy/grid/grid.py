@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import COLUMNS, canonical_number, canonical_points
+from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
 from swtstudy.grid.codes import code_of
 from swtstudy.grid.values import Value, read_value
 from swtstudy.parameters import PARAMETERS
@@ -19,9 +20,13 @@ if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
 
 
+#: Name of the dimension along which the sampled parameters vary together.
+SAMPLE = "sample"
+
+
 @dataclass(frozen=True)
 class Grid:
-    """A grid of parameter points.
+    """A grid of parameter points: the product of a sample, if there is one, and of axes.
 
     Attributes
     ----------
@@ -29,20 +34,25 @@ class Grid:
         The single-valued parameters; those that no profile of the grid has may be absent.
     axes
         The values along each dimension, in the order of the dimensions.
+    samples
+        The values of the parameters that vary together along the first dimension, `SAMPLE`: all of one
+        length, a point of the sample at each place.
     """
 
     fixed: dict[str, Value]
     axes: dict[str, tuple[Value, ...]]
+    samples: dict[str, tuple[Value, ...]] = field(default_factory=dict)
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions."""
-        return tuple(self.axes)
+        return (*((SAMPLE,) if self.samples else ()), *self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
-        return tuple(map(len, self.axes.values()))
+        sampled = next(iter(self.samples.values()), None)
+        return (*(() if sampled is None else (len(sampled),)), *map(len, self.axes.values()))
 
     @property
     def size(self) -> int:
@@ -50,24 +60,42 @@ class Grid:
         return math.prod(self.shape)
 
     def values(self, name: str) -> tuple[Value, ...]:
-        """All values of a parameter on this grid; empty if it has none."""
-        if name in self.axes:
-            return self.axes[name]
+        """All values of a parameter on this grid, or along its sample; empty if it has none."""
+        along = self.axes.get(name) or self.samples.get(name)
+        if along is not None:
+            return along
         return (self.fixed[name],) if name in self.fixed else ()
+
+    def dimension(self, name: str) -> str | None:
+        """The dimension along which a parameter varies; None if it has a single value or none."""
+        if name in self.samples:
+            return SAMPLE
+        return name if name in self.axes else None
 
     def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
         indices = np.arange(start, self.size if stop is None else stop)
-        position = (
-            dict(zip(self.axes, np.unravel_index(indices, self.shape), strict=True)) if self.axes else {}
-        )
+        places = np.unravel_index(indices, self.shape) if self.dims else ()
+        position = dict(zip(self.dims, places, strict=True))
         columns: dict[str, NDArray] = {}
-        for name in COLUMNS:
-            source = "frequency_ratio" if name in ("p", "q") else name
-            codes = np.array([_code(name, value) for value in self.values(source)] or [0.0])
-            columns[name] = codes[position[source]] if source in position else codes
+        for name, codes in self._codes.items():
+            along = self.dimension(_source(name))
+            columns[name] = codes if along is None else codes[position[along]]
         columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
         return canonical_points(columns)
+
+    @cached_property
+    def _codes(self) -> dict[str, NDArray]:
+        """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
+        return {
+            name: np.array([_code(name, value) for value in self.values(_source(name))] or [0.0])
+            for name in COLUMNS
+        }
+
+
+def _source(column: str) -> str:
+    """The parameter that a column of canonical rows comes from."""
+    return "frequency_ratio" if column in RATIO_COLUMNS else column
 
 
 def _code(name: str, value: Value) -> float:
@@ -80,10 +108,14 @@ def _code(name: str, value: Value) -> float:
     return value if name == "phase" else canonical_number(value)
 
 
-def complete(fixed: dict[str, Value], axes: dict[str, tuple[Value, ...]]) -> Grid:
+def complete(
+    fixed: dict[str, Value],
+    axes: dict[str, tuple[Value, ...]],
+    samples: dict[str, tuple[Value, ...]] | None = None,
+) -> Grid:
     """A grid with the defaults of Table 1 for every parameter that is not given."""
-    filled = dict(fixed)
+    filled, samples = dict(fixed), samples or {}
     for name, parameter in PARAMETERS.items():
-        if name not in fixed and name not in axes and parameter.default is not None:
+        if not {name} & {*fixed, *axes, *samples} and parameter.default is not None:
             filled[name] = read_value(parameter, parameter.default)
-    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes))
+    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))
