@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
     from swtstudy.mistakes import StudyError
+    from swtstudy.optimum.optimise import optimise
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
@@ -36,6 +37,7 @@ __all__ = [
     "inspect_point",
     "nonlocal_swt",
     "open_results",
+    "optimise",
     "physical",
     "run",
     "run_suite",
@@ -56,6 +58,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.open",
+    "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
