@@ -24,7 +24,7 @@ from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS, family_of, is_profile
+from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -51,21 +51,25 @@ class PhysicalContact:
     friction, frequency_ratio, phase, profile
         As in `swtstudy.parameters.PARAMETERS`.
     normal_amplitude, tangential_amplitude
-        δA and uA, lengths.
+        δA and uA, lengths; None where a force is prescribed.
     shape
         What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths.
+    normal_force_amplitude, tangential_force_amplitude
+        FA and QA, forces; None where a displacement is prescribed.
     """
 
     moduli: Moduli
     radius: float
     depth: float
     friction: float
-    normal_amplitude: float
-    tangential_amplitude: float
+    normal_amplitude: float | None
+    tangential_amplitude: float | None
     frequency_ratio: Fraction
     phase: float
     profile: str
     shape: Mapping[str, float] = field(default_factory=dict)
+    normal_force_amplitude: float | None = None
+    tangential_force_amplitude: float | None = None
 
     @property
     def length_scale(self) -> float:
@@ -138,7 +142,7 @@ class PhysicalContact:
             and the stress beneath them on that of the body itself alone.
         """
         own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
-        return {name: number_of(name, own[name], self) for name in PARAMETERS if name in own}
+        return {n: number_of(n, own[n], self) for n in PARAMETERS if own.get(n) is not None}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
@@ -153,15 +157,18 @@ class PhysicalContact:
         profile = parameters.get("profile", self.profile)
         kept = family_of(profile).shape if is_profile(profile) else ()
         own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
+        replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
+        own = {name: value for name, value in own.items() if name not in replaced}
         grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
         own = {name: value for name, value in grid.fixed.items() if name in vars(self)}
         pure: dict[str, Any] = {name: value for name, value in own.items() if not PARAMETERS[name].scale}
+        pure |= dict.fromkeys(replaced)
         contact = replace(self, **pure, shape={})
         # In the order of the table: a length may be measured in the one before it.
         for name, value in grid.fixed.items():
-            if name in own and name not in pure:
+            if name in own and PARAMETERS[name].scale:
                 contact = replace(contact, **{name: length_of(name, value, contact)})
             elif name in family_of(contact.profile).shape:
                 contact = replace(contact, shape={**contact.shape, name: length_of(name, value, contact)})

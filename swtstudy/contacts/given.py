@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from swtstudy.contacts.scales import may_vanish
+from swtstudy.contacts.scales import SCALES, may_vanish
 from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
 from swtstudy.parameters import PARAMETERS, SYMBOLS, families_with, family_of, spelled
 from swtstudy.units.moduli import Moduli
@@ -84,7 +84,7 @@ def wrong_load(depth: object, normal_force: object) -> list[Mistake]:
 
 
 def wrong_sizes(sizes: Mapping[str, object], profile: str | None) -> list[Mistake]:
-    """Lengths that are none, or shapes that the profile does not have; None stands for a wrong profile."""
+    """Sizes that are none, or shapes that the profile does not have; None stands for a wrong profile."""
     mistakes: list[Mistake] = []
     needed = family_of(profile).shape if profile else ()
     for name, value in sizes.items():
@@ -96,7 +96,7 @@ def wrong_sizes(sizes: Mapping[str, object], profile: str | None) -> list[Mistak
                 mistakes.append(Mistake(name, found, allowed))
             continue
         zero = row is not None and may_vanish(row)
-        kind = "length" if row is None or row.scale else "number"
+        kind = "length" if row is None else SCALES[row.scale].kind if row.scale else "number"
         allowed = f"a {kind} ≥ 0" if zero else f"a positive {kind}"
         allowed += " (this profile needs it)" * (name in needed)
         mistakes += wrong_size(name, value, allowed, zero=zero)

@@ -23,13 +23,13 @@ from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS, family_of, is_profile
+from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 #: Parameters of a contact with what they are unless given, None for those that must be: a real contact has
 #: no usual friction and tangential amplitude. The Poisson ratio is that of the bodies.
 _DEFAULTS: dict[str, Any] = {
-    **{name: row.default for name, row in PARAMETERS.items() if name != "poisson_ratio"},
+    **{name: row.default for name, row in PARAMETERS.items() if name not in ("poisson_ratio", *PAIRS)},
     **{"friction": None, "tangential_amplitude": None, "normal_amplitude": 0.0},
 }
 #: Those that are no lengths, whatever the profile.
@@ -61,9 +61,10 @@ def physical(
     **parameters
         The other names of `swtstudy.parameters.PARAMETERS`, single values. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
-        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; and
-        flat_radius b, waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio,
-        phase and profile are as for `swtstudy.solve`.
+        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
+        them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
+        waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio, phase and profile
+        are as for `swtstudy.solve`.
 
     Returns
     -------
@@ -87,13 +88,14 @@ def physical(
     own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "radius": radius}
     given: dict[str, Any] = {
         **own,
-        **{name: parameters.get(name, default) for name, default in _DEFAULTS.items()},
+        **_defaults_beside(parameters),
+        **{name: value for name, value in parameters.items() if name in (*_DEFAULTS, *PAIRS)},
         **{"depth": depth, "normal_force": normal_force, "similar": similar},
     }
-    needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None)]
+    needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None and name in given)]
     lacking = [name for name in needed if given[name] is None]
     unknown = [name for name in parameters if name not in given]
-    mistakes = with_unknown(unknown, given, lacking, _mistakes(given))
+    mistakes = with_unknown(unknown, [*given, *PAIRS], lacking, _mistakes(given))
     if mistakes:
         raise StudyError(mistakes)
     contact = _contact(given)
@@ -105,9 +107,15 @@ def physical(
     return contact
 
 
+def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
+    """The defaults of what has nothing given in its place."""
+    replaced = {other for name, other in PAIRS.items() if name in parameters}
+    return {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+
+
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The lengths, and the shape of any profile."""
-    names = [name for name in _DEFAULTS if name not in (*_PURE, "profile")]
+    """The lengths and forces, and the shape of any profile."""
+    names = [name for name in given if name in (*_DEFAULTS, *PAIRS) and name not in (*_PURE, "profile")]
     return {name: given[name] for name in ("radius", *names)}
 
 
@@ -120,16 +128,22 @@ def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
     mistakes += wrong_bodies(young, poisson, given["similar"])
     mistakes += wrong_load(given["depth"], given["normal_force"])
     mistakes += wrong_sizes(_sizes(given), profile)
-    tangential = given["tangential_amplitude"]
-    if not mistakes and plain_number(given["friction"]) == 0.0 and tangential:
-        found, allowed = f"{literal(tangential)} without friction", "0, since the contact slides at once"
-        mistakes.append(Mistake("tangential_amplitude", found, allowed))
+    for force, other in PAIRS.items():
+        if force in given and other in given:
+            mistakes.append(
+                Mistake(f"{other}, {force}", "both", "one of the two: it says what is prescribed")
+            )
+    moves = [name for name in ("tangential_amplitude", "tangential_force_amplitude") if given.get(name)]
+    if not mistakes and plain_number(given["friction"]) == 0.0 and moves:
+        found, allowed = f"{literal(given[moves[0]])} without friction", "0, since the contact slides at once"
+        mistakes.append(Mistake(moves[0], found, allowed))
     return mistakes
 
 
 def _contact(given: Mapping[str, Any]) -> PhysicalContact:
     """The contact from what has no mistakes, at the depth 1 if that is not given."""
-    values: dict[str, Any] = {name: plain_number(value) for name, value in _sizes(given).items()}
+    values: dict[str, Any] = dict.fromkeys(PAIRS.values())
+    values |= {name: plain_number(value) for name, value in _sizes(given).items()}
     values |= {name: read_value(PARAMETERS[name], given[name]) for name in _PURE}
     young, poisson = (pair_of_numbers(pair(given[name])) for name in ("young_modulus", "poisson_ratio"))
     return PhysicalContact(

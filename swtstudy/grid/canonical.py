@@ -2,7 +2,7 @@
 
 Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one
 onto the other, or if they differ only in parameters that do not matter (the shape of another profile, a
-profile whose shape is plain, the phase of a load that stands still).
+profile whose shape is plain, the phase and the control of a load that stands still).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.codes import code_of, name_of
+from swtstudy.grid.codes import code_of, control_code, control_of, name_of
 from swtstudy.parameters import PARAMETERS, PLAIN, family_of
 
 if TYPE_CHECKING:
@@ -21,21 +21,23 @@ if TYPE_CHECKING:
 
 
 def _numbers(part: str) -> tuple[str, ...]:
-    return tuple(name for name, row in PARAMETERS.items() if row.part == part and row.kind == "number")
+    """Those numbers of a part that have a column; one that takes another's place is in its column."""
+    rows = PARAMETERS.items()
+    return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
 
 
 #: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
 RATIO_COLUMNS = ("p", "q")
-LOAD_COLUMNS = (*RATIO_COLUMNS, *_numbers("load"))
+LOAD_COLUMNS = ("control", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
+SHARED_COLUMNS = ("profile", "control", *RATIO_COLUMNS)
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
 NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
-#: Columns of a table of canonical points, in the order in which they are sorted; for the profile see
-#: `swtstudy.grid.codes`.
+#: Columns of a table of canonical points, in the order in which they are sorted; for the profile and the
+#: control see `swtstudy.grid.codes`.
 COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
@@ -91,14 +93,30 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     from swtstudy.mechanics.load.symmetry import fold_phase, without_what_stands_still
 
     p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
-    amplitude, phase = (table[:, _COLUMN[name]] for name in ("normal_amplitude", "phase"))
-    phase, p, q = without_what_stands_still(amplitude, phase, p, q)
+    normal, tangential, phase = (
+        table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
+    )
+    phase, p, q = without_what_stands_still(normal, phase, p, q)
+    _make_control_canonical(table, normal == 0.0, tangential == 0.0)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
     table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
     table[:, _COLUMN["phase"]] = np.maximum(np.round((folded - nudge) / np.pi, DIGITS), 0.0) * np.pi
     return mirrored
+
+
+def _make_control_canonical(
+    table: FloatArray, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
+) -> None:
+    """A component that stands still is prescribed as the other one is, both that do as displacements."""
+    control = table[:, _COLUMN["control"]]
+    force = control.astype(np.int64)
+    normal, tangential = (force & 1) == 1, (force & 2) == 2
+    moves = ~normal_rests & normal, ~tangential_rests & tangential
+    control[:] = control_code(
+        np.where(normal_rests, moves[1], normal), np.where(tangential_rests, moves[0], tangential)
+    )
 
 
 def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
@@ -126,7 +144,7 @@ def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def points_from(table: FloatArray) -> Points:
-    """A batch for the solver from canonical rows that share one profile."""
+    """A batch for the solver from canonical rows that share one profile and control."""
     from swtstudy.mechanics.points import Points
 
     profile = name_of(table[0, _COLUMN["profile"]])
@@ -135,6 +153,7 @@ def points_from(table: FloatArray) -> Points:
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
+        control=control_of(table[0, _COLUMN["control"]]),
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
@@ -145,4 +164,6 @@ def describe_point(row: FloatArray) -> str:
     parts = [f"profile={profile}"]
     parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in family_of(profile).shape]
     parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
-    return ", ".join([*parts, *(f"{name}={row[_COLUMN[name]]:.6g}" for name in NUMBERS)])
+    control = control_of(row[_COLUMN["control"]])
+    parts += [f"{control.given_for(name)}={row[_COLUMN[name]]:.6g}" for name in NUMBERS]
+    return ", ".join(parts)

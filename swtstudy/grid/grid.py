@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
-from swtstudy.grid.codes import code_of
+from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import PAIRS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -31,7 +31,8 @@ class Grid:
     Attributes
     ----------
     fixed
-        The single-valued parameters; those that no profile of the grid has may be absent.
+        The single-valued parameters; those that no profile of the grid has may be absent, and of two that
+        take each other's place one is.
     axes
         The values along each dimension, in the order of the dimensions.
     samples
@@ -59,6 +60,11 @@ class Grid:
         """Number of grid points."""
         return math.prod(self.shape)
 
+    @property
+    def control(self) -> Control:
+        """What is prescribed."""
+        return Control.given((*self.fixed, *self.axes, *self.samples))
+
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid, or along its sample; empty if it has none."""
         along = self.axes.get(name) or self.samples.get(name)
@@ -79,8 +85,10 @@ class Grid:
         position = dict(zip(self.dims, places, strict=True))
         columns: dict[str, NDArray] = {}
         for name, codes in self._codes.items():
-            along = self.dimension(_source(name))
+            along = self.dimension(self._source(name))
             columns[name] = codes if along is None else codes[position[along]]
+        force = (self.control.normal_force, self.control.tangential_force)
+        columns["control"] = control_code(*map(np.array, force))
         columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
         return canonical_points(columns)
 
@@ -88,14 +96,13 @@ class Grid:
     def _codes(self) -> dict[str, NDArray]:
         """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
         return {
-            name: np.array([_code(name, value) for value in self.values(_source(name))] or [0.0])
+            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0.0])
             for name in COLUMNS
         }
 
-
-def _source(column: str) -> str:
-    """The parameter that a column of canonical rows comes from."""
-    return "frequency_ratio" if column in RATIO_COLUMNS else column
+    def _source(self, column: str) -> str:
+        """The parameter that a column of canonical rows comes from."""
+        return "frequency_ratio" if column in RATIO_COLUMNS else self.control.given_for(column)
 
 
 def _code(name: str, value: Value) -> float:
@@ -113,9 +120,11 @@ def complete(
     axes: dict[str, tuple[Value, ...]],
     samples: dict[str, tuple[Value, ...]] | None = None,
 ) -> Grid:
-    """A grid with the defaults of Table 1 for every parameter that is not given."""
+    """A grid with the defaults of Table 1 for every parameter that is not given, nor one in its place."""
     filled, samples = dict(fixed), samples or {}
+    given = {*fixed, *axes, *samples}
+    given |= {PAIRS[name] for name in given if name in PAIRS}
     for name, parameter in PARAMETERS.items():
-        if not {name} & {*fixed, *axes, *samples} and parameter.default is not None:
+        if name not in given and parameter.default is not None:
             filled[name] = read_value(parameter, parameter.default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

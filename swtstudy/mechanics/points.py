@@ -7,27 +7,34 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.parameters import DISPLACEMENTS, Control
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
-REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
+REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
+#: Those in which s is no finite number.
+WITHOUT_S = ("not_finite", "no_equilibrium")
 
 
 @dataclass(frozen=True)
 class Points:
-    """A batch of n parameter points that share one profile family (eq. 20).
+    """A batch of n parameter points that share one profile family and control (eq. 20).
 
     Attributes
     ----------
     profile
         Name of the profile, a key of `swtstudy.parameters.FAMILIES`.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
-        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad.
+        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad. The amplitudes are those of
+        forces where `control` says so.
     p, q
         Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
     shape
         Shape parameters κ_i of the profile, each of shape (n,).
+    control
+        What is prescribed.
     """
 
     profile: str
@@ -39,16 +46,17 @@ class Points:
     tangential_amplitude: FloatArray
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
+    control: Control = DISPLACEMENTS
 
     def __len__(self) -> int:
         return len(self.phase)
 
     def take(self, index: NDArray[np.intp]) -> Points:
         """The points at ``index``, repetitions allowed."""
-        columns = dict(vars(self))
-        profile, shape = columns.pop("profile"), columns.pop("shape")
-        taken = {name: values[index] for name, values in columns.items()}
-        return Points(profile, **taken, shape={name: values[index] for name, values in shape.items()})
+        own = vars(self)
+        taken = {name: value[index] for name, value in own.items() if isinstance(value, np.ndarray)}
+        shape = {name: values[index] for name, values in self.shape.items()}
+        return Points(**{**own, **taken, "shape": shape})
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
 from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
+from swtstudy.mechanics.control.diagram import diagram, largest_depth
+from swtstudy.mechanics.indenter import resolved_shape, roughness
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.circle_gain import circle_gain
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.load.of_points import alike, largest_normal, largest_turn_count, shared_load
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.points import REGIMES, Points, Solution
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -38,19 +40,19 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     Parameters
     ----------
     points
-        n points of one profile family.
+        n points of one profile family and control.
     rtol
         Relative accuracy asked for.
 
     Returns
     -------
     Solution
-        Arrays of shape (n,). The value of a point does not depend on the others.
+        Arrays of shape (n,), NaN where the body slides away. The value of a point does not depend on the
+        others.
     """
     n = len(points)
-    _, left_out = resolved_shape(points.profile, points.shape, largest_normal(points))
-    s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
-    regime = np.zeros(n, dtype=np.int8)
+    s, error, position, angle, surface = (np.full(n, np.nan) for _ in range(5))
+    regime = np.full(n, REGIMES.index("no_equilibrium"), dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
     for index, scene in _scenes(points):
         lost = not_finite(scene)
@@ -58,7 +60,9 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         found = _maximum(scene, np.flatnonzero(~(lost | idle)), accuracy)
         found = found.put(idle, Maximum.unknown(int(idle.sum()), 0.0))
         s[index] = found.swt
-        error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
+        shape = {name: values[index] for name, values in points.shape.items()}
+        _, left_out = resolved_shape(points.profile, shape, scene.profile.largest_depth)
+        error[index] = np.maximum(found.error + left_out * found.swt, LEAST_ERROR * found.swt)
         gain, _ = circle_gain(scene, found.position, found.double_angle)
         critical = found.swt > 0.0
         surface[index] = np.where(found.swt == 0.0, 0.0, found.swt * (1.0 + gain))
@@ -69,27 +73,47 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
-    """Indices of points that are solved together, and their scenes: of one kind of load and one roughness."""
-    largest = largest_normal(points)
-    level = roughness(points.profile, points.shape, largest)
+    """Indices of points that are solved together, and their scenes: of one kind of load and one roughness.
+
+    Points that are in no equilibrium are in none of them.
+    """
     for group in alike(points):
         turns = largest_turn_count(points.take(group))
         size = max(min(BATCH_SIZE // turns, BATCH_SQUARES // turns**2), 1)
         for sharing in _split(group, SHARING * size):
-            # One contact solution for all profiles.
             load, number = shared_load(points.take(sharing))
-            cycle = solve_cycle(load)
-            for same in np.unique(level[sharing]):
-                for rows in _split(np.flatnonzero(level[sharing] == same), size):
-                    some = points.take(sharing[rows])
-                    profile = make_profile(some.profile, some.shape, largest[sharing[rows]])
-                    coordinate = DepthCoordinate(profile)
-                    # Without tangential motion there is no traction, whatever the friction.
-                    friction = np.where(load.moves_tangentially[number[rows]], some.friction, 0.0)
-                    yield (
-                        sharing[rows],
-                        Scene(cycle.take(number[rows]), coordinate, some.poisson_ratio, friction),
-                    )
+            if not points.control.mixed:
+                carried = ~out_of_equilibrium(load, points.control)[number]
+                sharing, number = sharing[carried], number[carried]
+            some = points.take(sharing)
+            deepest = largest_depth(points.control, some.profile, some.shape, load.largest_normal[number])
+            level = roughness(some.profile, some.shape, deepest)
+            # One contact solution for all profiles.
+            cycle = None if points.control.mixed else solve_cycle(load)
+            for same in np.unique(level):
+                for rows in _split(np.flatnonzero(level == same), size):
+                    taken, scene = _scene(some.take(rows), load.take(number[rows]), cycle, number[rows])
+                    if taken.size:
+                        yield sharing[rows[taken]], scene
+
+
+def _scene(
+    points: Points, load: Load, shared: Cycle | None, number: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], Scene]:
+    """The scene of those points that are in equilibrium, and which of the points these are.
+
+    With a ``shared`` contact solution all are, and the points' cycles are those of the given numbers in it.
+    """
+    in_diagram, coordinate = diagram(points.control, points.profile, points.shape, load)
+    every = np.arange(len(points))
+    # Without tangential motion there is no traction, whatever the friction.
+    friction = np.where(load.moves_tangentially, points.friction, 0.0)
+    if shared is not None:
+        return every, Scene(shared.take(number), coordinate, points.poisson_ratio, friction)
+    carried = every[~out_of_equilibrium(in_diagram, points.control)]
+    own = points.poisson_ratio[carried], friction[carried]
+    # Loads out of equilibrium have a cycle too, of no meaning.
+    return carried, Scene(solve_cycle(in_diagram).take(carried), coordinate.take(carried), *own)
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:

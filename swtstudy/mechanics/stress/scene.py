@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
-from swtstudy.mechanics.control.prescribed import Prescribed
-from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.control.coordinate import Coordinate
+from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.history import History, stresses
+from swtstudy.parameters import Control
 
 
 @dataclass(frozen=True)
@@ -68,14 +68,13 @@ class Scene:
 
 def scene_of(points: Points) -> Scene:
     """The scenes of points whose loads are alike, each with a contact solution of its own."""
-    load = load_of(points)
-    profile = make_profile(points.profile, points.shape, load.largest_normal)
-    return Scene(solve_cycle(load), DepthCoordinate(profile), points.poisson_ratio, points.friction)
+    own = points.poisson_ratio, points.friction, points.profile, points.shape
+    return prescribed_scene(load_of(points), points.control, *own)
 
 
 def prescribed_scene(
     load: Load,
-    prescribed: Prescribed,
+    control: Control,
     poisson_ratio: FloatArray,
     friction: FloatArray,
     profile: str = "paraboloid",
@@ -87,7 +86,7 @@ def prescribed_scene(
     ----------
     load
         n loads as they are prescribed.
-    prescribed
+    control
         What of them is a force.
     poisson_ratio, friction
         Shape (n,).
@@ -97,7 +96,7 @@ def prescribed_scene(
     Raises
     ------
     ValueError
-        See `Prescribed.diagram`.
+        See `swtstudy.mechanics.control.diagram.diagram`.
     """
-    in_diagram, coordinate = prescribed.diagram(profile, shape or {}, load)
+    in_diagram, coordinate = diagram(control, profile, shape or {}, load)
     return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)
