@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from swtstudy.figures.inspection import inspect
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
+    from swtstudy.optimum.optimise import optimise
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
@@ -38,6 +39,7 @@ __all__ = [
     "inspect_point",
     "nonlocal_swt",
     "open_results",
+    "optimise",
     "physical",
     "run",
     "run_suite",
@@ -59,6 +61,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.open",
+    "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",

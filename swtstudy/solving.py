@@ -17,6 +17,8 @@ from swtstudy.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.grid.grid import Grid
+
 
 def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
     """Normalised SWT parameter s on the grid spanned by named parameters.
@@ -54,13 +56,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    from swtstudy.grid.blocks import block_ends
-    from swtstudy.grid.unique import unique_points
-    from swtstudy.mechanics import solve_points
-    from swtstudy.mechanics.quantities import quantities_of
-    from swtstudy.records.labelled import arrays_of, label
-    from swtstudy.records.solutions import joined, solution_at
-
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
@@ -79,10 +74,22 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities"))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
+    return solve_grid(grid, float(rtol), asked)
+
+
+def solve_grid(grid: Grid, rtol: float, asked: tuple[str, ...] = ()) -> xr.Dataset:
+    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory, as by `solve`."""
+    from swtstudy.grid.blocks import block_ends
+    from swtstudy.grid.unique import unique_points
+    from swtstudy.mechanics import solve_points
+    from swtstudy.mechanics.quantities import quantities_of
+    from swtstudy.records.labelled import arrays_of, label
+    from swtstudy.records.solutions import joined, solution_at
+
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     batches = [points_from(block, unique.definitions) for block in blocks]
-    solution = joined([solve_points(batch, float(rtol)) for batch in batches])
+    solution = joined([solve_points(batch, rtol) for batch in batches])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
     if asked:
         found_there = [quantities_of(batch, asked) for batch in batches]
@@ -91,7 +98,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
             for name in variables_of(asked)
         }
     dataset = label(grid, arrays)
-    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
+    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def _dimensions(raw: object) -> int:
