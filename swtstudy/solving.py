@@ -78,7 +78,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 
 def solve_grid(grid: Grid, rtol: float, asked: tuple[str, ...] = ()) -> xr.Dataset:
-    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory, as by `solve`."""
+    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
     from swtstudy.grid.blocks import block_ends
     from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
