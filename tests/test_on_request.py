@@ -393,7 +393,7 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
 
 def test_a_worker_that_dies_gives_up_quantities_too() -> None:
     table = np.zeros((1, 12))
-    lost = chunk.Chunk(np.arange(1), table, (1,), chunk.Asked(("dissipation",)))
+    lost = chunk.Chunk(np.arange(1), table, (1,), {}, chunk.Asked(("dissipation",)))
     result = chunk.given_up(lost, "gone")
     assert result.failed.all()
     assert np.isnan(result.quantities["dissipation_error"]).all()
