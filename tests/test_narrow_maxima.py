@@ -153,7 +153,7 @@ def test_the_higher_of_two_extremes_of_strain_of_which_few_instants_show_the_low
 @pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-5, 1e-6])
 def test_a_plane_that_moves_with_the_instants_of_its_extremes(rtol):
     # Beside the higher of two maxima along x, 3° apart, each look-up of the extremes turns the plane by 1°
-    # only: after two of them swt was 4e-4 low. The value is that of the largest of all planes 0.0025° apart at
+    # only: after two of them swt was 4e-4 low. The value is the largest of all planes 0.0025° apart at
     # 300 steps to a stretch.
     values = 0.36478931206386234, 0.8465262528074448, 0.5709616824123996, 0.2860685374063668
     found = solve_points(points("paraboloid", *values, 4.573917575870801, 1, 2), rtol)
