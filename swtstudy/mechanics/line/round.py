@@ -183,8 +183,8 @@ def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
 def _beside_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
     """Climbs to maxima beside corners that a first round took no value of.
 
-    They are on the other side than its largest value, or on either side of the corner where it is the largest:
-    the climb itself stays there.
+    They are on the other side than its largest value, or on either side where that is at the corner and the
+    climb stays there.
     """
     middle = len(OFFSETS) // 2
     corner = seen.brackets.is_corner
