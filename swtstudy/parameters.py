@@ -33,9 +33,10 @@ class Parameter:
     open_lower
         True if ``lower`` itself is not allowed.
     kind
-        "number", "ratio" (a rational number p/q) or "profile".
+        "number", "ratio" (a rational number p/q), "profile" or "direction".
     part
-        What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
+        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of), or
+        "quantity" (of what is computed beside s).
     units
         CF units: "1", or "rad" for the phase.
     scale
@@ -67,6 +68,8 @@ class Parameter:
         """The allowed range in words, for messages and help."""
         if self.kind == "profile":
             return "one of " + ", ".join(FAMILIES)
+        if self.kind == "direction":
+            return "one of " + ", ".join(DIRECTIONS)
         interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"
         if self.kind == "ratio":
             return f"a positive rational p/q with p, q ≤ {self.upper:g}"
@@ -176,6 +179,34 @@ PARAMETERS: dict[str, Parameter] = {
         ),
     )
 }
+
+#: Into the body from the critical point: straight down, or along the critical plane.
+DIRECTIONS = ("depth", "critical_plane")
+
+#: What quantities beside s range over, while the points do not.
+QUANTITY_AXES: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter(
+            "critical_distance",
+            r"\ell/a_H",
+            "ℓ",
+            "critical distance of the nonlocal values",
+            None,
+            0.0,
+            10.0,
+            open_lower=True,
+            part="quantity",
+            scale="a_H",
+        ),
+        Parameter(
+            "direction", "", "", "direction from the critical point", kind="direction", part="quantity"
+        ),
+    )
+}
+
+#: Everything that a dimension of results may be.
+AXES: dict[str, Parameter] = PARAMETERS | QUANTITY_AXES
 
 #: Parameters of which one of two is given, by the one that takes the other's place.
 PAIRS: dict[str, str] = {

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
-from swtstudy.grid.reading import read_grid
+from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.quantities import read_quantities, variables_of
+from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.version import __version__
 
 if TYPE_CHECKING:
@@ -75,21 +76,28 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-    asked = read_quantities(quantities, "quantities", lambda *parts: mistakes.append(Mistake(*parts)))
-    grid, found = read_grid(fixed, axes, others=("rtol", "quantities"))
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed))
+
+    names = read_quantities(quantities, "quantities", report)
+    asked = Request(names, *read_distances(fixed, axes, str, report))
+    grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
-    if asked:
-        found_there = [quantities_of(points_from(block), asked) for block in blocks]
-        arrays |= {
-            name: np.concatenate([part[name] for part in found_there])[unique.index]
-            for name in variables_of(asked)
-        }
-    dataset = label(grid, arrays)
+    columns: dict[str, NDArray] = {}
+    if asked.items:
+        starts = np.cumsum([0, *map(len, blocks)])
+        parts = [
+            quantities_of(points_from(block), asked.items, solution_at(solution, slice(a, a + len(block))))
+            for block, a in zip(blocks, starts.tolist(), strict=False)
+        ]
+        columns = {name: np.concatenate([part[name] for part in parts])[unique.index] for name in parts[0]}
+    dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
 
 

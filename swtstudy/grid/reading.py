@@ -15,7 +15,8 @@ from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
-from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS
+from swtstudy.parameters import AXES, FAMILIES, PAIRS, PARAMETERS
+from swtstudy.quantities import DISTANCE
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -49,7 +50,8 @@ def read_grid(
     source
         Where the input comes from, for messages.
     others
-        Names that are known beside the parameters, and may be meant by an unknown one.
+        Names that are known beside the parameters: they are read elsewhere, and may be meant by an unknown
+        one.
 
     Returns
     -------
@@ -66,7 +68,7 @@ def read_grid(
     good_fixed: dict[str, Value] = {}
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
-        if name not in PARAMETERS:
+        if name not in PARAMETERS and name not in others:
             report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
     for name in sorted(fixed.keys() & axes.keys()):
         report(keys(name), "both a fixed value and an axis", "one of the two")
@@ -87,6 +89,20 @@ def read_grid(
     return (None if mistakes else grid), mistakes
 
 
+def read_distances(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+) -> tuple[tuple[float, ...], bool]:
+    """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
+    key, raw = keys(DISTANCE), axes.get(DISTANCE)
+    if raw is not None:
+        return tuple(float(value) for value in _read_axis(DISTANCE, raw, key, report)), True
+    single = _read(DISTANCE, fixed[DISTANCE], key, report) if DISTANCE in fixed else None
+    return (() if single is None else (float(single),)), False
+
+
 def given_twice(
     names: Iterable[str], keys: Callable[[str], str] = lambda name: name
 ) -> Iterator[tuple[str, str, str]]:
@@ -99,16 +115,16 @@ def given_twice(
 
 def _read(name: str, raw: object, key: str, report: Report) -> Value | None:
     try:
-        return read_value(PARAMETERS[name], raw)
+        return read_value(AXES[name], raw)
     except ValueError as error:
         report(key, f"{literal(raw)} ({error})", _allowed(name, raw))
         return None
 
 
 def _allowed(name: str, raw: object) -> str:
-    if PARAMETERS[name].kind == "profile" and isinstance(raw, str):
+    if name == "profile" and isinstance(raw, str):
         return nearest(raw, FAMILIES)
-    return PARAMETERS[name].allowed
+    return AXES[name].allowed
 
 
 def _read_axis(name: str, raw: Sequence[object] | Range, key: str, report: Report) -> tuple[Value, ...]:

@@ -8,7 +8,7 @@ from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
-from swtstudy.parameters import Parameter, is_profile
+from swtstudy.parameters import DIRECTIONS, Parameter, is_profile
 
 #: A checked value: a float, an exact frequency ratio, or the name of a profile.
 Value = float | Fraction | str
@@ -40,6 +40,10 @@ def read_value(parameter: Parameter, raw: object) -> Value:
     raw = plain(raw)
     if parameter.kind == "profile":
         return _read_profile(raw)
+    if parameter.kind == "direction":
+        if raw not in DIRECTIONS:
+            raise ValueError("no such direction")
+        return str(raw)
     exact = read_exact(raw)
     if parameter.kind == "ratio":
         return _read_ratio(exact, int(parameter.upper))
