@@ -7,7 +7,8 @@ them; none of them repeats a name, a symbol, a default or a range.
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable
+from collections import ChainMap
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeGuard
 
@@ -206,7 +207,7 @@ QUANTITY_AXES: dict[str, Parameter] = {
 }
 
 #: Everything that a dimension of results may be.
-AXES: dict[str, Parameter] = PARAMETERS | QUANTITY_AXES
+AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES)
 
 #: Parameters of which one of two is given, by the one that takes the other's place.
 PAIRS: dict[str, str] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import AXES, FAMILIES, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.parameters import FAMILIES, PARAMETERS, QUANTITY_AXES, Parameter, families_with
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
@@ -77,7 +77,7 @@ def study_schema() -> dict[str, Any]:
         }
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
-        roles[role] = {"enum": list(AXES), "description": roles[role]["description"]}
+        roles[role] = {"enum": [*PARAMETERS, *QUANTITY_AXES], "description": roles[role]["description"]}
     return schema
 
 
