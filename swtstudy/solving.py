@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -87,14 +88,15 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         raise StudyError([*found, *mistakes])
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block), float(rtol)) for block in blocks])
+    solution = joined([solve_points(points_from(block, unique.definitions), float(rtol)) for block in blocks])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
     columns: dict[str, NDArray] = {}
     if asked.items:
-        starts = np.cumsum([0, *map(len, blocks)])
+        starts = np.cumsum([0, *map(len, blocks)]).tolist()
+        known = [solution_at(solution, slice(*ends)) for ends in itertools.pairwise(starts)]
         parts = [
-            quantities_of(points_from(block), asked.items, solution_at(solution, slice(a, a + len(block))))
-            for block, a in zip(blocks, starts.tolist(), strict=False)
+            quantities_of(points_from(block, unique.definitions), asked.items, own)
+            for block, own in zip(blocks, known, strict=True)
         ]
         columns = {name: np.concatenate([part[name] for part in parts])[unique.index] for name in parts[0]}
     dataset = label(grid, arrays, asked, columns)

@@ -89,6 +89,14 @@ def test_under_a_prescribed_force_they_are_those_of_the_displacement_that_belong
         assert np.isnan(lost[name])
 
 
+def test_a_loop_on_a_line_has_those_of_the_harmonic_load() -> None:
+    line = swtstudy.LoadPath("line", [[0, 1], [0, -1]])
+    found = swtstudy.solve(load=line, tangential_amplitude=0.6, quantities=EVERY, rtol=1e-2)
+    harmonic = swtstudy.solve(normal_amplitude=0, tangential_amplitude=0.6, quantities=EVERY, rtol=1e-2)
+    for name in EVERY:
+        assert float(found[name]) == pytest.approx(float(harmonic[name]), rel=1e-6)
+
+
 def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple[float, float, float]:
     """Work, largest force ratio and contact radius from springs that are marched through two periods."""
     one = points.take(np.array([index]))
@@ -402,7 +410,7 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
 
 def test_a_worker_that_dies_gives_up_quantities_too() -> None:
     table = np.zeros((1, 12))
-    lost = chunk.Chunk(np.arange(1), table, (1,), chunk.Asked(("dissipation",)))
+    lost = chunk.Chunk(np.arange(1), table, (1,), {}, chunk.Asked(("dissipation",)))
     result = chunk.given_up(lost, "gone")
     assert result.failed.all()
     assert np.isnan(result.quantities["dissipation_error"]).all()

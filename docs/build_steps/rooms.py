@@ -61,7 +61,7 @@ class House:
 
 WHOLE = House(
     "swtstudy",
-    ("parameters", "mistakes", "numbers", "accuracy", "version", "files", "wording", "quantities"),
+    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording", "quantities"),
     (
         *("mechanics", "reference", "grid", "units", "study", "records", "archive", "runner", "results"),
         *("solving", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),

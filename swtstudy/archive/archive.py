@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.grid.canonical import describe_point
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.quantities import columns_of
 from swtstudy.records.labelled import arrays_of, label
@@ -58,16 +59,16 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     columns = {name: records.quantity(name)[points.index] for name in columns_of(study.asked.items)}
     dataset = label(study.grid, arrays, study.asked, columns)
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
-    dataset.status.attrs["failures"] = json.dumps(failures(records))
+    dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))
 
 
-def failures(records: Records) -> list[dict[str, Any]]:
+def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]:
     """The failed points: canonical row, description and message of each."""
     return [
         {
             "row": records.table[index].tolist(),
-            "point": describe_point(records.table[index]),
+            "point": describe_point(records.table[index], definitions),
             "message": records.messages.get(int(index), ""),
         }
         for index in np.flatnonzero(records.status == FAILED)
@@ -94,6 +95,12 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "study": study.text,
         "runs": json.dumps([run.to_json() for run in records.runs]),
     }
+    defined = [
+        {"parameter": each.parameter, "name": each.name, "content": each.content()}
+        for each in study.grid.definitions.values()
+    ]
+    if defined:
+        attributes["definitions"] = json.dumps(defined)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

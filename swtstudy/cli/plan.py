@@ -69,7 +69,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
         timed: list[int] = []
         seconds = sum(
             estimate(
-                *(work.points.table, wanted, study.rtol, solve_points),
+                *(work.points, wanted, study.rtol, solve_points),
                 lambda result: timed.append(len(result)),
                 asked,
             )

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from swtstudy.grid.codes import Definitions
+from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
 from swtstudy.quantities import columns_of
 from swtstudy.records.result import Result
@@ -53,6 +55,8 @@ class Chunk:
         Their canonical rows, shape (n, len(COLUMNS)).
     lengths
         Number of points in each block, adding up to n.
+    definitions
+        What the user has defined, by its code.
     asked
         What is asked of them.
     """
@@ -60,13 +64,15 @@ class Chunk:
     rows: IntArray
     table: FloatArray
     lengths: tuple[int, ...]
+    definitions: Definitions
     asked: Asked = ONLY_S
 
     @classmethod
-    def of(cls, table: FloatArray, blocks: list[IntArray], asked: Asked = ONLY_S) -> Chunk:
-        """The chunk that consists of the given blocks of rows; ``asked`` of all rows of the table."""
+    def of(cls, points: UniquePoints, blocks: list[IntArray], asked: Asked = ONLY_S) -> Chunk:
+        """The chunk that consists of the given blocks of rows; ``asked`` of all points."""
         rows = np.concatenate(blocks)
-        return cls(rows, table[rows], tuple(map(len, blocks)), asked.at(rows))
+        lengths = tuple(map(len, blocks))
+        return cls(rows, points.table[rows], lengths, points.definitions, asked.at(rows))
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -82,7 +88,8 @@ class Chunk:
         start = 0
         for length in lengths:
             part = slice(start, start + length)
-            yield Chunk(self.rows[part], self.table[part], (length,), self.asked.at(part))
+            asked = self.asked.at(part)
+            yield Chunk(self.rows[part], self.table[part], (length,), self.definitions, asked)
             start += length
 
 
@@ -143,7 +150,7 @@ def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:
     from swtstudy.grid.canonical import points_from
 
-    points, asked = points_from(chunk.table), chunk.asked
+    points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
     solution = solver(points, rtol) if asked.known is None else asked.known
     lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
@@ -18,7 +18,7 @@ _TIMED_KINDS = 4
 
 
 def estimate(
-    table: FloatArray,
+    points: UniquePoints,
     missing: NDArray[np.bool_],
     rtol: float,
     solver: Solver,
@@ -29,10 +29,10 @@ def estimate(
 
     Parameters
     ----------
-    table
-        Canonical rows in the order of `unique_points`.
+    points
+        The points of the study.
     missing
-        Shape (len(table),): the points to be solved.
+        Shape (len(points.table),): the points to be solved.
     rtol, solver
         As in `run`.
     timed
@@ -40,14 +40,14 @@ def estimate(
     asked
         What is asked of the points of the table.
     """
-    rows = np.flatnonzero(missing)
+    table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
         return 0.0
     _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends = block_ends(table)
-    seconds = points = 0.0
+    seconds = count = 0.0
     total = 0.0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
@@ -56,11 +56,11 @@ def estimate(
         inside = begin + np.flatnonzero(missing[begin : ends[block]])
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            solve_chunk(Chunk.of(table, [inside[:1]], asked), rtol, solver)
-        result = solve_chunk(Chunk.of(table, [inside], asked), rtol, solver)
+            solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
+        result = solve_chunk(Chunk.of(points, [inside], asked), rtol, solver)
         timed(result)
         seconds += result.seconds
-        points += len(result)
+        count += len(result)
         total += result.seconds / len(result) * sizes[each]
     others = len(rows) - sizes[largest].sum()
-    return float(total + seconds / points * others)
+    return float(total + seconds / count * others)

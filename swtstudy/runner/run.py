@@ -198,9 +198,7 @@ def _compute(
     collector = Collector(work.records, own, writer, work.todo)
     weight = collector.pace.chunk_weight
     todo = (
-        chunk
-        for wanted, asked in list(work.tasks())
-        for chunk in chunks(work.points.table, wanted, weight, asked)
+        chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, weight, asked)
     )
     with collector, workers as pool:
         solve(todo, study.rtol, solver, collector.add, pool)

@@ -32,7 +32,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
             yield "figure.hue", literal(layout.hue), f'none for kind = "{layout.kind}"'
     for role in ("x", "vertical"):
         name = getattr(layout, role)
-        if name in AXES and AXES[name].kind in ("profile", "direction") and layout.kind != "heatmap":
+        if name in AXES and AXES[name].kind == "name" and layout.kind != "heatmap":
             yield f"figure.{role}", literal(name), "an axis of numbers"
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import FAMILIES, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
@@ -20,6 +20,7 @@ _DESCRIPTIONS = {
     "quantities": "What is computed beside s, as data variables of the results.",
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
+    "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -27,6 +28,11 @@ _RANGE_DESCRIPTIONS = {
     "stop": "Last value, included.",
     "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
+}
+_LOAD_DESCRIPTIONS = {
+    "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
+    "amplitude times c_t.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, or contours or a heat map over x and vertical.",
@@ -53,6 +59,7 @@ def study_schema() -> dict[str, Any]:
     for table, descriptions in (
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
+        (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):
         for name, entry in table.items():
@@ -91,8 +98,12 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:
         entry["default"] = parameter.default
-    if parameter.kind == "profile":
-        return entry | {"enum": list(FAMILIES)}
+    if parameter.kind == "name":
+        names = list(BUILT_IN[parameter.name])
+        # Beside the built-in loads there may be the study's own loops.
+        return entry | (
+            {"type": "string", "examples": names} if parameter.name == "load" else {"enum": names}
+        )
     lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
@@ -103,7 +114,7 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
     description = value.pop("description")
     value.pop("default", None)
     values = {"type": "array", "items": value, "minItems": 1}
-    if parameter.kind == "profile":
+    if parameter.kind == "name":
         return {"description": description, **values}
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 

@@ -44,6 +44,13 @@ class FigureTable(_Table):
     regimes: bool = False
 
 
+class LoadTable(_Table):
+    """A loop of loads: its vertices, or the file that has them."""
+
+    vertices: Any = None
+    file: str | None = None
+
+
 class StudyTable(_Table):
     """A study file."""
 
@@ -53,4 +60,5 @@ class StudyTable(_Table):
     quantities: Any = []
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
+    loads: dict[str, LoadTable] = {}
     figure: FigureTable | None = None
