@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from swtstudy.figures.inspection import inspect
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
+    from swtstudy.optimum.optimise import optimise
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
@@ -36,6 +37,7 @@ __all__ = [
     "inspect",
     "inspect_point",
     "open_results",
+    "optimise",
     "physical",
     "run",
     "run_suite",
@@ -56,6 +58,7 @@ _HOMES = {
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",
+    "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",

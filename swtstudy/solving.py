@@ -13,11 +13,13 @@ from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
 from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from swtstudy.grid.grid import Grid
 
 
 def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
@@ -56,13 +58,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    from swtstudy.grid.blocks import block_ends
-    from swtstudy.grid.unique import unique_points
-    from swtstudy.mechanics import solve_points
-    from swtstudy.mechanics.quantities import quantities_of
-    from swtstudy.records.labelled import arrays_of, label
-    from swtstudy.records.solutions import joined, solution_at
-
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
@@ -86,21 +81,31 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
+    return solve_grid(grid, float(rtol), asked)
+
+
+def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
+    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
+    from swtstudy.grid.blocks import block_ends
+    from swtstudy.grid.unique import unique_points
+    from swtstudy.mechanics import solve_points
+    from swtstudy.mechanics.quantities import quantities_of
+    from swtstudy.records.labelled import arrays_of, label
+    from swtstudy.records.solutions import joined, solution_at
+
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block, unique.definitions), float(rtol)) for block in blocks])
+    batches = [points_from(block, unique.definitions) for block in blocks]
+    solution = joined([solve_points(batch, rtol) for batch in batches])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
     columns: dict[str, NDArray] = {}
     if asked.items:
         starts = np.cumsum([0, *map(len, blocks)]).tolist()
         known = [solution_at(solution, slice(*ends)) for ends in itertools.pairwise(starts)]
-        parts = [
-            quantities_of(points_from(block, unique.definitions), asked.items, own)
-            for block, own in zip(blocks, known, strict=True)
-        ]
+        parts = [quantities_of(batch, asked.items, own) for batch, own in zip(batches, known, strict=True)]
         columns = {name: np.concatenate([part[name] for part in parts])[unique.index] for name in parts[0]}
     dataset = label(grid, arrays, asked, columns)
-    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=float(rtol))
+    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def _dimensions(raw: object) -> int:

@@ -36,6 +36,7 @@ INDENTERS = {
     "rounded_punch": oracle.rounded_punch(0.6),
     "truncated_paraboloid": oracle.truncated_paraboloid(0.5),
     "wavy_paraboloid": oracle.wavy_paraboloid(0.03, 4.5),
+    "power_law": oracle.power_law(3.0),
 }
 EVERY = [(normal, tangential) for normal in (False, True) for tangential in (False, True)]
 
@@ -62,8 +63,8 @@ def depth_of(name: str, xi: Array) -> Array:
         return np.asarray(xi * (w - b * np.arctan2(w, b)))
     if name == "truncated_paraboloid":
         return xi * w
-    if name == "paraboloid":
-        return xi**2
+    if name in ("paraboloid", "power_law"):
+        return np.asarray(xi ** INDENTERS[name].shape.get("exponent", 2.0))
     return np.interp(xi, *wavy_depth())
 
 

@@ -64,7 +64,7 @@ WHOLE = House(
     ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording", "quantities"),
     (
         *("mechanics", "reference", "grid", "units", "study", "records", "archive", "runner", "results"),
-        *("solving", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
+        *("solving", "optimum", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.grid.grid import Grid
+from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.named import Named
@@ -104,12 +104,16 @@ def label(
     Returns
     -------
     xarray.Dataset
-        Dimensions in the order of the grid's axes; single-valued parameters are scalar coordinates, but for
-        optional ones at their default. The coordinate ``control`` says what is prescribed.
+        Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
+        optional ones at their default; those of a sample are coordinates along its dimension, which numbers
+        its points. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
-        name: (name, _values(values), _attributes(name, values)) for name, values in grid.axes.items()
+        name: (grid.dimension(name), _values(values), _attributes(name, values))
+        for name, values in (grid.samples | grid.axes).items()
     }
+    if grid.samples:
+        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
     for name, value in grid.fixed.items():
         if not PARAMETERS[name].optional or value != PARAMETERS[name].default:
             coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))

@@ -88,8 +88,8 @@ class Chunk:
         start = 0
         for length in lengths:
             part = slice(start, start + length)
-            asked = self.asked.at(part)
-            yield Chunk(self.rows[part], self.table[part], (length,), self.definitions, asked)
+            own = self.rows[part], self.table[part], (length,)
+            yield Chunk(*own, self.definitions, self.asked.at(part))
             start += length
 
 

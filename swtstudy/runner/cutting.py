@@ -28,7 +28,7 @@ def chunks(
     size
         Called for every chunk, so that later chunks follow the timing of earlier ones.
     asked
-        What is asked of the points of the table.
+        What is asked of the points.
     """
     weight = weights(points.table)
     blocks: list[IntArray] = []

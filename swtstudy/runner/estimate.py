@@ -38,7 +38,7 @@ def estimate(
     timed
         Called with the result of each block that was timed.
     asked
-        What is asked of the points of the table.
+        What is asked of the points.
     """
     table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
