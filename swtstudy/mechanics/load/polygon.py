@@ -183,7 +183,8 @@ class PolygonLoad(Load):
 
     def _ends(self, corner: FloatArray, side: IntArray) -> tuple[FloatArray, FloatArray]:
         """A component at both ends of sides."""
-        place = align(self.row * corner.shape[1], side) + side
+        first = (self.row * corner.shape[1]).reshape((-1,) + (1,) * (side.ndim - 1))
+        place = first + side
         return corner.take(place), corner.take(place + 1)
 
     def _at(self, corner: FloatArray, instant: FloatArray) -> FloatArray:
