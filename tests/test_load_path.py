@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run
@@ -16,6 +17,8 @@ from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.parameters import CONTROLS, Control
 
+PLAIN = ("normal_amplitude", "tangential_amplitude")
+FORCED = ("normal_force_amplitude", "tangential_force_amplitude")
 SQUARE = [[0.0, 0.5], [0.5, 0.5], [0.5, -0.5], [0.0, -0.5]]
 CONE = [[-0.3, -0.4], [0.1, 0.6], [0.5, 0.2], [0.2, -0.3]]
 
@@ -85,6 +88,54 @@ def test_a_loop_of_force_and_displacement_needs_a_constant_normal_load() -> None
     with pytest.raises(StudyError, match="a normal load that is not constant") as caught:
         swtstudy.solve(load=LoadPath("mine", SQUARE), normal_force_amplitude=1.0, tangential_amplitude=0.5)
     assert len(caught.value.mistakes) == 1
+
+
+@pytest.mark.parametrize("forces", [True, False])
+def test_harmonic_sums_are_what_two_oscillations_are(forces: bool) -> None:
+    """The paper's own load, as a loop of one harmonic each."""
+    names = FORCED if forces else PLAIN
+    for p, q in ((1, 1), (1, 2), (3, 2)):
+        own = dict(zip(names, (0.45, 0.3), strict=True))
+        loop = LoadPath.harmonic_sum("mine", [(q, 1.0, 0.7)], [(p, 1.0, 0.0)])
+        found = swtstudy.solve(load=loop, **own, rtol=1e-6)
+        expected = swtstudy.solve(frequency_ratio=f"{p}/{q}", phase=0.7, **own, rtol=1e-6)
+        assert found.s.item() == pytest.approx(expected.s.item(), rel=1e-6)
+        assert abs(found.critical_x.item()) == pytest.approx(abs(expected.critical_x.item()), rel=1e-4)
+
+
+def test_major_and_minor_cycles_are_their_polygon_of_many_sides() -> None:
+    normal, tangential = [(1, 1.0, 0.4), (3, 0.3, 1.0)], [(1, 0.8, 0.0), (2, 0.2, 0.5), (0, 0.1, 1.5)]
+    own = {"normal_amplitude": 0.5, "tangential_amplitude": 0.5, "rtol": 1e-5}
+    smooth = swtstudy.solve(load=LoadPath.harmonic_sum("mine", normal, tangential), **own).s.item()
+
+    def course(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        found = [sum(a * np.sin(k * t + b) for k, a, b in rows) for rows in (normal, tangential)]
+        return found[0], found[1]
+
+    by_samples = swtstudy.solve(load=LoadPath.sampled("mine", course), **own).s.item()
+    assert by_samples == pytest.approx(smooth, rel=1e-6)
+    errors = []
+    for count in (100, 400):
+        t = 2.0 * np.pi * np.arange(count) / count
+        errors.append(abs(s_of(np.stack(course(t), axis=1), **own) / smooth - 1.0))
+    assert errors[1] < 3e-4
+    assert errors[1] < 0.5 * errors[0]
+
+
+def test_a_function_with_corners_is_no_harmonic_sum() -> None:
+    with pytest.raises(StudyError, match="harmonics beyond the order 64"):
+        LoadPath.sampled("mine", lambda t: (np.sin(t), np.abs(np.sin(t))))
+    for wrong in (lambda t: t, lambda t: (t[:5], t), lambda t: (np.nan * t, t)):
+        with pytest.raises(StudyError, match="course of mine: found"):
+            LoadPath.sampled("mine", wrong)
+
+
+def test_a_harmonic_sum_comes_back_from_an_archive(tmp_path: Path) -> None:
+    text = STUDY + "normal = [[1, 0.5, 0.4]]\ntangential = [[1, 0.5, 0.0], [2, 0.1, 0.3]]"
+    path = tmp_path / "loops.nc"
+    dataset = run(Study.from_text(text), path, workers=1)
+    xr.testing.assert_equal(merge([path]).drop_vars("run"), dataset.drop_vars("run"))
+    assert Study.from_text(merge([path]).attrs["study"]).grid == Study.from_text(text).grid
 
 
 def test_the_shapes_that_rigs_run() -> None:
@@ -160,8 +211,8 @@ vertices = {}
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ("", "loads.mine: found neither; allowed: vertices or file"),
-        ('vertices = [[0, 1], [0, 2]]\nfile = "a.csv"', "loads.mine: found both; allowed: vertices or file"),
+        ("", "loads.mine: found nothing; allowed: vertices, file, or normal and tangential"),
+        ('vertices = [[0, 1], [0, 2]]\nfile = "a.csv"', "loads.mine: found vertices and file; "),
         ("vertices = [[0, 1]]", r"loads.mine.vertices: found a single point .*; allowed: 2 distinct points"),
         ("vertices = [[0, 1], [0, 1]]", r"loads.mine.vertices: found a single point"),
         ("vertices = [[0, 1], [0, nan]]", r"loads.mine.vertices: found \[0.0, nan\] .*number 2"),
@@ -177,6 +228,12 @@ vertices = {}
         ('file = "hole.csv"', r"loads.mine.file: found nothing .*line 3, tangential\)"),
         ('file = "nan.csv"', r"loads.mine.file: found 'nan' .*line 3, tangential\)"),
         ('file = "long.csv"', r"loads.mine.file: found more than 100000 rows"),
+        ("normal = [[1, 1, 0]]", "loads.mine: found normal; allowed: vertices, file, or normal and"),
+        (
+            "normal = [[1, 1, 0]]\ntangential = [[0.5, 1, 0]]",
+            r"loads.mine: found \[0.5, 1, 0\] .tangential of",
+        ),
+        ("normal = []\ntangential = [[0, 1, 0]]", "loads.mine: found nothing that changes"),
         ('files = "a.csv"', "loads.mine.files: found unknown key 'files'"),
     ],
 )

@@ -10,7 +10,7 @@ import numpy as np
 from swtstudy.grid.canonical import NUMBERS
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import as_number
-from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.load.loop import Loop
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import StudyError
@@ -46,7 +46,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in family_of(profile).shape},
         control=grid.control,
-        path=course if isinstance(course, LoadPath) else None,
+        path=course if isinstance(course, Loop) else None,
         **{name: number(name) for name in NUMBERS},
     )
 

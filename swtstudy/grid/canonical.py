@@ -157,7 +157,7 @@ def points_from(table: FloatArray, definitions: Definitions) -> Points:
     definitions
         What the user has defined, by its code.
     """
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.mechanics.load.loop import Loop
     from swtstudy.mechanics.points import Points
 
     profile = str(value_of(table[0, _COLUMN["profile"]], definitions))
@@ -168,7 +168,7 @@ def points_from(table: FloatArray, definitions: Definitions) -> Points:
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
         control=control_of(table[0, _COLUMN["control"]]),
-        path=course if isinstance(course, LoadPath) else None,
+        path=course if isinstance(course, Loop) else None,
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 

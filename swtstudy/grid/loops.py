@@ -32,9 +32,9 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """With a force and a displacement the straight sides of a loop are curved in the memory diagram."""
     if not grid.control.mixed or not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.mechanics.load.loop import Loop
 
-    moving = [load for load in grid.values("load") if isinstance(load, LoadPath) and not load.is_steady]
+    moving = [load for load in grid.values("load") if isinstance(load, Loop) and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"

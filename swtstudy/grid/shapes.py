@@ -102,10 +102,10 @@ def _largest_depths(grid: Grid, profile: str, shape: dict[str, FloatArray]) -> F
     """Largest depth of each shape in the grid, (n,): the largest contact is the hardest to keep compact."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.mechanics.load.loop import Loop
 
     amplitude = max(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
-    reach = max(load.reach if isinstance(load, LoadPath) else 1.0 for load in grid.values("load"))
+    reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
     normal = np.full(len(next(iter(shape.values()))), 1.0 + max(amplitude * reach, 0.0))
     if not grid.control.normal_force:
         return normal

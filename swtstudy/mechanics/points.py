@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from swtstudy.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.mechanics.load.loop import Loop
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -53,7 +53,7 @@ class Points:
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
     control: Control = DISPLACEMENTS
-    path: LoadPath | None = None
+    path: Loop | None = None
 
     def __len__(self) -> int:
         return len(self.phase)

@@ -36,23 +36,29 @@ def read_loops(
     mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"loads.{name}"
-        given = [each for each in ("vertices", "file") if table.get(each) is not None]
         if not isinstance(table.get("file", ""), str):
             continue  # reported with the structure
-        if len(given) != 1:
-            mistakes.append(Mistake(key, "both" if given else "neither", "vertices or file", source))
+        given = [each for each in ("vertices", "file", "normal", "tangential") if table.get(each) is not None]
+        if given not in (["vertices"], ["file"], ["normal", "tangential"]):
+            given_words = " and ".join(given) or "nothing"
+            allowed = "vertices, file, or normal and tangential"
+            mistakes.append(Mistake(key, given_words, allowed, source))
             continue
         try:
-            vertices = (
-                table["vertices"] if given == ["vertices"] else read_columns(folder / table["file"], COLUMNS)
-            )
-            found[name] = LoadPath(name, vertices)
+            found[name] = _loop(name, table, given[0], folder)
         except StudyError as error:
+            where = f"{key}.{given[0]}" if len(given) == 1 else key
             mistakes += [
-                Mistake(f"{key}.{given[0]}", f"{each.found}{_place(each)}", each.allowed, source)
-                for each in error.mistakes
+                Mistake(where, f"{each.found}{_place(each)}", each.allowed, source) for each in error.mistakes
             ]
     return found, mistakes
+
+
+def _loop(name: str, table: Mapping[str, Any], kind: str, folder: Path) -> Named:
+    if kind == "normal":
+        return LoadPath.harmonic_sum(name, table["normal"], table["tangential"])
+    by_file = kind == "file"
+    return LoadPath(name, read_columns(folder / table["file"], COLUMNS) if by_file else table["vertices"])
 
 
 def _place(mistake: Mistake) -> str:

@@ -33,6 +33,8 @@ _LOAD_DESCRIPTIONS = {
     "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
     "amplitude times c_t.",
     "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
+    "normal": "Harmonics of c_n instead of vertices: rows of order, amplitude and phase.",
+    "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, or contours or a heat map over x and vertical.",

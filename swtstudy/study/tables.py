@@ -45,10 +45,12 @@ class FigureTable(_Table):
 
 
 class LoadTable(_Table):
-    """A loop of loads: its vertices, or the file that has them."""
+    """A loop of loads: its vertices, the file that has them, or its harmonics."""
 
     vertices: Any = None
     file: str | None = None
+    normal: Any = None
+    tangential: Any = None
 
 
 class StudyTable(_Table):

@@ -1,20 +1,20 @@
-"""Closed loops that rigs run, as their users define them: named polygons."""
+"""Closed loops that rigs run, as their users define them: polygons, or sums of harmonics."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.loop import Loop, checked_name
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
+from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN
 
 #: Most vertices of a loop that counts: a value with so many takes 20 s and 10 GB.
 MOST_VERTICES = 2000
@@ -22,7 +22,7 @@ MOST_VERTICES = 2000
 SIDES_PER_OSCILLATION = 12
 
 
-class LoadPath(Named):
+class LoadPath(Loop):
     """A closed loop of the normal and the tangential load, run through again and again.
 
     Its sides are straight. Nothing depends on the speed, nor on the vertex at which it starts; the
@@ -49,8 +49,6 @@ class LoadPath(Named):
     >>> swtstudy.solve(load=square).s.round(4).item()
     0.1271
     """
-
-    parameter: ClassVar[str] = "load"
 
     def __init__(self, name: str, vertices: ArrayLike) -> None:
         self.name = checked_name(name)
@@ -93,9 +91,52 @@ class LoadPath(Named):
     def content(self) -> dict[str, Any]:
         return {"vertices": self.vertices.tolist()}
 
+    @staticmethod
+    def harmonic_sum(
+        name: str,
+        normal: Sequence[tuple[int, float, float]],
+        tangential: Sequence[tuple[int, float, float]],
+    ) -> SmoothPath:
+        """Major and minor cycles: sums of harmonics, which are solved without sampling.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        normal, tangential
+            Order (0 to 64), amplitude and phase (rad) of each harmonic of c_n and c_t, which are
+            Σ amplitude · sin(order · φ + phase) over a period 2π of φ.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with what is wrong with them.
+        """
+        return SmoothPath(name, normal, tangential)
+
+    @staticmethod
+    def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ArrayLike]]) -> SmoothPath:
+        """A smooth loop from a function, as the harmonic sum that it is.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        course
+            From φ in [0, 2π), shape (k,), to c_n and c_t there, each of shape (k,) or a single number.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if harmonics up to the order 64 do not suffice: then vertices are the way.
+        """
+        return sampled(name, course)
+
     @classmethod
-    def of_content(cls, name: str, content: Mapping[str, Any]) -> LoadPath:
-        return cls(name, content["vertices"])
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> Loop:
+        if "vertices" in content:
+            return cls(name, content["vertices"])
+        return SmoothPath(name, content["normal"], content["tangential"])
 
     @cached_property
     def cost(self) -> int:
@@ -103,22 +144,18 @@ class LoadPath(Named):
 
     @property
     def reach(self) -> float:
-        """Largest c_n."""
         return float(self.vertices[:, 0].max())
 
     @property
     def is_steady(self) -> bool:
-        """Whether the normal load is constant."""
         return bool(np.ptp(self.vertices[:, 0]) == 0.0)
 
     @property
     def turn_count(self) -> int:
-        """How many turning instants its loads have at most."""
         # As many again where contact is made or lost.
         return len(self.vertices)
 
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
-        """The n loads with these amplitudes, each of shape (n,)."""
         normal, tangential = self.vertices.T
         return PolygonLoad.of(
             [
@@ -126,21 +163,6 @@ class LoadPath(Named):
                 for n, t in zip(normal_amplitude, tangential_amplitude, strict=True)
             ]
         )
-
-
-def checked_name(name: object) -> str:
-    """The name of a loop.
-
-    Raises
-    ------
-    StudyError
-        A ValueError, if it is none, or that of a built-in load.
-    """
-    if not isinstance(name, str) or not name.strip():
-        raise StudyError([Mistake("name", literal(name), "a text that is not empty")])
-    if name in BUILT_IN["load"]:
-        raise StudyError([Mistake("name", literal(name), "another one: this is a built-in load")])
-    return name
 
 
 def _checked(vertices: ArrayLike, name: str) -> FloatArray:

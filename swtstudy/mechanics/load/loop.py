@@ -1,0 +1,56 @@
+"""What a loop of the load must know that a user defines and names."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import ClassVar
+
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN
+
+
+class Loop(Named):
+    """A closed loop of the normal and the tangential load, run through again and again.
+
+    The normal load is 1 + its amplitude times c_n, the tangential one its amplitude times c_t, of whatever is
+    prescribed.
+    """
+
+    parameter: ClassVar[str] = "load"
+
+    @property
+    @abstractmethod
+    def reach(self) -> float:
+        """Largest c_n."""
+
+    @property
+    @abstractmethod
+    def is_steady(self) -> bool:
+        """Whether the normal load is constant."""
+
+    @property
+    @abstractmethod
+    def turn_count(self) -> int:
+        """How many turning instants its loads have, about."""
+
+    @abstractmethod
+    def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
+        """The n loads with these amplitudes, each of shape (n,)."""
+
+
+def checked_name(name: object) -> str:
+    """The name of a loop.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if it is none, or that of a built-in load.
+    """
+    if not isinstance(name, str) or not name.strip():
+        raise StudyError([Mistake("name", literal(name), "a text that is not empty")])
+    if name in BUILT_IN["load"]:
+        raise StudyError([Mistake("name", literal(name), "another one: this is a built-in load")])
+    return name

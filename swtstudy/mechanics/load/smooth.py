@@ -1,0 +1,166 @@
+"""Smooth loads: both components are sums of harmonics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.load.bimodal import NO_AMPLITUDE
+from swtstudy.mechanics.load.harmonic_sum import HarmonicSum, even_instants
+from swtstudy.mechanics.load.load import PERIOD, Load
+from swtstudy.mechanics.numerics.arrays import align, filled_rows
+from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
+from swtstudy.mechanics.points import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class SmoothLoad(Load):
+    """n loads along one smooth loop: N = 1 + normal_amplitude c_n(φ), T = tangential_amplitude c_t(φ).
+
+    Attributes
+    ----------
+    normal_sum, tangential_sum
+        c_n and c_t.
+    normal_amplitude, tangential_amplitude
+        Shape (n,).
+    """
+
+    normal_sum: HarmonicSum
+    tangential_sum: HarmonicSum
+    normal_amplitude: FloatArray
+    tangential_amplitude: FloatArray
+
+    def __len__(self) -> int:
+        return len(self.normal_amplitude)
+
+    def take(self, index: NDArray[np.intp]) -> SmoothLoad:
+        amplitudes = self.normal_amplitude[index], self.tangential_amplitude[index]
+        return SmoothLoad(self.normal_sum, self.tangential_sum, *amplitudes)
+
+    def normal(self, instant: FloatArray) -> FloatArray:
+        return 1.0 + align(self.normal_amplitude, instant) * self.normal_sum.value(instant)
+
+    def tangential(self, instant: FloatArray) -> FloatArray:
+        return align(self.tangential_amplitude, instant) * self.tangential_sum.value(instant)
+
+    def normal_rate(self, instant: FloatArray) -> FloatArray:
+        return align(self.normal_amplitude, instant) * self.normal_sum.value(instant, 1)
+
+    def tangential_rate(self, instant: FloatArray) -> FloatArray:
+        return align(self.tangential_amplitude, instant) * self.tangential_sum.value(instant, 1)
+
+    @property
+    def least_normal(self) -> FloatArray:
+        return 1.0 + self.normal_amplitude * _ends(self.normal_sum)[0]
+
+    @property
+    def largest_normal(self) -> FloatArray:
+        return 1.0 + self.normal_amplitude * _ends(self.normal_sum)[1]
+
+    @property
+    def motion(self) -> FloatArray:
+        normal, tangential = (0.5 * np.ptp(_ends(one)) for one in (self.normal_sum, self.tangential_sum))
+        return np.asarray(normal * self.normal_amplitude + tangential * self.tangential_amplitude)
+
+    @property
+    def moves_tangentially(self) -> NDArray[np.bool_]:
+        return (self.tangential_amplitude > 0.0) & (not self.tangential_sum.is_constant)
+
+    @property
+    def oscillations(self) -> tuple[int, int]:
+        return max(len(self.normal_sum.turns) // 2, 1), max(self.tangential_sum.highest, self._order)
+
+    @property
+    def mirrored_half(self) -> bool:
+        def only(one: HarmonicSum, parity: int) -> bool:
+            return not np.any(one.amplitude[one.order % 2 != parity])
+
+        return only(self.normal_sum, 0) and only(self.tangential_sum, 1)
+
+    def turning_instants(self) -> FloatArray:
+        n = len(self)
+        turns = np.broadcast_to(self.normal_sum.turns, (n, len(self.normal_sum.turns)))
+        columns = [turns, self._contact_changes()]
+        columns += [self._turning_points_of_slip_line(sense) for sense in (1.0, -1.0)]
+        return np.sort(np.concatenate(columns, axis=1), axis=1)
+
+    def branch(self, instant: FloatArray) -> IntArray:
+        return self.normal_sum.stretch(instant)
+
+    def touch_down(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        if self.normal_sum.is_constant:
+            return np.zeros(np.shape(normal))
+        return self.normal_sum.inverse(self._course(normal), branch)
+
+    def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
+        instant = self.touch_down(normal, branch)
+        rate, normal_rate = self.tangential_rate(instant), self.normal_rate(instant)
+        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
+        return -np.clip(ratio, -1.0, 1.0)
+
+    def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
+        low, high = begin[:, None], end[:, None]
+        middle = 0.5 * (low + high)
+        shape = np.broadcast_shapes((*normal.shape, 1), low.shape)
+        if self.normal_sum.is_constant:
+            return np.broadcast_to(high, shape).copy()
+        found = self.normal_sum.inverse(self._course(normal)[:, :, None], self.normal_sum.stretch(middle))
+        found = found + PERIOD * np.round((middle - found) / PERIOD)
+        moves = (self.normal_amplitude > NO_AMPLITUDE)[:, None, None]
+        return np.where(moves, np.clip(found, low, high), high)
+
+    def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
+        return Brackets.of(self._slip_line(sense), low, high)
+
+    def slip_line_instant(self, sense: float, goal: FloatArray, brackets: Brackets) -> FloatArray:
+        return monotone_roots(self._slip_line(sense), goal, brackets)
+
+    @property
+    def _order(self) -> int:
+        return max(self.normal_sum.highest, self.tangential_sum.highest)
+
+    def _course(self, normal: FloatArray) -> FloatArray:
+        """c_n at normal loads."""
+        amplitude = align(self.normal_amplitude, normal)
+        return np.divide(normal - 1.0, amplitude, out=np.zeros_like(normal), where=amplitude > NO_AMPLITUDE)
+
+    def _contact_changes(self) -> FloatArray:
+        """Instants at which contact is made or lost, shape (n, k), filled up with the period's end."""
+        begin = self.normal_sum.at_turns
+        if not begin.size or not np.any(self.least_normal < 0.0):
+            return np.zeros((len(self), 0))
+        level = self._course(np.zeros(len(self)))[:, None]
+        end, stretch = np.roll(begin, -1), np.arange(begin.size)
+        crosses = (level > np.minimum(begin, end)) & (level < np.maximum(begin, end))
+        return np.where(crosses, np.mod(self.normal_sum.inverse(level, stretch), PERIOD), PERIOD)
+
+    def _slip_line(self, sense: float, derivative: int = 0) -> Function:
+        """A derivative of the slip line sense·tangential − normal of the loads, and two more of them."""
+
+        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+            n, t = self.normal_amplitude[active], sense * self.tangential_amplitude[active]
+            values = [
+                t * self.tangential_sum.value(instant, k) - n * self.normal_sum.value(instant, k)
+                for k in range(derivative, derivative + 3)
+            ]
+            return values[0] - (derivative == 0), values[1], values[2]
+
+        return line
+
+    def _turning_points_of_slip_line(self, sense: float) -> FloatArray:
+        """Zeros of d(sense·tangential − normal)/dφ in a period, shape (n, k), filled up with its end."""
+        grid = even_instants(self._order)
+        nodes = np.broadcast_to(grid, (len(self), grid.size))
+        samples = sense * self.tangential_rate(nodes) - self.normal_rate(nodes)
+        row, low, high = sign_changes(grid, samples)
+        rate = self.take(row)._slip_line(sense, 1)
+        roots = monotone_roots(rate, np.zeros(len(row)), Brackets.of(rate, low, high))
+        return filled_rows(row, np.mod(roots, PERIOD), len(self), PERIOD)
+
+
+def _ends(one: HarmonicSum) -> tuple[float, float]:
+    """Least and largest value."""
+    values = np.append(one.at_turns, one.value(np.zeros(1)))
+    return float(values.min()), float(values.max())

@@ -1,0 +1,123 @@
+"""Smooth closed loops, as their users define them: sums of harmonics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.loop import Loop, checked_name
+from swtstudy.mechanics.load.smooth import SmoothLoad
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal
+
+#: Highest harmonic of a loop: that of the frequency ratio of two.
+HIGHEST_ORDER = 64
+#: Samples of a function for its harmonics, and the share of the largest below which they are rounding.
+SAMPLES, ROUNDING = 1024, 1e-12
+
+
+class SmoothPath(Loop):
+    """A loop of two sums of harmonics; see `LoadPath.harmonic_sum`."""
+
+    def __init__(self, name: str, normal: object, tangential: object) -> None:
+        self.name = checked_name(name)
+        #: Rows of order, amplitude and phase of c_n and c_t.
+        self.normal, self.tangential = (
+            _checked(rows, f"{key} of {name}")
+            for rows, key in ((normal, "normal"), (tangential, "tangential"))
+        )
+        if self._sums[0].is_constant and self._sums[1].is_constant:
+            raise StudyError([Mistake(f"harmonics of {name}", "nothing that changes", "a loop")])
+
+    def content(self) -> dict[str, Any]:
+        return {"normal": self.normal, "tangential": self.tangential}
+
+    @classmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> SmoothPath:
+        return cls(name, content["normal"], content["tangential"])
+
+    @property
+    def cost(self) -> int:
+        return 1 + self._order
+
+    @property
+    def reach(self) -> float:
+        one = self._sums[0]
+        return float(one.value(np.append(one.turns, 0.0)).max())
+
+    @property
+    def is_steady(self) -> bool:
+        return self._sums[0].is_constant
+
+    @property
+    def turn_count(self) -> int:
+        return 6 * self._order
+
+    def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
+        return SmoothLoad(*self._sums, normal_amplitude, tangential_amplitude)
+
+    @cached_property
+    def _sums(self) -> tuple[HarmonicSum, HarmonicSum]:
+        normal, tangential = (_sum_of(rows) for rows in (self.normal, self.tangential))
+        return normal, tangential
+
+    @property
+    def _order(self) -> int:
+        return max(one.highest for one in self._sums)
+
+
+def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ArrayLike]]) -> SmoothPath:
+    """A smooth loop from a function; see `LoadPath.sampled`."""
+    instant = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
+    try:
+        columns = [np.broadcast_to(np.asarray(each, float), instant.shape) for each in course(instant)]
+        normal, tangential = columns
+    except (TypeError, ValueError) as error:
+        allowed = "c_n and c_t, each of the shape of φ"
+        raise StudyError(
+            [Mistake(f"course of {name}", f"a function that fails ({error})", allowed)]
+        ) from None
+    if not (np.isfinite(normal).all() and np.isfinite(tangential).all()):
+        raise StudyError([Mistake(f"course of {name}", "a value that is no finite number", "finite numbers")])
+    return SmoothPath(name, _harmonics(normal, name), _harmonics(tangential, name))
+
+
+def _harmonics(values: FloatArray, name: str) -> list[tuple[int, float, float]]:
+    """Order, amplitude and phase of the harmonics of even samples over a period."""
+    found = np.fft.rfft(values) / len(values)
+    found[1:] *= 2.0
+    size = np.abs(found)
+    kept = np.flatnonzero(size > ROUNDING * size.max(initial=0.0))
+    if kept.max(initial=0) > HIGHEST_ORDER:
+        beyond = f"harmonics beyond the order {HIGHEST_ORDER}, of up to {size[HIGHEST_ORDER + 1 :].max():.1g}"
+        allowed = "a smooth loop; one with corners has vertices: LoadPath(name, vertices)"
+        raise StudyError([Mistake(f"course of {name}", beyond, allowed)])
+    # cos(kφ + β) = sin(kφ + β + π/2).
+    return [(int(k), float(size[k]), float(np.angle(found[k]) + 0.5 * np.pi)) for k in kept]
+
+
+def _sum_of(rows: Sequence[Sequence[float]]) -> HarmonicSum:
+    order, amplitude, phase = np.array(rows, dtype=np.float64).reshape(-1, 3).T
+    return HarmonicSum(order.astype(np.int64), amplitude, phase)
+
+
+def _checked(rows: object, key: str) -> list[list[float]]:
+    """Rows of order, amplitude and phase."""
+    allowed = f"rows of order (a whole number up to {HIGHEST_ORDER}), amplitude and phase"
+    if not isinstance(rows, Sequence | np.ndarray) or isinstance(rows, str):
+        raise StudyError([Mistake(key, literal(rows), allowed)])
+    for row in rows:
+        sound = (
+            isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(is_number(each) for each in row)
+        )
+        sound = sound and all(math.isfinite(each) for each in row)
+        if not (sound and row[0] == int(row[0]) and 0 <= row[0] <= HIGHEST_ORDER):
+            raise StudyError([Mistake(key, literal(row), allowed)])
+    return [[int(row[0]), float(row[1]), float(row[2])] for row in rows]
