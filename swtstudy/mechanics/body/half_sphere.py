@@ -59,15 +59,15 @@ class HalfSpheres:
         return radius, depth, angle
 
     def weights(self, size: FloatArray) -> FloatArray:
-        """Weights of the values at the places in the means over radii ``size``, (k,), shape (5, k, N).
+        """Weights of the values at the places in the means over radii ``size``, (k,), shape (3, k, N).
 
         The first ones are those of the mean, the others those of its change where every other distance, or
         inclination, is left out.
         """
-        every, even, odd = slice(None), slice(0, None, 2), slice(1, None, 2)
+        every, even = slice(None), slice(0, None, 2)
         mean, *others = (
             self._weights(size, self.count, self.along, *kept)
-            for kept in ((every, every), (even, every), (odd, every), (every, even), (every, odd))
+            for kept in ((every, every), (even, every), (every, even))
         )
         fewer = self._weights(size, SIDE, self.along).reshape(-1, self.along)
         fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))

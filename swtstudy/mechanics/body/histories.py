@@ -74,39 +74,54 @@ class Histories:
         #: Shape (10, i · d · N).
         self.base = np.moveaxis(base - first, 2, 0).reshape(base.shape[2], -1)
 
-    def _functions(self, instant: FloatArray) -> tuple[PunchFunctions, PunchFunctions]:
-        """The ten functions integrated over the springs at instants (N, T), of pressure and of drag."""
+    def stress(self, instant: FloatArray, rows: NDArray[np.intp] | None = None) -> FloatArray:
+        """Stress in E* √(δ0/R) at instants of places.
+
+        Parameters
+        ----------
+        instant
+            Shape (m, T).
+        rows
+            Shape (m,): which places; all without it.
+
+        Returns
+        -------
+        Shape (m, T, 6).
+        """
+        ν = float(self.scene.poisson_ratio[0])
+        at = np.arange(len(self.radius)) if rows is None else rows
+        normal, drag = self._functions(instant, np.broadcast_to(at[:, None], instant.shape))
+        x, y = (self.radius[at] * turn(self.angle[at]) for turn in (np.cos, np.sin))
+        place = x[:, None], y[:, None], self.depth[at, None]
+        return normal_components(normal, *place, ν) + tangential_components(drag, *place, ν)
+
+    def _functions(
+        self, instant: FloatArray, place: NDArray[np.intp]
+    ) -> tuple[PunchFunctions, PunchFunctions]:
+        """The ten functions integrated over the springs at instants of places, of pressure and of drag."""
         scene = self.scene
         cycle, coordinate = scene.cycle, scene.coordinate
-        interval = np.searchsorted(cycle.end[0], instant)
-        interval = np.minimum(interval, cycle.end.shape[1] - 1)
+        interval = np.minimum(np.searchsorted(cycle.end[0], instant), cycle.end.shape[1] - 1)
         states = cycle.states(interval[None], instant[None])
         edge, front = (np.maximum(coordinate.radius(v)[0], self.ends[0]) for v in (states.edge, states.front))
         sign, piece = states.sign[0], interval * self.share.shape[1] + states.piece[0]
         function, share = self.function.ravel()[piece], self.share.ravel()[piece]
-        normal = self._up_to(edge, np.zeros_like(function))
+        profile = np.zeros_like(function)
+        normal = self._up_to(edge, profile, place)
         # Where nothing slips the front is at the edge.
         inner = normal.copy()
-        slips = np.nonzero(front < edge)
-        inner[:, slips[0], slips[1]] = self._up_to(front, np.zeros_like(function), slips)
+        slips = front < edge
+        inner[:, slips] = self._up_to(front[slips], profile[slips], place[slips])
         held = inner * share
-        grown = np.nonzero(function)
-        held[:, grown[0], grown[1]] = self._up_to(front, function, grown)
-        place = piece * len(self.radius) + np.arange(len(self.radius))[:, None]
+        grown = function > 0
+        held[:, grown] = self._up_to(front[grown], function[grown], place[grown])
+        held += self.base.take(piece * len(self.radius) + place, axis=1)
         # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
-        drag = self.base.take(place, axis=1) + held - sign * (normal - inner)
-        return PunchFunctions(*normal), PunchFunctions(*(-scene.friction[0] * drag))
+        drag = -scene.friction[0] * (held - sign * (normal - inner))
+        return PunchFunctions(*normal), PunchFunctions(*drag)
 
-    def _up_to(
-        self,
-        radius: FloatArray,
-        function: NDArray[np.intp],
-        some: tuple[NDArray[np.intp], ...] | None = None,
-    ) -> FloatArray:
-        """Integrals from the axis to radii (N, T), or ``some`` of them, shape (10, …)."""
-        place = np.broadcast_to(np.arange(len(self.radius))[:, None], radius.shape)
-        if some is not None:
-            radius, function, place = radius[some], function[some], place[some]
+    def _up_to(self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp]) -> FloatArray:
+        """Integrals of slope functions from the axis to radii at places, shape (10, …)."""
         cells, places = len(self.ends) - 1, len(self.radius)
         cell = np.clip(np.searchsorted(self.ends, radius, "right") - 1, 0, cells - 1) + function * cells
         result = self.constant.take(cell * places + place, axis=1)
@@ -115,11 +130,3 @@ class Histories:
         for total, a, b in zip(result, plain, weighted, strict=True):
             total += intercept * a + gradient * b
         return result
-
-    def stress(self, instant: FloatArray) -> FloatArray:
-        """Stress at instants (N, T), shape (N, T, 6), in E* √(δ0/R)."""
-        ν = float(self.scene.poisson_ratio[0])
-        normal, drag = self._functions(instant)
-        x, y = (self.radius * turn(self.angle) for turn in (np.cos, np.sin))
-        place = x[:, None], y[:, None], self.depth[:, None]
-        return normal_components(normal, *place, ν) + tangential_components(drag, *place, ν)
