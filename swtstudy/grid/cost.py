@@ -10,6 +10,8 @@ from swtstudy.named import CONTENT_BITS
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
+#: The same of the nonlocal values of a point, whatever its weight and the number of distances.
+SECONDS_NONLOCAL = 0.1
 
 
 def weights(table: FloatArray) -> IntArray:

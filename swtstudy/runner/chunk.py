@@ -11,12 +11,16 @@ import numpy as np
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
-from swtstudy.quantities import columns_of
+from swtstudy.quantities import columns_of, distance_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
 
 #: Solves a batch of points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
+
+
+#: Points with nonlocal values in a block: about a second of work.
+_FEW = 8
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,11 @@ class Asked:
 
     quantities: tuple[str, ...] = ()
     known: Solution | None = None
+
+    @property
+    def block(self) -> int | None:
+        """Most points of a block; None for as many as share work, of which nonlocal values share none."""
+        return _FEW if any(distance_of(item) is not None for item in self.quantities) else None
 
     def at(self, rows: IntArray | slice) -> Asked:
         """What is asked of the points at the given rows."""

@@ -39,11 +39,12 @@ def chunks(
         begin = end
         if not len(rows):
             continue
-        block_weight = int(weight[rows].sum())
-        if blocks and heaviness + block_weight > size():
-            yield Chunk.of(points, blocks, asked)
-            blocks, heaviness = [], 0
-        blocks.append(rows)
-        heaviness += block_weight
+        for block in np.array_split(rows, -(-len(rows) // (asked.block or len(rows)))):
+            block_weight = int(weight[block].sum())
+            if blocks and heaviness + block_weight > size():
+                yield Chunk.of(points, blocks, asked)
+                blocks, heaviness = [], 0
+            blocks.append(block)
+            heaviness += block_weight
     if blocks:
         yield Chunk.of(points, blocks, asked)

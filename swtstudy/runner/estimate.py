@@ -53,7 +53,7 @@ def estimate(
         middle = rows[kind == each][(kind == each).sum() // 2]
         block = int(np.searchsorted(ends, middle, "right"))
         begin = int(ends[block - 1]) if block else 0
-        inside = begin + np.flatnonzero(missing[begin : ends[block]])
+        inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
             solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)

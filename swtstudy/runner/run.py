@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.files import check_writable
-from swtstudy.grid.cost import SECONDS_PER_WEIGHT, weights
+from swtstudy.grid.cost import SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, weights
+from swtstudy.quantities import Request
 from swtstudy.records.records import Records, Run
 from swtstudy.runner.chunk import Solver, solve_points
 from swtstudy.runner.collector import Collector
@@ -177,6 +178,8 @@ def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextMan
         return ClusterPool(client)
     wanted = work.missing | work.incomplete
     seconds = weights(work.points.table[wanted]).sum() * SECONDS_PER_WEIGHT
+    if Request.of(work.quantities).distances:
+        seconds += wanted.sum() * SECONDS_NONLOCAL
     if workers < 2 or seconds < _SMALL_SECONDS:
         return nullcontext()
     return LocalPool(workers)

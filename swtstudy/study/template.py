@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.parameters import FAMILIES, PARAMETERS
+from swtstudy.parameters import FAMILIES, PARAMETERS, QUANTITY_AXES
+from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 
@@ -20,6 +21,8 @@ def template(title: str) -> str:
 #   swtstudy run FILE         archive and figure, in the folder results
 title = {quoted(title)}
 rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
+# Computed beside s, as further results:
+# quantities = [{", ".join(map(quoted, NAMED))}]
 
 # Parameters with one value. Those not given have the values of the paper's Table 1, shown in the comments.
 # Numbers may also be texts: "8/9", "pi/2", "sqrt(20)".
@@ -46,7 +49,7 @@ def _fixed() -> str:
     for family in FAMILIES.values():
         needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
         lines.append(f"#   {quoted(family.name)}{needs}")
-    for name, parameter in PARAMETERS.items():
+    for name, parameter in (*PARAMETERS.items(), (DISTANCE, QUANTITY_AXES[DISTANCE])):
         if name == "profile" or name in _USED:
             continue
         lines.append(f"# {parameter.meaning}: {parameter.allowed}")
