@@ -19,6 +19,7 @@ from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.peaks import near_maximum, parabola_maximum
+from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
 from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.hooke import strain_history
@@ -53,10 +54,22 @@ class Places(NamedTuple):
 
 
 class Fineness(NamedTuple):
-    """Steps of the common instants on each stretch between two events, and cells as for `resolving_cells`."""
+    """How finely swt is searched for.
+
+    Attributes
+    ----------
+    steps
+        Of the common instants on each stretch between two events.
+    cells
+        As for `resolving_cells`.
+    every_summit
+        Whether summits over the planes that are close to one another are told apart, for single values: in
+        means they hardly matter.
+    """
 
     steps: int
     cells: int
+    every_summit: bool = False
 
 
 class LocalSwt:
@@ -76,6 +89,7 @@ class LocalSwt:
 
     def __init__(self, scene: Scene, circle: float, shown: Places, fineness: Fineness) -> None:
         self.scene, self.ν = scene, float(scene.poisson_ratio[0])
+        self.fineness = fineness
         self.slopes = resolving_cells(scene.cycle, scene.coordinate, fineness.cells)
         instant = np.unique(np.mod(time_nodes(scene, fineness.steps, [circle]).instant, PERIOD))
         stress = Histories(scene, *shown, *self.slopes).stress(
@@ -99,7 +113,7 @@ class LocalSwt:
         # A peak between the instants may make another plane critical: the planes are searched twice.
         normal = highest_coarse_planes(stress, self.ν)
         instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
-        swt, normal = quick_planes(stress, self.ν)
+        swt, normal = self._planes(stress)
         missing = np.zeros_like(swt)
         for peaks, doubt in zip(PEAKS, DOUBTS, strict=True):
             instant, stress = self._closer(histories, rows, instant, stress, normal, peaks)
@@ -127,6 +141,12 @@ class LocalSwt:
         stress = np.concatenate([stress, histories.stress(closer, rows)], axis=1)
         order = np.argsort(instant, axis=1)
         return gather(instant, order), stress[np.arange(len(order))[:, None], order]
+
+    def _planes(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Largest swt over the planes, and its planes."""
+        if self.fineness.every_summit:
+            return swt_of_history(stress, self.ν, 1.0 - self.ν**2)
+        return quick_planes(stress, self.ν)
 
     def _own_instants(self, places: Places) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""
