@@ -21,9 +21,8 @@ from swtstudy.mechanics.body.half_sphere import HalfSpheres, gauss, interpolatio
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.parameters import DIRECTIONS
 
-#: Directions into the body of the point and the line method.
-DIRECTIONS = ("depth", "critical_plane")
 #: Distances from the circle, and inclinations, of the places in the half spheres, and places on a line: more
 #: while a mean is not as accurate as asked for.
 COUNTS, LINE_COUNTS = (9, 13, 19, 27), (11, 17, 25, 37)
