@@ -14,12 +14,16 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import Histories
-from swtstudy.mechanics.body.quick_planes import climb_from, highest_coarse_planes, quick_planes
+from swtstudy.mechanics.body.quick_planes import (
+    climb_from,
+    highest_coarse_planes,
+    planes_of_all_summits,
+    quick_planes,
+)
 from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.peaks import near_maximum, parabola_maximum
-from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
 from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.hooke import strain_history
@@ -145,7 +149,7 @@ class LocalSwt:
     def _planes(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Largest swt over the planes, and its planes."""
         if self.fineness.every_summit:
-            return swt_of_history(stress, self.ν, 1.0 - self.ν**2)
+            return planes_of_all_summits(stress, self.ν)
         return quick_planes(stress, self.ν)
 
     def _own_instants(self, places: Places) -> FloatArray:

@@ -35,8 +35,6 @@ OF_CHANGE, OF_VALUE = 0.5, 3e-4
 ON_LINES = 1.5
 #: The least error claimed of a single value, over that.
 OF_POINT = 1e-3
-#: The changes fall at least like this power of the counts.
-ORDER = 2.5
 #: A value below this is none.
 TINY = 1e-300
 #: Largest over smallest distance that share their places.
@@ -215,11 +213,7 @@ def _refined(at: Callable[[int, int], Found], rtol: float) -> tuple[FloatArray, 
         # Half of the error may come from either.
         allowed = np.maximum(0.5 * (rtol - OF_VALUE) * size, TINY)
         finer = fineness + 1 < len(FINENESS) and bool(np.any(of_instants > allowed))
-        excess = float((of_places / allowed).max())
-        more = level + 1 < len(COUNTS) and excess > 1.0
+        more = level + 1 < len(COUNTS) and bool(np.any(of_places > allowed))
         if np.all(error <= rtol * size) or not (finer or more):
             return value, error
-        fineness += finer
-        if more:
-            enough = np.array(COUNTS) >= COUNTS[level] * excess ** (1.0 / ORDER)
-            level = max(level + 1, int(enough.argmax()) if enough.any() else len(COUNTS) - 1)
+        level, fineness = level + more, fineness + finer
