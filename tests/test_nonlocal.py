@@ -2,11 +2,15 @@
 
 import numpy as np
 import pytest
-from scenes import PROFILE_NAMES, random_points, take
+from scenes import PROFILE_NAMES, points, random_points, take
+from scipy.integrate import simpson
 
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres
 from swtstudy.mechanics.body.histories import Histories
+from swtstudy.mechanics.body.local_swt import Fineness
 from swtstudy.mechanics.stress.field.contact_states import resolving_cells
 from swtstudy.mechanics.stress.scene import scene_of
 
@@ -50,3 +54,120 @@ def test_means_over_half_spheres_of_several_sizes(centre, powers):
     expected = MOMENTS[powers] * sizes ** sum(powers)
     np.testing.assert_allclose(mean, expected, atol=8e-3 * 0.4 ** sum(powers))
     np.testing.assert_allclose(change, 0.0, atol=8e-3 * 0.4 ** sum(powers))
+
+
+SCENES = {
+    "paraboloid": points(phase=2.0, normal_amplitude=0.5),
+    "rounded_punch": points("rounded_punch", phase=1.0, flat_radius=0.5),
+    "truncated_paraboloid": points("truncated_paraboloid", phase=2.0, flat_radius=0.4),
+    "wavy_paraboloid": points("wavy_paraboloid", waviness_amplitude=0.05, wavelength=5.0, friction=0.6),
+}
+DISTANCE = 0.15
+
+
+def nonlocal_of(batch, distance, rtol=1e-3):
+    """s, critical x, and the means of a batch."""
+    solution = solve_points(batch, 1e-6)
+    found = means.nonlocal_swt(
+        scene_of(batch), solution.critical_x, solution.critical_angle, np.atleast_1d(distance), rtol
+    )
+    return solution, found
+
+
+def field(scene, x, y, z, steps=10):
+    """swt over all planes at places of one distance from the axis, by the field of common instants."""
+    r = np.hypot(x, y).flat[0]
+    near = np.maximum(r + np.array([-0.1, -0.03, 0.0, 0.03]), 1e-3)
+    return Body(scene, time_nodes(scene, steps, near), 60).swt(x, y, z).swt
+
+
+def gauss(count):
+    return (values / 2 for values in np.polynomial.legendre.leggauss(count))
+
+
+def mean_of_field(scene, x, distance):
+    """Mean over the half sphere in cylindrical coordinates about the axis: other places than ours."""
+    total = volume = 0.0
+    (u, of_u), (w, of_w), (v, of_v) = gauss(7), gauss(4), gauss(9)
+    u, v, turn = u + 0.5, v + 0.5, np.pi / 2 * (w[:, None] + 0.5)
+    # Depths end like a root where the circle leaves the sphere; y → −y is a symmetry.
+    angle, of_angle = np.sin(turn), np.cos(turn) * of_w[:, None]
+    for side in (-1, 1):
+        # swt begins like a root at the circle through the centre, and in the depth.
+        for share, weight in zip(u, of_u * 2 * u, strict=True):
+            r = abs(x) + side * distance * share**2
+            most = np.arccos(1 - (distance**2 - (r - abs(x)) ** 2) / (2 * abs(x) * r))
+            across = r**2 + x**2 - 2 * r * abs(x) * np.cos(most * angle)
+            deepest = np.sqrt(distance**2 - across)
+            z = deepest * v**2
+            weights = weight * most * r * of_angle * deepest * 2 * v * of_v
+            place = r * np.cos(most * angle + 0 * v), r * np.sin(most * angle + 0 * v)
+            total += (weights * field(scene, np.copysign(1.0, x) * place[0], place[1], z)).sum()
+            volume += weights.sum()
+    return total / volume
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_volume_means_are_those_of_the_field(name):
+    scene = scene_of(SCENES[name])
+    solution, found = nonlocal_of(SCENES[name], DISTANCE)
+    expected = mean_of_field(scene, float(solution.critical_x[0]), DISTANCE)
+    assert found.volume[0, 0] == pytest.approx(expected, rel=2e-3)
+    assert found.volume_error[0, 0] < 2e-3 * found.volume[0, 0]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_points_and_lines_are_those_of_the_field(name):
+    """In both directions, by Simpson's rule in the root of the distance."""
+    scene = scene_of(SCENES[name])
+    solution, found = nonlocal_of(SCENES[name], DISTANCE)
+    x, angle = float(solution.critical_x[0]), np.radians(solution.critical_angle[0])
+    share = np.linspace(0.0, 1.0, 17)
+    away = 2.0 * DISTANCE * share**2
+    for number, (right, down) in enumerate([(0.0, 1.0), (-np.sin(angle), np.cos(angle))]):
+
+        def along(distance, steps=10, right=right, down=down):
+            at = np.array([x + distance * right]), 0.0, np.array([distance * down])
+            return float(field(scene, *at, steps)[0])
+
+        assert found.point[0, 0, number] == pytest.approx(along(0.5 * DISTANCE, steps=30), rel=1.5e-3)
+        expected = simpson(2.0 * share * np.array([along(distance) for distance in away]), x=share)
+        assert found.line[0, 0, number] == pytest.approx(expected, rel=4e-3)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_all_means_tend_to_s(name):
+    """Like the root of the distance: the surface's stress falls so at the contact edge."""
+    solution, found = nonlocal_of(SCENES[name], np.array([1e-10, 1e-8, 1e-6]))
+    for mean in (found.volume, found.point[..., 0], found.line[..., 0]):
+        fall = 1.0 - mean[0] / solution.s
+        assert abs(fall[0]) < 3e-4
+        assert fall[2] < 1.5e-2
+
+
+def test_errors_are_within_what_is_claimed(monkeypatch):
+    """Against means over more places at more instants."""
+    distance = np.array([0.05, 0.12])
+    batches = [random_points(9, 1, name, largest_term=1) for name in PROFILE_NAMES]
+    quick = [nonlocal_of(batch, distance)[1] for batch in batches]
+    monkeypatch.setattr(means, "COUNTS", (17,))
+    monkeypatch.setattr(means, "LINE_COUNTS", (41,))
+    for name in ("FINENESS", "LINE_FINENESS"):
+        monkeypatch.setattr(means, name, (Fineness(4, 40, every_summit=True),))
+    for batch, found in zip(batches, quick, strict=True):
+        _, fine = nonlocal_of(batch, distance)
+        for mean in ("volume", "point", "line"):
+            off = np.abs(getattr(found, mean) - getattr(fine, mean))
+            claimed = (getattr(each, f"{mean}_error") for each in (found, fine))
+            assert (off <= sum(claimed)).all()
+
+
+def test_several_distances_share_their_places():
+    """Each mean is what it is alone, and critical points of either side have the same."""
+    batch, distance = SCENES["paraboloid"], np.array([0.1, 0.002, 0.05])
+    _, found = nonlocal_of(batch, distance)
+    alone = [nonlocal_of(batch, each)[1] for each in distance]
+    for name, values in vars(found).items():
+        if not name.endswith("error"):
+            one = np.concatenate([getattr(each, name) for each in alone], axis=1)
+            np.testing.assert_allclose(values, one, rtol=2e-3)

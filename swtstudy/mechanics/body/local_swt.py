@@ -14,7 +14,12 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import Histories
-from swtstudy.mechanics.body.quick_planes import climb_from, highest_coarse_planes, quick_planes
+from swtstudy.mechanics.body.quick_planes import (
+    climb_from,
+    highest_coarse_planes,
+    planes_of_all_summits,
+    quick_planes,
+)
 from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
@@ -26,6 +31,8 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.contact_states import resolving_cells
 from swtstudy.mechanics.stress.scene import Scene
 
+#: Steps of all intervals of a cycle at most, unless each has one: 200 sides are a third faster.
+MANY = 256
 #: The edge or a front passes so far from a place, in its depth, at its own instants.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0])
 #: Passages nearer to the end of an interval, rad, are at that end, or none.
@@ -53,10 +60,22 @@ class Places(NamedTuple):
 
 
 class Fineness(NamedTuple):
-    """Steps of the common instants on each stretch between two events, and cells as for `resolving_cells`."""
+    """How finely swt is searched for.
+
+    Attributes
+    ----------
+    steps
+        Of the common instants on each stretch between two events.
+    cells
+        As for `resolving_cells`.
+    every_summit
+        Whether summits over the planes that are close to one another are told apart, for single values: in
+        means they hardly matter.
+    """
 
     steps: int
     cells: int
+    every_summit: bool = False
 
 
 class LocalSwt:
@@ -76,8 +95,11 @@ class LocalSwt:
 
     def __init__(self, scene: Scene, circle: float, shown: Places, fineness: Fineness) -> None:
         self.scene, self.ν = scene, float(scene.poisson_ratio[0])
+        self.fineness = fineness
         self.slopes = resolving_cells(scene.cycle, scene.coordinate, fineness.cells)
-        instant = np.unique(np.mod(time_nodes(scene, fineness.steps, [circle]).instant, PERIOD))
+        # The sides of a polygon of many are short.
+        steps = max(1, min(fineness.steps, MANY // scene.cycle.begin.shape[1]))
+        instant = np.unique(np.mod(time_nodes(scene, steps, [circle]).instant, PERIOD))
         stress = Histories(scene, *shown, *self.slopes).stress(
             np.broadcast_to(instant, (shown.radius.size, instant.size))
         )
@@ -99,7 +121,7 @@ class LocalSwt:
         # A peak between the instants may make another plane critical: the planes are searched twice.
         normal = highest_coarse_planes(stress, self.ν)
         instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
-        swt, normal = quick_planes(stress, self.ν)
+        swt, normal = self._planes(stress)
         missing = np.zeros_like(swt)
         for peaks, doubt in zip(PEAKS, DOUBTS, strict=True):
             instant, stress = self._closer(histories, rows, instant, stress, normal, peaks)
@@ -127,6 +149,12 @@ class LocalSwt:
         stress = np.concatenate([stress, histories.stress(closer, rows)], axis=1)
         order = np.argsort(instant, axis=1)
         return gather(instant, order), stress[np.arange(len(order))[:, None], order]
+
+    def _planes(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Largest swt over the planes, and its planes."""
+        if self.fineness.every_summit:
+            return planes_of_all_summits(stress, self.ν)
+        return quick_planes(stress, self.ν)
 
     def _own_instants(self, places: Places) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""

@@ -19,6 +19,9 @@ PLANES = 128
 BESIDE = 6
 #: Another peak at least so high, over the highest plane, is climbed from, too.
 WORTHY = 0.7
+#: Highest planes from which to climb where close summits are told apart: one of 2,600 histories was more than
+#: 1e-3 low; with two of them 17 were.
+CANDIDATES = 4
 #: Histories in the coarse search at a time.
 BLOCK = 16
 
@@ -46,6 +49,16 @@ def quick_planes(stress: FloatArray, poisson_ratio: float) -> tuple[FloatArray, 
         higher = other > swt[several]
         swt[several[higher]], normal[several[higher]] = other[higher], where[higher]
     return swt, normal
+
+
+def planes_of_all_summits(stress: FloatArray, poisson_ratio: float) -> tuple[FloatArray, FloatArray]:
+    """The same, told apart from summits closer than the coarse planes are to one another."""
+    normals, index = hemisphere(PLANES), np.tile(np.arange(len(stress)), CANDIDATES)
+    swt = swt_on_planes(stress.astype(np.float32), normals.astype(np.float32), poisson_ratio)
+    highest = np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES].T
+    swt, normal = climb_from(stress[index], poisson_ratio, normals[highest.ravel()])
+    best = swt.reshape(CANDIDATES, -1).argmax(axis=0) * len(stress) + np.arange(len(stress))
+    return swt[best], normal[best]
 
 
 def highest_coarse_planes(stress: FloatArray, poisson_ratio: float) -> FloatArray:
