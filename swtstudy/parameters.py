@@ -34,7 +34,8 @@ class Parameter:
     kind
         "number", "ratio" (a rational number p/q) or "profile".
     part
-        What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
+        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of) or
+        "criterion".
     units
         CF units: "1", or "rad" for the phase.
     scale
@@ -109,6 +110,17 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
+        Parameter(
+            "walker_exponent",
+            r"\gamma",
+            "γ",
+            "Walker exponent",
+            0.5,
+            0.0,
+            0.9,
+            open_lower=True,
+            part="criterion",
+        ),
         Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
         Parameter(
             "flat_radius",
@@ -146,6 +158,15 @@ PARAMETERS: dict[str, Parameter] = {
         ),
     )
 }
+
+#: Parts that not every study has: what is at its default need not be said.
+OPTIONAL_PARTS = ("criterion",)
+
+
+def goes_without_saying(name: str, value: object) -> bool:
+    """Whether a value is the default of a parameter that not every study has."""
+    return PARAMETERS[name].part in OPTIONAL_PARTS and value == PARAMETERS[name].default
+
 
 #: Names by letter.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in PARAMETERS.items()}

@@ -49,7 +49,7 @@ def test_the_columns_are_the_rows_of_the_table_of_parameters():
     assert LOAD_COLUMNS == ("p", "q", "normal_amplitude", "tangential_amplitude", "phase")
     shapes = ("flat_radius", "waviness_amplitude", "wavelength")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
-    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio") == COLUMNS
+    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", "walker_exponent") == COLUMNS
     assert {*COLUMNS} - {"p", "q"} == {*PARAMETERS} - {"frequency_ratio"}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
     assert describe_point(table[0]) == (

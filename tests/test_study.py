@@ -32,6 +32,7 @@ def test_defaults_are_table_1():
         "frequency_ratio": Fraction(1),
         "tangential_amplitude": 5 / 6,
         "phase": 0.0,
+        "walker_exponent": 0.5,
         "profile": "paraboloid",
     }
     assert study.grid.axes == {}

@@ -16,7 +16,7 @@ from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameters import OPTIONAL_PARTS, PARAMETERS, Parameter
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.records import FAILED, Records
 
@@ -44,6 +44,10 @@ def grid_of(dataset: xr.Dataset) -> Grid:
             continue
         values[name] = tuple(_values(parameter, np.atleast_1d(coordinate.values).tolist(), mistakes))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
+    for name, parameter in PARAMETERS.items():
+        if parameter.part in OPTIONAL_PARTS and parameter.default is not None and name not in dataset:
+            # Older archives do not have them.
+            values[name] = (read_value(parameter, parameter.default),)
     required = [name for name, parameter in PARAMETERS.items() if parameter.default is not None]
     for name in (*required, *shapes_needed(profiles)):
         if name not in values and name not in dims:

@@ -48,7 +48,7 @@ class PhysicalContact:
         R.
     depth
         Mean indentation depth δ0.
-    friction, frequency_ratio, phase, profile
+    friction, frequency_ratio, phase, profile, walker_exponent
         As in `swtstudy.parameters.PARAMETERS`.
     normal_amplitude, tangential_amplitude
         δA and uA, lengths.
@@ -66,6 +66,7 @@ class PhysicalContact:
     phase: float
     profile: str
     shape: Mapping[str, float] = field(default_factory=dict)
+    walker_exponent: float = 0.5
 
     @property
     def length_scale(self) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.codes import code_of, name_of
-from swtstudy.parameters import PARAMETERS, PLAIN, family_of
+from swtstudy.parameters import PARAMETERS, PLAIN, family_of, goes_without_saying
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
@@ -33,10 +33,14 @@ SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
-NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
+NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("criterion"))
 #: Columns of a table of canonical points, in the order in which they are sorted; for the profile see
 #: `swtstudy.grid.codes`.
-COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
+COLUMNS = (
+    *("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS),
+    *reversed(_numbers("body")),
+    *_numbers("criterion"),
+)
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
@@ -140,9 +144,11 @@ def points_from(table: FloatArray) -> Points:
 
 
 def describe_point(row: FloatArray) -> str:
-    """A canonical row in words, for messages: only what matters for its profile."""
+    """A canonical row in words, for messages: only what matters for its profile, and is not usual."""
     profile = name_of(row[_COLUMN["profile"]])
     parts = [f"profile={profile}"]
     parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in family_of(profile).shape]
     parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
-    return ", ".join([*parts, *(f"{name}={row[_COLUMN[name]]:.6g}" for name in NUMBERS)])
+    values = {name: row[_COLUMN[name]] for name in NUMBERS}
+    parts += [f"{name}={value:.6g}" for name, value in values.items() if not goes_without_saying(name, value)]
+    return ", ".join(parts)

@@ -13,6 +13,14 @@ IntArray = NDArray[np.int64]
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
 
+#: What points have unless it is given.
+_UNLESS_GIVEN = {"walker_exponent": 0.5}
+_NOTHING = np.empty(0)
+
+
+def _not_given() -> FloatArray:
+    return _NOTHING
+
 
 @dataclass(frozen=True)
 class Points:
@@ -28,6 +36,8 @@ class Points:
         Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
     shape
         Shape parameters κ_i of the profile, each of shape (n,).
+    walker_exponent
+        Shape (n,); 1/2 unless given.
     """
 
     profile: str
@@ -39,6 +49,12 @@ class Points:
     tangential_amplitude: FloatArray
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
+    walker_exponent: FloatArray = field(default_factory=_not_given)
+
+    def __post_init__(self) -> None:
+        for name, value in _UNLESS_GIVEN.items():
+            if getattr(self, name) is _not_given():
+                object.__setattr__(self, name, np.full(len(self), value))
 
     def __len__(self) -> int:
         return len(self.phase)

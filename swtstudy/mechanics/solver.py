@@ -16,8 +16,9 @@ from swtstudy.mechanics.line.circle_gain import circle_gain
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.of_points import alike, largest_normal, largest_turn_count, shared_load
-from swtstudy.mechanics.points import REGIMES, Points, Solution
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
+from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
+from swtstudy.mechanics.stress.scene import Scene, walker_exponents
 
 #: Points times turning instants of one batch: enough to hide the interpreter. Half: 4 % slower, 60 MB less at
 #: 1,600 points; four times: 6 % faster, 80 MB more.
@@ -69,9 +70,9 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
-    """Indices of points that are solved together, and their scenes: of one kind of load and one roughness."""
+    """Indices of points that are solved together, and their scenes: each of one kind."""
     largest = largest_normal(points)
-    level = roughness(points.profile, points.shape, largest)
+    kind = _kinds(points, roughness(points.profile, points.shape, largest))
     for group in alike(points):
         turns = largest_turn_count(points.take(group))
         size = max(min(BATCH_SIZE // turns, BATCH_SQUARES // turns**2), 1)
@@ -79,17 +80,20 @@ def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
             # One contact solution for all profiles.
             load, number = shared_load(points.take(sharing))
             cycle = solve_cycle(load)
-            for same in np.unique(level[sharing]):
-                for rows in _split(np.flatnonzero(level[sharing] == same), size):
+            for same in np.unique(kind[sharing]):
+                for rows in _split(np.flatnonzero(kind[sharing] == same), size):
                     some = points.take(sharing[rows])
                     profile = make_profile(some.profile, some.shape, largest[sharing[rows]])
                     coordinate = DepthCoordinate(profile)
                     # Without tangential motion there is no traction, whatever the friction.
                     friction = np.where(load.moves_tangentially[number[rows]], some.friction, 0.0)
-                    yield (
-                        sharing[rows],
-                        Scene(cycle.take(number[rows]), coordinate, some.poisson_ratio, friction),
-                    )
+                    of_material = some.poisson_ratio, friction, walker_exponents(some)
+                    yield sharing[rows], Scene(cycle.take(number[rows]), coordinate, *of_material)
+
+
+def _kinds(points: Points, level: IntArray) -> IntArray:
+    """A number for each kind of scene, by roughness and criterion: swt does not pay for Walker's powers."""
+    return 2 * level + (points.walker_exponent != SWT_EXPONENT)
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:

@@ -12,7 +12,7 @@ from swtstudy.mechanics.events.stretches import stretches
 from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
-from swtstudy.mechanics.planes.criterion import curves
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, curves
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import contact_states
@@ -71,20 +71,26 @@ class Body:
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
         """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
-        ν = float(self.scene.poisson_ratio[0])
+        ν, γ = float(self.scene.poisson_ratio[0]), self.walker_exponent
         x, y, z = np.broadcast_arrays(x, y, z)
         swt, normal = np.empty(x.size), np.empty((x.size, 3))
         columns = max(1, VALUES // self.nodes.instant.size)
         for first in range(0, x.size, columns):
             part = slice(first, first + columns)
             stress = self.stress(x.flat[part], y.flat[part], z.flat[part])
-            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2)
+            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2, γ)
         return CriticalPlane(swt.reshape(x.shape), normal.reshape(*x.shape, 3))
 
     def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
         ν = float(self.scene.poisson_ratio[0])
-        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2)
+        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2, self.walker_exponent)
+
+    @property
+    def walker_exponent(self) -> float:
+        """γ of the criterion."""
+        γ = self.scene.walker_exponent
+        return SWT_EXPONENT if γ is None else float(γ[0])
 
 
 def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
@@ -187,7 +193,7 @@ def _on_critical_plane(body: Body, point: tuple[float, ...]) -> tuple[FloatArray
     """σ_n and E ε_n over the instants, shape (T,), on the critical plane of one point."""
     ν = float(body.scene.poisson_ratio[0])
     stress = body.stress(*point)
-    weights = normal_weights(swt_of_history(stress, ν).normal)
+    weights = normal_weights(swt_of_history(stress, ν, 1.0, body.walker_exponent).normal)
     return stress @ weights, strain_history(stress, ν) @ weights
 
 

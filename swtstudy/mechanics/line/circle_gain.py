@@ -102,4 +102,5 @@ def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatA
     strain = strain_history(stress, scene.poisson_ratio[:, None, None, None])
     start = np.broadcast_to(normal[:, None], (*angle.shape, 3)).reshape(-1, 3)
     flat = (-1, *stress.shape[-2:])
-    return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)
+    walker = scene.walker and scene.walker.take(np.repeat(np.arange(len(scene)), angle.shape[1]), 0)
+    return climb(stress.reshape(flat), strain.reshape(flat), start, walker)[0].reshape(angle.shape)

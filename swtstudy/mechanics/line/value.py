@@ -124,16 +124,16 @@ def _zoomed(
     scene: Scene, look: Look, side: FloatArray, angle: FloatArray, extremes: NDArray[np.intp], zooms: int
 ) -> tuple[FloatArray, FloatArray]:
     """swt and 2θ near a plane (n, X), from samples ever closer around the instants of its extremes."""
-    brackets = look.brackets(extremes)
+    brackets, walker = look.brackets(extremes), scene.walker
     for turn in range(zooms):
         near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
         for _ in range(ANGLE_ROUNDS):
             peak, high, low = _at_peaks(near, brackets, angle)
-            angle = best_angle(peak, high + low, angle)
+            angle = best_angle(peak, high + low, angle, walker)
         if turn < zooms - 1:
             brackets = brackets.narrowed(on_plane(near, angle).argmax(axis=-1))
     tops = on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
-    return of_maxima(*np.moveaxis(tops, -1, 0)), angle
+    return of_maxima(*np.moveaxis(tops, -1, 0), walker=walker), angle
 
 
 def _best_planes(
@@ -154,7 +154,7 @@ def _best_planes(
     of_swt = curves(*planes.on_plane(angle))
     found = []
     for top in (lambda curve: curve.max(axis=-1), lambda curve: lifted(curve, inside).max(axis=-1)):
-        swt = of_maxima(*(top(curve) for curve in of_swt))
+        swt = of_maxima(*(top(curve) for curve in of_swt), walker=planes.walker)
         found.append(np.moveaxis(swt, 0, -1))
     angle = np.moveaxis(angle, 0, -1)
     best, other = (swt.argmax(axis=-1) for swt in found)
@@ -163,7 +163,8 @@ def _best_planes(
     apart &= found[1] >= RIVAL_SHARE * pick(found[1], best)[..., None]
     at = np.nonzero(apart.any(axis=-1) & (best == other))
     if at[0].size:
-        high = of_maxima(*(reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt))
+        reached = (reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt)
+        high = of_maxima(*reached, walker=planes.walker and planes.walker.take(at[0], 0))
         high = np.where(apart[at], np.moveaxis(high, 0, -1), 0.0)
         rival = high.argmax(axis=-1)
         other[at] = np.where(pick(high, rival) > pick(found[1][at], best[at]), rival, best[at])

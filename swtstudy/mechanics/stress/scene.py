@@ -15,6 +15,7 @@ from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.history import History, stresses
@@ -32,12 +33,15 @@ class Scene:
         The coordinate of their memory diagrams, which knows the n profiles.
     poisson_ratio, friction
         Shape (n,).
+    walker_exponent
+        Shape (n,): γ of the criterion; None where it is 1/2 for all of them.
     """
 
     cycle: Cycle
     coordinate: Coordinate
     poisson_ratio: FloatArray
     friction: FloatArray
+    walker_exponent: FloatArray | None = None
 
     def __len__(self) -> int:
         return len(self.friction)
@@ -54,6 +58,7 @@ class Scene:
             self.coordinate.take(index),
             self.poisson_ratio[index],
             self.friction[index],
+            None if self.walker_exponent is None else self.walker_exponent[index],
         )
 
     def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
@@ -63,14 +68,28 @@ class Scene:
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
-        return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
+        return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.walker_exponent)
+
+    @property
+    def walker(self) -> Walker | None:
+        """The criterion at positions of shape (n, X)."""
+        if self.walker_exponent is None:
+            return None
+        return Walker(self.walker_exponent[:, None], 1.0 - self.poisson_ratio[:, None] ** 2)
 
 
 def scene_of(points: Points) -> Scene:
     """The scenes of points whose loads are alike, each with a contact solution of its own."""
     load = load_of(points)
     profile = make_profile(points.profile, points.shape, load.largest_normal)
-    return Scene(solve_cycle(load), DepthCoordinate(profile), points.poisson_ratio, points.friction)
+    of_material = points.poisson_ratio, points.friction, walker_exponents(points)
+    return Scene(solve_cycle(load), DepthCoordinate(profile), *of_material)
+
+
+def walker_exponents(points: Points) -> FloatArray | None:
+    """γ of a scene of points."""
+    γ = points.walker_exponent
+    return None if (γ == SWT_EXPONENT).all() else γ
 
 
 def prescribed_scene(
