@@ -34,12 +34,13 @@ class Parameter:
     kind
         "number", "ratio" (a rational number p/q) or "profile".
     part
-        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of) or
-        "criterion".
+        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
+        "bulk" (the bulk stress of one body) or "criterion".
     units
         CF units: "1", or "rad" for the phase.
     scale
-        What it is measured in where it is a length, a key of `swtstudy.contacts.scales.SCALES`; else empty.
+        What it is measured in where it is a length or a stress, a key of `swtstudy.contacts.scales.SCALES`;
+        else empty.
     """
 
     name: str
@@ -111,6 +112,39 @@ PARAMETERS: dict[str, Parameter] = {
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
         Parameter(
+            "bulk_stress_amplitude",
+            r"\sigma_{B,A}/(E^* \delta_0/a_H)",
+            "BA",
+            "amplitude of the bulk stress, with the tangential frequency",
+            0.0,
+            0.0,
+            10.0,
+            part="bulk",
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_mean",
+            r"\sigma_{B,m}/(E^* \delta_0/a_H)",
+            "Bm",
+            "mean of the bulk stress",
+            0.0,
+            -10.0,
+            10.0,
+            part="bulk",
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_phase",
+            r"\psi_B",
+            "ψB",
+            "phase of the bulk stress against the tangential oscillation",
+            0.0,
+            -1000.0,
+            1000.0,
+            part="bulk",
+            units="rad",
+        ),
+        Parameter(
             "walker_exponent",
             r"\gamma",
             "γ",
@@ -160,7 +194,7 @@ PARAMETERS: dict[str, Parameter] = {
 }
 
 #: Parts that not every study has: what is at its default need not be said.
-OPTIONAL_PARTS = ("criterion",)
+OPTIONAL_PARTS = ("bulk", "criterion")
 
 
 def goes_without_saying(name: str, value: object) -> bool:

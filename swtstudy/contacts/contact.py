@@ -67,6 +67,9 @@ class PhysicalContact:
     profile: str
     shape: Mapping[str, float] = field(default_factory=dict)
     walker_exponent: float = 0.5
+    bulk_stress_amplitude: float = 0.0
+    bulk_stress_mean: float = 0.0
+    bulk_stress_phase: float = 0.0
 
     @property
     def length_scale(self) -> float:

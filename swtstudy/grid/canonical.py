@@ -33,12 +33,13 @@ SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
-NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("criterion"))
+NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
 #: Columns of a table of canonical points, in the order in which they are sorted; for the profile see
 #: `swtstudy.grid.codes`.
 COLUMNS = (
     *("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS),
     *reversed(_numbers("body")),
+    *_numbers("bulk"),
     *_numbers("criterion"),
 )
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
@@ -92,7 +93,7 @@ def _make_profiles_canonical(table: FloatArray) -> None:
 
 def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     """Returns where x is mirrored."""
-    from swtstudy.mechanics.load.symmetry import fold_phase, without_what_stands_still
+    from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
     amplitude, phase = (table[:, _COLUMN[name]] for name in ("normal_amplitude", "phase"))
@@ -101,8 +102,18 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
     table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
-    table[:, _COLUMN["phase"]] = np.maximum(np.round((folded - nudge) / np.pi, DIGITS), 0.0) * np.pi
+    table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
+    of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
+    moves = table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0
+    both_ways = (q % 2 == 0) | (amplitude == 0.0)
+    folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
+    of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return mirrored
+
+
+def _in_turns(angle: FloatArray) -> FloatArray:
+    """An angle rounded in units of π."""
+    return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
 
 
 def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:

@@ -14,7 +14,10 @@ IntArray = NDArray[np.int64]
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
 
 #: What points have unless it is given.
-_UNLESS_GIVEN = {"walker_exponent": 0.5}
+_UNLESS_GIVEN = {
+    "walker_exponent": 0.5,
+    **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
+}
 _NOTHING = np.empty(0)
 
 
@@ -38,6 +41,8 @@ class Points:
         Shape parameters κ_i of the profile, each of shape (n,).
     walker_exponent
         Shape (n,); 1/2 unless given.
+    bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
+        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; 0 unless given.
     """
 
     profile: str
@@ -50,6 +55,9 @@ class Points:
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
     walker_exponent: FloatArray = field(default_factory=_not_given)
+    bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
+    bulk_stress_mean: FloatArray = field(default_factory=_not_given)
+    bulk_stress_phase: FloatArray = field(default_factory=_not_given)
 
     def __post_init__(self) -> None:
         for name, value in _UNLESS_GIVEN.items():

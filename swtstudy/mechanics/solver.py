@@ -18,6 +18,7 @@ from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_f
 from swtstudy.mechanics.load.of_points import alike, largest_normal, largest_turn_count, shared_load
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
 from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
+from swtstudy.mechanics.stress.bulk import bulk_kind, bulk_of
 from swtstudy.mechanics.stress.scene import Scene, walker_exponents
 
 #: Points times turning instants of one batch: enough to hide the interpreter. Half: 4 % slower, 60 MB less at
@@ -28,6 +29,8 @@ BATCH_SIZE = 1600
 BATCH_SQUARES = 60_000
 #: Relative error of tables, series and rounding, which no rtol removes (results/accuracy.md, at 1e-7).
 LEAST_ERROR = 8e-8
+#: swt closer to that far from the contact than this is no more than that, relative.
+SAME = 1e-9
 #: So many batches may share the contact solutions that are held at a time. 1 or 32: the same time and memory
 #: to 3 % and 22 MB at 1,600 points, whose loads differ.
 SHARING = 8
@@ -58,6 +61,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         idle = _idle(scene) & ~lost
         found = _maximum(scene, np.flatnonzero(~(lost | idle)), accuracy)
         found = found.put(idle, Maximum.unknown(int(idle.sum()), 0.0))
+        found = _or_far_field(scene, found)
         s[index] = found.swt
         error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
         gain, _ = circle_gain(scene, found.position, found.double_angle)
@@ -88,12 +92,13 @@ def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
                     # Without tangential motion there is no traction, whatever the friction.
                     friction = np.where(load.moves_tangentially[number[rows]], some.friction, 0.0)
                     of_material = some.poisson_ratio, friction, walker_exponents(some)
-                    yield sharing[rows], Scene(cycle.take(number[rows]), coordinate, *of_material)
+                    scene = Scene(cycle.take(number[rows]), coordinate, *of_material)
+                    yield sharing[rows], scene.carrying(bulk_of(some))
 
 
 def _kinds(points: Points, level: IntArray) -> IntArray:
-    """A number for each kind of scene, by roughness and criterion: swt does not pay for Walker's powers."""
-    return 2 * level + (points.walker_exponent != SWT_EXPONENT)
+    """A number for each kind of scene: what has no bulk stress, or no powers, does not pay for those."""
+    return 6 * level + 2 * bulk_kind(points) + (points.walker_exponent != SWT_EXPONENT)
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
@@ -105,7 +110,20 @@ def _idle(scene: Scene) -> NDArray[np.bool_]:
     """Where s is 0: pressure alone makes no tension at ν = 1/2, and without motion no swing of strain."""
     load = scene.cycle.load
     rests = load.largest_normal == load.least_normal
+    if scene.bulk is not None:
+        return np.asarray((scene.friction == 0.0) & rests & ~scene.bulk.moves)
     return np.asarray((scene.friction == 0.0) & ((scene.poisson_ratio == 0.5) | rests))
+
+
+def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
+    """The maxima, or swt far from the contact where no point exceeds it: there is no critical point then."""
+    if scene.bulk is None:
+        return found
+    far = scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent)
+    # Not where s is not finite.
+    higher = (far > 0.0) & (far >= (1.0 - SAME) * found.swt)
+    none = np.zeros(len(far))
+    return found.put(higher, Maximum(far, none, none + np.nan, none).take(higher))
 
 
 def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:

@@ -84,9 +84,16 @@ def textbook_s(
         onset = bisect(lambda t: np.abs(displacement(t) - held) < depth(t) - g[at[where]], time, step)
         time = np.union1d(time, onset)
     w, tau = march_springs(g, depth(time), displacement(time))
-    sigma = surface_stresses(radius, radius[at], w, tau, point)
+    position = radius[at]
+    bulk_mean, bulk_amplitude, bulk_phase = (
+        v.item() for v in (point.bulk_stress_mean, point.bulk_stress_amplitude, point.bulk_stress_phase)
+    )
+    if bulk_mean or bulk_amplitude:
+        position = np.concatenate([position, largest * np.geomspace(1.001, 100.0, positions)])
+    sigma = surface_stresses(radius, position, w, tau, point)
+    sigma = sigma[0] + bulk_mean + bulk_amplitude * np.sin(p * time + bulk_phase), *sigma[1:]
     s, side, k, angle = brute_force(sigma, point.poisson_ratio.item(), planes, point.walker_exponent.item())
-    return TextbookSolution(s, float(side * radius[at[k]]), angle)
+    return TextbookSolution(s, float(side * position[k]), angle)
 
 
 def bisect(

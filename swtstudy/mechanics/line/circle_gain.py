@@ -55,7 +55,8 @@ def circle_gain(
     r, flat = np.abs(position), scene.profile.flat_radius
     at_edge = (flat > 0.0) & (r == flat)
     gain, angle = (np.where(at_edge, np.nan, 0.0) for _ in range(2))
-    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (r > 0.0) & ~at_edge)
+    doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | (scene.bulk is not None)
+    rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
     if rows.size:
         some = scene.take(rows)
         history, normal = _decisive_history(some, position[rows], double_angle[rows])

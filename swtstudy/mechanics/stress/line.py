@@ -17,6 +17,7 @@ from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
 
@@ -56,10 +57,19 @@ class SurfaceLine:
         Shape (n, X): r = |x| > 0 in a_H.
     digits
         Digits of the largest stress to which tables and series are made.
+    bulk
+        n bulk stresses, or None.
     """
 
-    def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
-        self.cycle, self.coordinate, self.position = cycle, coordinate, position
+    def __init__(
+        self,
+        cycle: Cycle,
+        coordinate: Coordinate,
+        position: FloatArray,
+        digits: float,
+        bulk: BulkStress | None = None,
+    ) -> None:
+        self.cycle, self.coordinate, self.position, self.bulk = cycle, coordinate, position, bulk
         self.primitives = coordinate.profile.primitives(position, digits)
         at = coordinate.of(position)
         #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
@@ -131,7 +141,9 @@ class SurfaceLine:
         # What the springs inside r carry, and what those outside press on the inside.
         load = nodes.spread(profile.half_load(edge_radius))
         inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
-        return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
+        blocks = outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential
+        history = History(*blocks)
+        return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
 
     def _spread_radius(self, nodes: Nodes, radius: FloatArray, at_r: tuple[FloatArray, ...]) -> FloatArray:
         """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""

@@ -11,6 +11,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.prescribed import Prescribed
+from swtstudy.mechanics.events.passages import split_at
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.load import Load
@@ -18,6 +19,7 @@ from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
 
 
@@ -35,6 +37,8 @@ class Scene:
         Shape (n,).
     walker_exponent
         Shape (n,): γ of the criterion; None where it is 1/2 for all of them.
+    bulk
+        n bulk stresses, at whose turning instants the cycles are cut, see `carrying`; None without.
     """
 
     cycle: Cycle
@@ -42,6 +46,7 @@ class Scene:
     poisson_ratio: FloatArray
     friction: FloatArray
     walker_exponent: FloatArray | None = None
+    bulk: BulkStress | None = None
 
     def __len__(self) -> int:
         return len(self.friction)
@@ -59,7 +64,19 @@ class Scene:
             self.poisson_ratio[index],
             self.friction[index],
             None if self.walker_exponent is None else self.walker_exponent[index],
+            self.bulk and self.bulk.take(index),
         )
+
+    def carrying(self, bulk: BulkStress | None) -> Scene:
+        """The same with bulk stresses."""
+        if bulk is None or not bulk.moves.any():
+            return replace(self, bulk=bulk)
+        return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants())[0])
+
+    @property
+    def mirrored_half(self) -> bool:
+        """Whether half a period later the stress is the same at −x."""
+        return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
     def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
         """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
@@ -83,7 +100,7 @@ def scene_of(points: Points) -> Scene:
     load = load_of(points)
     profile = make_profile(points.profile, points.shape, load.largest_normal)
     of_material = points.poisson_ratio, points.friction, walker_exponents(points)
-    return Scene(solve_cycle(load), DepthCoordinate(profile), *of_material)
+    return Scene(solve_cycle(load), DepthCoordinate(profile), *of_material).carrying(bulk_of(points))
 
 
 def walker_exponents(points: Points) -> FloatArray | None:
