@@ -79,7 +79,7 @@ def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -
     if "wavelength" in SHAPES[profile]:
         shape = {"waviness_amplitude": logarithmic(1e-6, 10.0), "wavelength": logarithmic(3.3, 1e3)}
         for k in range(count):
-            while check_shape(profile, {name: v[k] for name, v in shape.items()}, normal[k]) is not None:
+            while check_shape(profile, {n: v[k] for n, v in shape.items()}, 1.0 + normal[k]) is not None:
                 shape["waviness_amplitude"][k] = 10.0 ** rng.uniform(-6.0, 1.0)
                 shape["wavelength"][k] = 10.0 ** rng.uniform(np.log10(3.3), 3.0)
     loads = p // common, q // common, tangential, phase

@@ -7,6 +7,7 @@ them; none of them repeats a name, a symbol, a default or a range.
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeGuard
 
@@ -39,8 +40,12 @@ class Parameter:
     units
         CF units: "1", or "rad" for the phase.
     scale
-        What it is measured in where it is a length or a stress, a key of `swtstudy.contacts.scales.SCALES`;
-        else empty.
+        What it is measured in where it is a length, a force or a stress, a key of
+        `swtstudy.contacts.scales.SCALES`; else empty.
+    instead_of
+        The parameter whose place it takes: one of the two is given. Else empty.
+    optional
+        Whether the default means that the scene lacks it: results leave it out at its default.
     """
 
     name: str
@@ -55,6 +60,8 @@ class Parameter:
     part: str = "load"
     units: str = "1"
     scale: str = ""
+    instead_of: str = ""
+    optional: bool = False
 
     @property
     def allowed(self) -> str:
@@ -88,6 +95,17 @@ PARAMETERS: dict[str, Parameter] = {
             scale="δ0",
         ),
         Parameter(
+            "normal_force_amplitude",
+            r"F_A/F_0",
+            "FA",
+            "amplitude of the normal force",
+            None,
+            0.0,
+            10.0,
+            scale="F0",
+            instead_of="normal_amplitude",
+        ),
+        Parameter(
             "frequency_ratio",
             r"\omega_2/\omega_1",
             "ω2",
@@ -109,6 +127,17 @@ PARAMETERS: dict[str, Parameter] = {
             scale="μ E* δ0/G*",
         ),
         Parameter(
+            "tangential_force_amplitude",
+            r"Q_A/(\mu F_0)",
+            "QA",
+            "amplitude of the tangential force",
+            None,
+            0.0,
+            100.0,
+            scale="μ F0",
+            instead_of="tangential_amplitude",
+        ),
+        Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
         Parameter(
@@ -120,6 +149,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             10.0,
             part="bulk",
+            optional=True,
             scale="E* δ0/a_H",
         ),
         Parameter(
@@ -131,6 +161,7 @@ PARAMETERS: dict[str, Parameter] = {
             -10.0,
             10.0,
             part="bulk",
+            optional=True,
             scale="E* δ0/a_H",
         ),
         Parameter(
@@ -142,6 +173,7 @@ PARAMETERS: dict[str, Parameter] = {
             -1000.0,
             1000.0,
             part="bulk",
+            optional=True,
             units="rad",
         ),
         Parameter(
@@ -154,6 +186,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.9,
             open_lower=True,
             part="criterion",
+            optional=True,
         ),
         Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
         Parameter(
@@ -193,14 +226,59 @@ PARAMETERS: dict[str, Parameter] = {
     )
 }
 
-#: Parts that not every study has: what is at its default need not be said.
-OPTIONAL_PARTS = ("bulk", "criterion")
+#: Parameters of which one of two is given, by the one that takes the other's place.
+PAIRS: dict[str, str] = {
+    name: parameter.instead_of for name, parameter in PARAMETERS.items() if parameter.instead_of
+}
 
 
-def goes_without_saying(name: str, value: object) -> bool:
-    """Whether a value is the default of a parameter that not every study has."""
-    return PARAMETERS[name].part in OPTIONAL_PARTS and value == PARAMETERS[name].default
+@dataclass(frozen=True)
+class Control:
+    """What is prescribed in each direction: a displacement, or a force.
 
+    A normal force is in units of that at the depth δ0, a tangential one in μ times that.
+
+    Attributes
+    ----------
+    normal_force, tangential_force
+        Whether it is a force.
+    """
+
+    normal_force: bool = False
+    tangential_force: bool = False
+
+    @classmethod
+    def given(cls, names: Iterable[str]) -> Control:
+        """From the names of the parameters that are given."""
+        found = set(names)
+        return cls("normal_force_amplitude" in found, "tangential_force_amplitude" in found)
+
+    @property
+    def mixed(self) -> bool:
+        """Whether a force and a displacement are prescribed."""
+        return self.normal_force != self.tangential_force
+
+    @property
+    def name(self) -> str:
+        """Value of the coordinate ``control``."""
+        return CONTROLS[self]
+
+    def given_for(self, name: str) -> str:
+        """The parameter that is given in the place of one; that one itself where no force is."""
+        forces = {"normal_amplitude": self.normal_force, "tangential_amplitude": self.tangential_force}
+        return next(force for force, other in PAIRS.items() if other == name) if forces.get(name) else name
+
+
+#: What the paper prescribes.
+DISPLACEMENTS = Control()
+
+#: The names of what is prescribed.
+CONTROLS: dict[Control, str] = {
+    DISPLACEMENTS: "displacements",
+    Control(True, True): "forces",
+    Control(True, False): "normal_force+tangential_displacement",
+    Control(False, True): "normal_displacement+tangential_force",
+}
 
 #: Names by letter.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in PARAMETERS.items()}

@@ -71,5 +71,5 @@ def random_shape(
     """Shape parameters of a compact contact."""
     shape = {name: DRAWN[name](rng, count) for name in family_of(profile).shape}
     for k, d in enumerate(normal_amplitude):
-        assert check_shape(profile, {name: values[k] for name, values in shape.items()}, d) is None
+        assert check_shape(profile, {name: values[k] for name, values in shape.items()}, 1.0 + d) is None
     return dict(shape)

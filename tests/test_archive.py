@@ -76,8 +76,8 @@ def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
     with netCDF4.Dataset(tmp_path / "small.nc") as file:
         assert {name: file[name].units for name in UNITS} == UNITS
         regime, status = file["regime"], file["status"]
-        assert regime.flag_meanings == "stick partial_slip gross_slip lift_off not_finite"
-        assert list(regime.flag_values) == [0, 1, 2, 3, 4]
+        assert regime.flag_meanings == "stick partial_slip gross_slip lift_off not_finite no_equilibrium"
+        assert list(regime.flag_values) == [0, 1, 2, 3, 4, 5]
         assert status.flag_meanings == "computed failed missing"
         assert list(status.flag_values) == [0, 1, 2]
         assert status.failures == "[]"
@@ -157,7 +157,7 @@ def test_cf_rules(small, tmp_path):
         assert variable.attrs["long_name"]
         if name in PARAMETERS:
             assert variable.attrs["symbol"] == PARAMETERS[name].symbol
-        if name not in ("regime", "status", "profile"):
+        if name not in ("regime", "status", "profile", "control"):
             assert variable.attrs["units"] in ("1", "rad", "degree")
     assert all(name in dataset for name in dataset.s.attrs["ancillary_variables"].split())
     assert dataset.regime.attrs["flag_values"].dtype == dataset.regime.dtype

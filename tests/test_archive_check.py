@@ -20,7 +20,7 @@ from swtstudy.records.records import FAILED, MISSING
         ("status", 7, "status: found 7 at normal_amplitude=0.25, phase=0.0 and 17 more; allowed: 0 to 2"),
         ("run", -2147483647, "run: found -2147483647 at .*; allowed: -1 to 0"),
         ("run", 1, "run: found 1 at .*; allowed: -1 to 0"),
-        ("regime", 5, "regime: found 5 at .*; allowed: 0 to 4"),
+        ("regime", 6, "regime: found 6 at .*; allowed: 0 to 5"),
         ("regime", -1, "regime: found -1 at"),
         ("s", np.nan, "s: found nan at .*; allowed: a finite number, 0 or more"),
         ("s", np.inf, "s: found inf at .*; allowed: a finite number, 0 or more"),

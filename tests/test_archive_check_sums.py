@@ -1,6 +1,7 @@
 """Damaged files are detected; results that a user changed and saved do not count as damaged."""
 
 import re
+import shutil
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -79,7 +80,7 @@ def test_damaged_values_are_named(tmp_path):
         except ArchiveError as error:
             damaged.update(re.findall(r"damaged file: wrong check sum of (\w+)", str(error)))
     assert damaged
-    assert damaged <= {*dataset.data_vars, "friction"}
+    assert damaged <= {*dataset.variables}
 
 
 def test_an_archive_without_check_sums_opens_as_ever(tmp_path):
@@ -90,6 +91,21 @@ def test_an_archive_without_check_sums_opens_as_ever(tmp_path):
     np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
     assert dataset.run.attrs["long_name"].startswith("run that made the value")
     xr.testing.assert_equal(merge([path]), dataset)
+
+
+def test_an_archive_that_does_not_say_what_is_prescribed_opens_as_ever(tmp_path):
+    """It is from before forces could be; its points are those of today."""
+    path = tmp_path / "old.nc"
+    shutil.copy(Path(__file__).parent / "data" / "without_control.nc", path)
+    with netCDF4.Dataset(path) as file:
+        assert "control" not in file.variables
+    dataset = open_results(path)
+    assert dataset.control.item() == "displacements"
+    np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
+    xr.testing.assert_equal(merge([path]), dataset)
+    again = run(Study.from_text(dataset.attrs["study"]), path, workers=1)
+    np.testing.assert_allclose(again.s, dataset.s, rtol=1e-6)
+    assert again.control.item() == "displacements"
 
 
 def test_what_xarray_makes_of_results_can_be_saved_and_opened(small, tmp_path):

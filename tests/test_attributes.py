@@ -91,7 +91,7 @@ def test_one_point():
 
 
 def test_flags_are_those_of_the_words():
-    assert REGIMES == ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
+    assert REGIMES == ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
     assert VERDICTS == (
         "none",
         "line_search",

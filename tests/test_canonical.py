@@ -23,7 +23,7 @@ from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
 from swtstudy.mechanics.points import Points
-from swtstudy.parameters import FAMILIES, PARAMETERS, Family
+from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS, Family
 from swtstudy.runner.cutting import chunks
 
 
@@ -46,11 +46,12 @@ def test_values_are_told_apart_by_twelve_digits():
 
 
 def test_the_columns_are_the_rows_of_the_table_of_parameters():
-    assert LOAD_COLUMNS == ("p", "q", "normal_amplitude", "tangential_amplitude", "phase")
+    assert LOAD_COLUMNS == ("control", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
     shapes = ("flat_radius", "waviness_amplitude", "wavelength")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
-    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", "walker_exponent") == COLUMNS
-    assert {*COLUMNS} - {"p", "q"} == {*PARAMETERS} - {"frequency_ratio"}
+    extra = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase", "walker_exponent")
+    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS
+    assert {*COLUMNS} - {"control", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
     assert describe_point(table[0]) == (
         "profile=rounded_punch, flat_radius=0.5, frequency_ratio=3/2, normal_amplitude=0.75, "
@@ -59,10 +60,11 @@ def test_the_columns_are_the_rows_of_the_table_of_parameters():
 
 
 def test_a_point_of_the_solver_has_every_column_under_its_name():
-    assert {one.name for one in fields(Points)} == {"profile", "shape", *RATIO_COLUMNS, *NUMBERS}
+    assert {one.name for one in fields(Points)} == {"profile", "shape", "control", *RATIO_COLUMNS, *NUMBERS}
     for family in FAMILIES.values():
         row = np.arange(2.0, 2.0 + len(COLUMNS))
         row[COLUMNS.index("profile")] = code_of(family.name)
+        row[COLUMNS.index("control")] = 0.0
         points = points_from(row[None])
         assert points.profile == family.name
         assert (*points.shape,) == family.shape

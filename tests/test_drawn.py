@@ -93,7 +93,7 @@ def test_flags_are_steps_with_their_meanings():
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
         name.replace("_", " ") for name in REGIMES
     ]
-    assert axes.get_ylim() == (-0.5, 4.5)
+    assert axes.get_ylim() == (-0.5, 5.5)
 
 
 def test_eight_values_have_a_scale():

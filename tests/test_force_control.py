@@ -15,7 +15,6 @@ from scipy.special import struve
 
 from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
-from swtstudy.mechanics.control.prescribed import Prescribed
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import _seen_from_edge, at_edge, may_be_largest, not_finite
@@ -24,6 +23,7 @@ from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.stress.scene import Scene, prescribed_scene
 from swtstudy.mechanics.stress.work import cycle_results
+from swtstudy.parameters import Control
 
 Array = NDArray[np.float64]
 INDENTERS = {
@@ -35,10 +35,10 @@ INDENTERS = {
 EVERY = [(normal, tangential) for normal in (False, True) for tangential in (False, True)]
 
 
-def scene_of(load: Load, prescribed: Prescribed, name: str = "paraboloid", mu: float = 0.5) -> Scene:
+def scene_of(load: Load, control: Control, name: str = "paraboloid", mu: float = 0.5) -> Scene:
     many = np.ones(len(load))
     shape = {key: value * many for key, value in INDENTERS[name].shape.items()}
-    return prescribed_scene(load, prescribed, 0.3 * many, mu * many, name, shape)
+    return prescribed_scene(load, control, 0.3 * many, mu * many, name, shape)
 
 
 def largest(scene: Scene, rtol: float = 1e-6) -> Maximum:
@@ -92,13 +92,13 @@ def package_forces(scene: Scene, name: str, radius: Array, instant: float) -> Ar
     return tau
 
 
-def random_harmonic(rng: np.random.Generator, prescribed: Prescribed) -> BimodalLoad:
+def random_harmonic(rng: np.random.Generator, control: Control) -> BimodalLoad:
     """A load that leaves the contact in equilibrium, with slip."""
     p, q = [(1, 1), (1, 2), (2, 1), (3, 2)][rng.integers(4)]
     f, psi = rng.uniform(0.2, 0.7), rng.uniform(0.0, 2.0 * np.pi)
     t = np.linspace(0.0, 2.0 * np.pi, 2001)
     normal = 1.0 + f * np.sin(q * t + psi)
-    if prescribed.tangential_force and not prescribed.normal_force:
+    if control.tangential_force and not control.normal_force:
         normal = np.maximum(normal, 0.0) ** 1.5 * 0.7  # no profile's force is smaller
     limit = np.min(normal / np.maximum(np.abs(np.sin(p * t)), 1e-9))
     return harmonic(f, rng.uniform(0.5, 0.9) * limit, psi, p, q)
@@ -109,10 +109,10 @@ def random_harmonic(rng: np.random.Generator, prescribed: Prescribed) -> Bimodal
 def test_every_spring_carries_what_a_march_with_solved_displacements_gives_it(
     name: str, normal_force: bool, tangential_force: bool
 ) -> None:
-    prescribed = Prescribed(normal_force, tangential_force)
+    control = Control(normal_force, tangential_force)
     rng = np.random.default_rng([normal_force, tangential_force, *map(ord, name)])
-    load = random_harmonic(rng, prescribed)
-    scene = scene_of(load, prescribed, name)
+    load = random_harmonic(rng, control)
+    scene = scene_of(load, control, name)
     edges = np.linspace(0.0, 1.02 * scene.profile.radius(scene.profile.largest_depth)[0], 241)
     radius = 0.5 * (edges[1:] + edges[:-1])
     steps = 320
@@ -135,7 +135,7 @@ def test_springs_under_a_polygon_of_two_forces_or_two_displacements(name: str, f
     corners = np.stack([rng.uniform(0.2, 1.7, 7), rng.uniform(-0.9, 0.9, 7)], axis=1)
     corners[:, 1] *= corners[:, 0] if forces else 1.3
     load = PolygonLoad.of([corners])
-    scene = scene_of(load, Prescribed(forces, forces), name)
+    scene = scene_of(load, Control(forces, forces), name)
     edges = np.linspace(0.0, 1.02 * scene.profile.radius(scene.profile.largest_depth)[0], 241)
     radius = 0.5 * (edges[1:] + edges[:-1])
     # A whole number of steps on each side.
@@ -200,10 +200,10 @@ def test_at_constant_normal_load_both_controls_give_the_same(name: str) -> None:
     # Cattaneo and Mindlin: g(c) = 1 − U, Q = 1 − N(c).
     force = 1.0 - ForceCoordinate(profile, unit).of(profile.radius(1.0 - u[:, None]))[:, 0]
     found = []
-    for prescribed in (Prescribed(*kind) for kind in EVERY):
-        amplitude = force if prescribed.tangential_force else u
+    for control in (Control(*kind) for kind in EVERY):
+        amplitude = force if control.tangential_force else u
         load = BimodalLoad(np.zeros(3), amplitude, np.zeros(3), 1, 1)
-        scene = scene_of(load, prescribed, name)
+        scene = scene_of(load, control, name)
         results = cycle_results(scene, unit)
         found.append([largest(scene).swt, *vars(results).values()])
     for one in found[1:]:
@@ -213,15 +213,15 @@ def test_at_constant_normal_load_both_controls_give_the_same(name: str) -> None:
 
 
 def test_a_prescribed_force_makes_the_known_value() -> None:
-    found = largest(scene_of(harmonic(0.5, 0.35, 1.1), Prescribed(True, True)))
+    found = largest(scene_of(harmonic(0.5, 0.35, 1.1), Control(True, True)))
     # By another code, to some 2e-5.
     assert found.swt[0] == pytest.approx(0.1238493, rel=4e-5)
     assert abs(found.position[0]) == pytest.approx(0.959018, abs=2e-3)
 
 
 def test_incipient_sliding_is_the_same_in_both_controls() -> None:
-    by_force = largest(scene_of(harmonic(0.0, 1.0, 0.0), Prescribed(True, True)))
-    by_displacement = largest(scene_of(harmonic(0.0, 1.0, 0.0), Prescribed()))
+    by_force = largest(scene_of(harmonic(0.0, 1.0, 0.0), Control(True, True)))
+    by_displacement = largest(scene_of(harmonic(0.0, 1.0, 0.0), Control()))
     assert by_force.swt[0] == pytest.approx(by_displacement.swt[0], rel=1e-5)
 
 
@@ -230,11 +230,11 @@ def test_sliding_next_to_a_flat_faces_edge_is_the_same_in_both_controls() -> Non
     load = harmonic(0.0, 1.0 + 1e-13, 0.0)
     sliding, flat = (np.array([0.3]), np.array([0.95])), np.array([1.5])
     found = []
-    for prescribed in (Prescribed(), Prescribed(True, True)):
-        scene = prescribed_scene(load, prescribed, *sliding, "truncated_paraboloid", {"flat_radius": flat})
+    for control in (Control(), Control(True, True)):
+        scene = prescribed_scene(load, control, *sliding, "truncated_paraboloid", {"flat_radius": flat})
         assert may_be_largest(scene)[0]
         assert not not_finite(scene)[0]
-        assert not out_of_equilibrium(scene.cycle.load, True, True)[0]
+        assert not out_of_equilibrium(scene.cycle.load, Control(True, True))[0]
         accuracy = Accuracy.for_tolerance(1e-5)
         found.append(at_edge(scene, maximum(scene, accuracy), accuracy))
     edge, force = _seen_from_edge(scene.coordinate, np.ones((1, 1))), np.array([[0.3, 1.0]])
@@ -248,7 +248,7 @@ def test_dissipated_work_is_mindlins() -> None:
     u = np.array([1e-3, 0.1, 0.5, 5 / 6, 1.0, 1.3])
     stick = np.maximum(1.0 - u, 0.0)
     load = BimodalLoad(np.zeros(6), u, np.zeros(6), 1, 1)
-    found = cycle_results(scene_of(load, Prescribed()), units(load, "paraboloid"))
+    found = cycle_results(scene_of(load, Control()), units(load, "paraboloid"))
     expected = 4.0 * u * (1.0 + stick**1.5) - 3.2 * (1.0 - stick**2.5)
     expected = np.where(u <= 1.0, expected, 0.8 + 4.0 * (u - 1.0))
     np.testing.assert_allclose(found.dissipated_work, expected, rtol=1e-7, atol=1e-13)
@@ -257,7 +257,7 @@ def test_dissipated_work_is_mindlins() -> None:
     np.testing.assert_allclose(found.largest_radius, 1.0)
     np.testing.assert_allclose(found.largest_force_ratio, 1.0 - stick**1.5, rtol=1e-9)
     straight = PolygonLoad.of([np.array([[1.0, value], [1.0, -value]]) for value in u])
-    found = cycle_results(scene_of(straight, Prescribed()), units(straight, "paraboloid"))
+    found = cycle_results(scene_of(straight, Control()), units(straight, "paraboloid"))
     np.testing.assert_allclose(found.dissipated_work, expected, rtol=1e-7, atol=1e-13)
 
 
@@ -265,9 +265,9 @@ def test_dissipated_work_is_mindlins() -> None:
 def test_work_and_largest_force_are_those_of_the_marched_springs(
     normal_force: bool, tangential_force: bool
 ) -> None:
-    prescribed = Prescribed(normal_force, tangential_force)
+    control = Control(normal_force, tangential_force)
     load = harmonic(0.4, 0.42, 0.8, 3, 2)
-    scene = scene_of(load, prescribed)
+    scene = scene_of(load, control)
     found = cycle_results(scene, units(load, "paraboloid"))
     edges = np.linspace(0.0, 1.02 * scene.profile.radius(scene.profile.largest_depth)[0], 301)
     radius = 0.5 * (edges[1:] + edges[:-1])
@@ -290,31 +290,31 @@ def test_what_cannot_be_carried_is_told() -> None:
     load = BimodalLoad(f, q, np.zeros(6), 1, 1)
     # In phase and out of phase: Q² + F² + 2 Q F |cos ψ| ≤ 1 for two forces.
     amplitude = np.array([0.5, 0.5, 0.5, 1.0, 1.2, 0.0]) + q
-    np.testing.assert_array_equal(out_of_equilibrium(load, True, True), amplitude > 1.0 + 1e-12)
-    np.testing.assert_array_equal(out_of_equilibrium(load, True, False), f > 1.0)
-    assert not out_of_equilibrium(load, False, False).any()
+    np.testing.assert_array_equal(out_of_equilibrium(load, Control(True, True)), amplitude > 1.0 + 1e-12)
+    np.testing.assert_array_equal(out_of_equilibrium(load, Control(True, False)), f > 1.0)
+    assert not out_of_equilibrium(load, Control(False, False)).any()
     psi = np.linspace(0.0, 3.0, 7)
     limit = -0.6 * np.abs(np.cos(psi)) + np.sqrt(1.0 - 0.36 * np.sin(psi) ** 2)
     for share, lost in ((1.0 - 1e-9, False), (1.0, False), (1.0 + 1e-9, True)):
         load = BimodalLoad(np.full(7, 0.6), share * limit, psi, 1, 1)
-        np.testing.assert_array_equal(out_of_equilibrium(load, True, True), lost)
+        np.testing.assert_array_equal(out_of_equilibrium(load, Control(True, True)), lost)
 
 
 def test_a_depth_that_lifts_off_cannot_carry_a_tangential_force() -> None:
-    scene = scene_of(harmonic(1.1, 0.1, 0.3), Prescribed(False, True))
-    assert out_of_equilibrium(scene.cycle.load, False, True)[0]
+    scene = scene_of(harmonic(1.1, 0.1, 0.3), Control(False, True))
+    assert out_of_equilibrium(scene.cycle.load, Control(False, True))[0]
 
 
 @pytest.mark.parametrize(("normal_force", "tangential_force"), [(True, False), (False, True)])
 def test_a_loop_in_mixed_control_needs_a_constant_normal_load(
     normal_force: bool, tangential_force: bool
 ) -> None:
-    prescribed = Prescribed(normal_force, tangential_force)
+    control = Control(normal_force, tangential_force)
     with pytest.raises(ValueError, match="two displacements or two forces"):
-        scene_of(PolygonLoad.of([np.array([[1.0, 0.0], [1.2, 0.3]])]), prescribed)
+        scene_of(PolygonLoad.of([np.array([[1.0, 0.0], [1.2, 0.3]])]), control)
     steady = PolygonLoad.of([np.array([[1.0, 0.4], [1.0, -0.4]])])
-    straight = largest(scene_of(steady, prescribed))
-    harmonic_one = largest(scene_of(harmonic(0.0, 0.4, 0.0), prescribed))
+    straight = largest(scene_of(steady, control))
+    harmonic_one = largest(scene_of(harmonic(0.0, 0.4, 0.0), control))
     assert straight.swt[0] == pytest.approx(harmonic_one.swt[0], rel=2e-6)
 
 
@@ -329,7 +329,7 @@ def test_mapped_loads_turn_where_their_turning_instants_are(
     n = 8
     f, t = np.append(rng.uniform(0.0, 0.99, n - 2), [1.0, 1.2]), rng.uniform(0.01, 1.0, n)
     given = BimodalLoad(f, t, rng.uniform(0.0, 6.0, n), p, q)
-    load = scene_of(given, Prescribed(normal_force, not normal_force), name).cycle.load
+    load = scene_of(given, Control(normal_force, not normal_force), name).cycle.load
     turns = load.turning_instants()
     fine = np.linspace(0.0, 2.0 * np.pi, 10_001)
     grid = np.broadcast_to(fine, (n, fine.size))

@@ -11,21 +11,21 @@ from oracles.springs import polygon, spring_forces
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import slip_states
-from swtstudy.mechanics.control.prescribed import Prescribed
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
 from swtstudy.mechanics.stress.scene import prescribed_scene
+from swtstudy.parameters import Control
 
 Array = NDArray[np.float64]
-DISPLACEMENTS, FORCES = Prescribed(), Prescribed(True, True)
+DISPLACEMENTS, FORCES = Control(), Control(True, True)
 
 
-def s_of(load: Load, prescribed: Prescribed = DISPLACEMENTS, mu: float = 0.3) -> Maximum:
+def s_of(load: Load, control: Control = DISPLACEMENTS, mu: float = 0.3) -> Maximum:
     many = np.ones(len(load))
-    scene = prescribed_scene(load, prescribed, 0.3 * many, mu * many)
+    scene = prescribed_scene(load, control, 0.3 * many, mu * many)
     return maximum(scene, Accuracy.for_tolerance(1e-6))
 
 
@@ -104,15 +104,15 @@ def test_sampled_cycles_converge_to_the_harmonic_one() -> None:
     assert np.all(np.abs(error) < 11.0 / count**2)
 
 
-@pytest.mark.parametrize("prescribed", [DISPLACEMENTS, FORCES])
-def test_s_does_not_depend_on_the_first_vertex_nor_on_more_of_them(prescribed: Prescribed) -> None:
+@pytest.mark.parametrize("control", [DISPLACEMENTS, FORCES])
+def test_s_does_not_depend_on_the_first_vertex_nor_on_more_of_them(control: Control) -> None:
     rng = np.random.default_rng(5)
     loop = random_loop(rng, 7, 0.3)
-    if prescribed == FORCES:
+    if control == FORCES:
         loop[:, 1] *= 0.9 * loop[:, 0]
     more = np.concatenate([loop[:3], [0.5 * (loop[2] + loop[3])], [loop[3]], loop[3:]])
     loops = [*(np.roll(loop, k, axis=0) for k in range(7)), more]
-    found = s_of(PolygonLoad.of(loops), prescribed)
+    found = s_of(PolygonLoad.of(loops), control)
     np.testing.assert_allclose(found.swt, found.swt[0], rtol=1e-6)
     np.testing.assert_allclose(found.position, found.position[0], rtol=1e-4)
 

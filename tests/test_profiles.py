@@ -108,10 +108,10 @@ def test_shapes_that_are_not_refused_are_compact(family: Family) -> None:
     """g′ ≥ 0 in the contact; `compact` and `check` refuse the same ones, and the message names them."""
     rng, depth = np.random.default_rng(0), 1.75
     shape = {name: DRAWN[name](rng, 200) * 10.0 ** rng.uniform(-1.0, 0.3, 200) for name in family.shape}
-    compact = compact_shapes(family.name, shape, depth - 1.0)
+    compact = compact_shapes(family.name, shape, depth)
     for k in range(200 if family.shape else 0):
         one = {name: float(values[k]) for name, values in shape.items()}
-        message = check_shape(family.name, one, depth - 1.0)
+        message = check_shape(family.name, one, depth)
         assert (message is None) == compact[k]
         for name, value in one.items() if message else ():
             assert f"{name} {value:g}" in message
@@ -130,7 +130,7 @@ def test_what_is_too_small_is_refused_just_below_its_limit(family: Family) -> No
             small = {name: value / 100.0 for name, value in indenter.shape.items()}
             limit = too_small(family.name, small, depth)
             if limit is None:
-                assert compact_shapes(family.name, {n: np.array([v]) for n, v in small.items()}, depth - 1.0)
+                assert compact_shapes(family.name, {n: np.array([v]) for n, v in small.items()}, depth)
                 continue
             name, _ = limit
             low, high = small[name], 100.0 * indenter.shape[name]
@@ -287,13 +287,13 @@ def test_struve_functions_of_the_table() -> None:
     np.testing.assert_allclose(first, safe_struve(1, z), rtol=0.0, atol=1e-10)
 
 
-@pytest.mark.parametrize(("h", "amplitude"), [(0.01, 0.75), (0.1, 0.75), (1e-4, 0.0), (0.5, 0.9)])
+@pytest.mark.parametrize(("h", "amplitude"), [(0.01, 1.75), (0.1, 1.75), (1e-4, 0.0), (0.5, 0.9)])
 def test_waviness_is_refused_exactly_where_g_stops_growing(h: float, amplitude: float) -> None:
     low, high = 0.5, 8.0
     while high - low > 1e-6:
         wavelength = 0.5 * (low + high)
         shape = {"waviness_amplitude": h, "wavelength": wavelength}
-        refused = check_shape("wavy_paraboloid", shape, amplitude) is not None
+        refused = check_shape("wavy_paraboloid", shape, 1.0 + amplitude) is not None
         low, high = (wavelength, high) if refused else (low, wavelength)
     limit = high
 
@@ -310,12 +310,12 @@ def test_waviness_is_refused_exactly_where_g_stops_growing(h: float, amplitude: 
 
 def test_the_message_of_a_contact_that_is_not_compact_names_the_limit() -> None:
     shape = {"waviness_amplitude": 0.01, "wavelength": 3.1}
-    message = check_shape("wavy_paraboloid", shape, 0.75)
+    message = check_shape("wavy_paraboloid", shape, 1.75)
     assert message is not None
     assert "wavelength 3.1 is below 3.5" in message
     assert "waviness_amplitude 0.01" in message
-    assert check_shape("wavy_paraboloid", {**shape, "wavelength": 3.6}, 0.75) is None
-    assert check_shape("wavy_paraboloid", {**shape, "waviness_amplitude": 0.0}, 0.75) is None
+    assert check_shape("wavy_paraboloid", {**shape, "wavelength": 3.6}, 1.75) is None
+    assert check_shape("wavy_paraboloid", {**shape, "waviness_amplitude": 0.0}, 1.75) is None
 
 
 def test_a_grid_of_shapes_is_checked_without_solving_each_anew(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -328,7 +328,7 @@ def test_a_grid_of_shapes_is_checked_without_solving_each_anew(monkeypatch: pyte
     monkeypatch.setattr(wavy_paraboloid, "struve_functions", counted)
     for h in np.linspace(0.01, 1.0, 10).tolist():
         for wavelength in np.linspace(3.0, 6.0, 10).tolist():
-            check_shape("wavy_paraboloid", {"waviness_amplitude": h, "wavelength": wavelength}, 0.75)
+            check_shape("wavy_paraboloid", {"waviness_amplitude": h, "wavelength": wavelength}, 1.75)
     assert len(calls) <= 1
 
 

@@ -17,7 +17,7 @@ WORDS = {
     "critical_angle": r"$\varphi$ (°)",
     "s_surface": r"$s_\mathrm{surface}$",
 }
-REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite"]
+REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium"]
 
 
 @pytest.fixture
@@ -137,7 +137,7 @@ def test_regimes_are_colours_with_names(dataset, kind):
     (mesh,) = axes.collections
     np.testing.assert_array_equal(mesh.get_array(), dataset.regime.transpose())
     assert [tick.get_text() for tick in bar.get_yticklabels()] == REGIMES
-    np.testing.assert_array_equal(bar.get_yticks(), range(5))
+    np.testing.assert_array_equal(bar.get_yticks(), range(6))
     assert bar.get_ylabel() == "regime"
     colours = [mesh.cmap(mesh.norm(code)) for code in range(5)]
     lightness = np.array(colours)[:, :3] @ [0.299, 0.587, 0.114]
@@ -153,7 +153,7 @@ def test_regimes_are_colours_with_names(dataset, kind):
 def test_lines_of_regimes_are_steps_between_names(dataset):
     (axes,) = dataset.swt.panels("phase", "friction", y="regime").axes
     assert [tick.get_text() for tick in axes.get_yticklabels()] == REGIMES
-    np.testing.assert_array_equal(axes.get_yticks(), range(5))
+    np.testing.assert_array_equal(axes.get_yticks(), range(6))
     assert {line.get_drawstyle() for line in axes.lines} == {"steps-mid"}
     np.testing.assert_array_equal(axes.lines[2].get_ydata(), dataset.regime[:, 2])
 

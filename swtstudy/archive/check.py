@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.accuracy import ALLOWED_RTOL, is_rtol
 from swtstudy.archive.attributes import read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.labelled import ATTRIBUTES
@@ -100,7 +100,7 @@ def _values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     """Values that no run computes, such as from a damaged file."""
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
-    unbounded = regime == REGIMES.index("not_finite")
+    unbounded = np.isin(regime, [REGIMES.index(name) for name in WITHOUT_S])
     runs = len(read_runs(dataset.attrs["runs"]))
     for name, wrong, allowed in (
         ("status", ~np.isin(status, range(len(STATES))), f"0 to {len(STATES) - 1}"),

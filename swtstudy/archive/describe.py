@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
+from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES
@@ -29,6 +30,7 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     for name in PARAMETERS:
         if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
+    yield f"  prescribed     {grid_of(dataset).control.name}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"

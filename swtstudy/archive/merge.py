@@ -48,8 +48,9 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     Raises
     ------
     ConflictError
-        A ValueError, if they come from different versions of the solver, or have values of one point that
-        differ by more than their estimated errors.
+        A ValueError, if they come from different versions of the solver, prescribe forces in one and
+        displacements in another, or have values of one point that differ by more than their estimated
+        errors.
     GapsError
         A ValueError, if points of the grid are in none of them and `sparse` is False.
     """
@@ -59,7 +60,9 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
     _refuse_conflicts(paths, records, sources)
-    grid = _union([grid_of(dataset) for dataset in datasets])
+    grids = [grid_of(dataset) for dataset in datasets]
+    _refuse_other_controls(paths, grids)
+    grid = _union(grids)
     points = unique_points(grid)
     made = f"merged from {', '.join(path.name for path in paths)}"
     absent = look_up(points.table, records, np.ones(len(records), bool)) < 0
@@ -91,6 +94,13 @@ def _refuse_other_versions(paths: Sequence[Path], parts: list[Records]) -> None:
     if len(versions) > 1:
         words = ", ".join(f"{version} in {path}" for version, path in sorted(versions.items()))
         raise ConflictError(f"results of different solver versions cannot be merged: {words}")
+
+
+def _refuse_other_controls(paths: Sequence[Path], grids: list[Grid]) -> None:
+    controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
+    if len(controls) > 1:
+        words = ", ".join(f"{control} in {path}" for control, path in sorted(controls.items()))
+        raise ConflictError(f"results of different prescribed loads cannot be merged: {words}")
 
 
 def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray) -> None:

@@ -11,6 +11,8 @@ from swtstudy.archive.check import lacking, mistakes
 from swtstudy.archive.check_sums import damaged, unreadable
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.lock import LockedError, is_locked
+from swtstudy.archive.recall import grid_of
+from swtstudy.records.labelled import control_coordinate
 
 #: What xarray and netCDF4 raise for files that they cannot read.
 _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
@@ -25,6 +27,9 @@ def read_archive(path: Path) -> xr.Dataset:
     found = mistakes(loaded, str(path))
     if found:
         raise ArchiveError("\n".join(map(str, found)))
+    # Archives from before forces could be prescribed do not say what is.
+    if "control" not in loaded.coords:
+        loaded = loaded.assign_coords(control=control_coordinate(grid_of(loaded)))
     return loaded
 
 

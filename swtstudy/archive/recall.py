@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
 
 import numpy as np
@@ -10,13 +10,14 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.error import ArchiveError
-from swtstudy.grid.grid import Grid
+from swtstudy.grid.grid import Grid, complete
+from swtstudy.grid.reading import given_twice
 from swtstudy.grid.shapes import shapes_needed
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.parameters import OPTIONAL_PARTS, PARAMETERS, Parameter
+from swtstudy.parameters import PAIRS, PARAMETERS, Control, Parameter
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.records import FAILED, Records
 
@@ -44,18 +45,31 @@ def grid_of(dataset: xr.Dataset) -> Grid:
             continue
         values[name] = tuple(_values(parameter, np.atleast_1d(coordinate.values).tolist(), mistakes))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
-    for name, parameter in PARAMETERS.items():
-        if parameter.part in OPTIONAL_PARTS and parameter.default is not None and name not in dataset:
-            # Older archives do not have them.
-            values[name] = (read_value(parameter, parameter.default),)
-    required = [name for name, parameter in PARAMETERS.items() if parameter.default is not None]
-    for name in (*required, *shapes_needed(profiles)):
-        if name not in values and name not in dims:
-            mistakes.append(Mistake(name, "nothing", PARAMETERS[name].allowed))
+    mistakes += _lacking({*values, *dims}, shapes_needed(profiles))
+    mistakes += _wrong_control(dataset, {*values, *dims})
     if mistakes:
         raise StudyError(mistakes)
     fixed = {name: value[0] for name, value in values.items() if name not in dims}
-    return Grid(fixed, {name: values[name] for name in dims})
+    return complete(fixed, {name: values[name] for name in dims})
+
+
+def _lacking(given: set[str], shape: Sequence[str]) -> Iterator[Mistake]:
+    """Parameters without a value; an archive may leave out optional ones."""
+    replaced = {PAIRS[name] for name in given if name in PAIRS}
+    for name, parameter in PARAMETERS.items():
+        needed = parameter.default is not None and not parameter.optional and name not in replaced
+        if (needed or name in shape) and name not in given:
+            yield Mistake(name, "nothing", parameter.allowed)
+
+
+def _wrong_control(dataset: xr.Dataset, given: set[str]) -> Iterator[Mistake]:
+    """Two parameters that take each other's place, or a coordinate that contradicts them."""
+    yield from (Mistake(*parts) for parts in given_twice(given))
+    own = Control.given(given).name
+    # Archives from before there was a choice do not say it.
+    found = dataset.control.values.tolist() if "control" in dataset.coords else own
+    if found != own:
+        yield Mistake("control", literal(found), literal(own))
 
 
 def _values(parameter: Parameter, raw: list[object], mistakes: list[Mistake]) -> Iterator[Value]:

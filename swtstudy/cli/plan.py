@@ -50,6 +50,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     shared = todo - loads(work.points.table[missing])
     lines = [
         study.title,
+        f"  prescribed         {grid.control.name}",
         f"  archive            {target}{'' if target.exists() else ' (does not exist yet)'}",
         f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
         f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",

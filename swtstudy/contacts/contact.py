@@ -24,7 +24,7 @@ from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS, family_of, is_profile
+from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -48,28 +48,37 @@ class PhysicalContact:
         R.
     depth
         Mean indentation depth δ0.
-    friction, frequency_ratio, phase, profile, walker_exponent
+    friction, frequency_ratio, phase, profile, walker_exponent, bulk_stress_phase
         As in `swtstudy.parameters.PARAMETERS`.
     normal_amplitude, tangential_amplitude
-        δA and uA, lengths.
+        δA and uA, lengths; None where a force is prescribed.
     shape
         What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths.
+    normal_force_amplitude, tangential_force_amplitude
+        FA and QA, forces; None where a displacement is prescribed.
+    bulk_stress_amplitude, bulk_stress_mean
+        Stresses.
+    bulk_stress_body
+        0 or 1: the body that carries them.
     """
 
     moduli: Moduli
     radius: float
     depth: float
     friction: float
-    normal_amplitude: float
-    tangential_amplitude: float
+    normal_amplitude: float | None
+    tangential_amplitude: float | None
     frequency_ratio: Fraction
     phase: float
     profile: str
     shape: Mapping[str, float] = field(default_factory=dict)
+    normal_force_amplitude: float | None = None
+    tangential_force_amplitude: float | None = None
     walker_exponent: float = 0.5
     bulk_stress_amplitude: float = 0.0
     bulk_stress_mean: float = 0.0
     bulk_stress_phase: float = 0.0
+    bulk_stress_body: int = 0
 
     @property
     def length_scale(self) -> float:
@@ -138,11 +147,13 @@ class PhysicalContact:
         Parameters
         ----------
         body
-            0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
-            and the stress beneath them on that of the body itself alone.
+            0 or 1. The bodies share all parameters but the Poisson ratio and the bulk stress: the tractions
+            do not depend on these, and the stress beneath them on those of the body itself alone.
         """
         own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
-        return {name: number_of(name, own[name], self) for name in PARAMETERS if name in own}
+        if body != self.bulk_stress_body:
+            own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
+        return {n: number_of(n, own[n], self) for n in PARAMETERS if own.get(n) is not None}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
@@ -156,16 +167,20 @@ class PhysicalContact:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         profile = parameters.get("profile", self.profile)
         kept = family_of(profile).shape if is_profile(profile) else ()
-        own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
+        every = self.parameters(self.bulk_stress_body)
+        own = {n: v for n, v in every.items() if n not in self.shape or n in kept}
+        replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
+        own = {name: value for name, value in own.items() if name not in replaced}
         grid, mistakes = read_grid({**own, **parameters}, {})
         if grid is None:
             raise StudyError(mistakes)
         own = {name: value for name, value in grid.fixed.items() if name in vars(self)}
         pure: dict[str, Any] = {name: value for name, value in own.items() if not PARAMETERS[name].scale}
+        pure |= dict.fromkeys(replaced)
         contact = replace(self, **pure, shape={})
         # In the order of the table: a length may be measured in the one before it.
         for name, value in grid.fixed.items():
-            if name in own and name not in pure:
+            if name in own and PARAMETERS[name].scale:
                 contact = replace(contact, **{name: length_of(name, value, contact)})
             elif name in family_of(contact.profile).shape:
                 contact = replace(contact, shape={**contact.shape, name: length_of(name, value, contact)})
@@ -208,6 +223,7 @@ class PhysicalContact:
         from swtstudy.solving import solve
 
         bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
+        bodies = [_completed(bodies[0], bodies[1]), _completed(bodies[1], bodies[0])]
         dataset = xr.concat(
             bodies, xr.DataArray(list(LABELS), dims="body", name="body"), coords="different", compat="equals"
         )
@@ -255,3 +271,12 @@ class PhysicalContact:
             A ValueError, as of `swt`, or if the constants are none.
         """
         return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
+
+
+def _completed(own: xr.Dataset, other: xr.Dataset) -> xr.Dataset:
+    """Single values with those that only the other body has: parameters at their default, or none."""
+    for name in sorted({*map(str, other.variables)} - {*map(str, own.variables)}):
+        fill = PARAMETERS[name].default if name in PARAMETERS else np.nan
+        values = other[name].variable.copy(data=np.asarray(fill))
+        own = own.assign_coords({name: values}) if name in other.coords else own.assign({name: values})
+    return own

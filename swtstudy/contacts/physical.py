@@ -15,6 +15,7 @@ from swtstudy.contacts.given import (
     pair_of_numbers,
     with_unknown,
     wrong_bodies,
+    wrong_bulk,
     wrong_load,
     wrong_sizes,
 )
@@ -23,13 +24,13 @@ from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS, family_of, is_profile
+from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 #: Parameters of a contact with what they are unless given, None for those that must be: a real contact has
 #: no usual friction and tangential amplitude. The Poisson ratio is that of the bodies.
 _DEFAULTS: dict[str, Any] = {
-    **{name: row.default for name, row in PARAMETERS.items() if name != "poisson_ratio"},
+    **{name: row.default for name, row in PARAMETERS.items() if name not in ("poisson_ratio", *PAIRS)},
     **{"friction": None, "tangential_amplitude": None, "normal_amplitude": 0.0},
 }
 #: Those that are no lengths, whatever the profile.
@@ -44,6 +45,8 @@ def physical(
     depth: float | None = None,
     normal_force: float | None = None,
     similar: float = SIMILAR,
+    bulk_stress_ratio: float | None = None,
+    bulk_stress_body: int = 0,
     **parameters: object,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
@@ -58,12 +61,18 @@ def physical(
         One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar (eq. 1).
+    bulk_stress_ratio
+        Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
+    bulk_stress_body
+        0 or 1: the body that carries the bulk stress; the other one has none.
     **parameters
         The other names of `swtstudy.parameters.PARAMETERS`, single values. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
-        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; and
-        flat_radius b, waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio,
-        phase and profile are as for `swtstudy.solve`.
+        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
+        them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
+        waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
+        bulk_stress_mean are stresses, 0 unless given. Angles, numbers, frequency_ratio and profile are as for
+        `swtstudy.solve`.
 
     Returns
     -------
@@ -87,16 +96,21 @@ def physical(
     own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "radius": radius}
     given: dict[str, Any] = {
         **own,
-        **{name: parameters.get(name, default) for name, default in _DEFAULTS.items()},
+        **_defaults_beside(parameters),
+        **{name: value for name, value in parameters.items() if name in (*_DEFAULTS, *PAIRS)},
         **{"depth": depth, "normal_force": normal_force, "similar": similar},
     }
-    needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None)]
+    needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None and name in given)]
     lacking = [name for name in needed if given[name] is None]
     unknown = [name for name in parameters if name not in given]
-    mistakes = with_unknown(unknown, given, lacking, _mistakes(given))
+    mistakes = [*_mistakes(given), *wrong_bulk(bulk_stress_ratio, parameters, bulk_stress_body)]
+    mistakes = with_unknown(unknown, [*given, *PAIRS], lacking, mistakes)
     if mistakes:
         raise StudyError(mistakes)
-    contact = _contact(given)
+    if bulk_stress_ratio is not None:
+        ratio, amplitude = plain_number(bulk_stress_ratio), plain_number(given["bulk_stress_amplitude"])
+        given["bulk_stress_mean"] = amplitude * (1.0 + ratio) / (1.0 - ratio)
+    contact = replace(_contact(given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
     _, mistakes = read_grid(contact.parameters(), {})
@@ -105,9 +119,15 @@ def physical(
     return contact
 
 
+def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
+    """The defaults of what has nothing given in its place."""
+    replaced = {other for name, other in PAIRS.items() if name in parameters}
+    return {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+
+
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:
-    """The lengths, and the shape of any profile."""
-    names = [name for name in _DEFAULTS if name not in (*_PURE, "profile")]
+    """The lengths and forces, and the shape of any profile."""
+    names = [name for name in given if name in (*_DEFAULTS, *PAIRS) and name not in (*_PURE, "profile")]
     return {name: given[name] for name in ("radius", *names)}
 
 
@@ -120,16 +140,22 @@ def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
     mistakes += wrong_bodies(young, poisson, given["similar"])
     mistakes += wrong_load(given["depth"], given["normal_force"])
     mistakes += wrong_sizes(_sizes(given), profile)
-    tangential = given["tangential_amplitude"]
-    if not mistakes and plain_number(given["friction"]) == 0.0 and tangential:
-        found, allowed = f"{literal(tangential)} without friction", "0, since the contact slides at once"
-        mistakes.append(Mistake("tangential_amplitude", found, allowed))
+    for force, other in PAIRS.items():
+        if force in given and other in given:
+            mistakes.append(
+                Mistake(f"{other}, {force}", "both", "one of the two: it says what is prescribed")
+            )
+    moves = [name for name in ("tangential_amplitude", "tangential_force_amplitude") if given.get(name)]
+    if not mistakes and plain_number(given["friction"]) == 0.0 and moves:
+        found, allowed = f"{literal(given[moves[0]])} without friction", "0, since the contact slides at once"
+        mistakes.append(Mistake(moves[0], found, allowed))
     return mistakes
 
 
 def _contact(given: Mapping[str, Any]) -> PhysicalContact:
     """The contact from what has no mistakes, at the depth 1 if that is not given."""
-    values: dict[str, Any] = {name: plain_number(value) for name, value in _sizes(given).items()}
+    values: dict[str, Any] = dict.fromkeys(PAIRS.values())
+    values |= {name: plain_number(value) for name, value in _sizes(given).items()}
     values |= {name: read_value(PARAMETERS[name], given[name]) for name in _PURE}
     young, poisson = (pair_of_numbers(pair(given[name])) for name in ("young_modulus", "poisson_ratio"))
     return PhysicalContact(

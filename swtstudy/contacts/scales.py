@@ -1,4 +1,4 @@
-"""What the lengths of a real contact are measured in, and the way from numbers to lengths and back."""
+"""What lengths, forces and stresses of a real contact are measured in, and the way there and back."""
 
 from __future__ import annotations
 
@@ -15,21 +15,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Scale:
-    """One length that others are measured in.
+    """One length, force or stress that others are measured in.
 
     Attributes
     ----------
     of
-        The length of a contact.
+        That of a contact.
     power
-        Of δ0, in proportion to which it grows with the depth.
+        Of δ0, in proportion to which it grows with the depth; None if it follows no power.
     made_of
         The parameter whose length it is made of, if it is that of one.
+    kind
+        "length", "force" or "stress".
     """
 
     of: Callable[[PhysicalContact], float]
-    power: float
+    power: float | None
     made_of: str = ""
+    kind: str = "length"
 
 
 #: Scales by the name that rows of `swtstudy.parameters.PARAMETERS` have for them.
@@ -37,6 +40,9 @@ SCALES: dict[str, Scale] = {
     "a_H": Scale(lambda contact: contact.length_scale, 0.5),
     "δ0": Scale(lambda contact: contact.depth, 1.0),
     "μ E* δ0/G*": Scale(lambda contact: contact.slip_scale, 1.0),
+    "E* δ0/a_H": Scale(lambda contact: contact.stress_scale, 0.5, kind="stress"),
+    "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
+    "μ F0": Scale(lambda contact: contact.friction * contact.normal_force, None, kind="force"),
     "√(hR)": Scale(
         lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * contact.radius),
         0.0,

@@ -35,13 +35,14 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     ratio = Fraction(grid.fixed["frequency_ratio"])
 
     def number(name: str) -> np.ndarray:
-        return np.array([float(grid.fixed[name])])
+        return np.array([float(grid.fixed[grid.control.given_for(name)])])
 
     return Points(
         profile=profile,
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in family_of(profile).shape},
+        control=grid.control,
         **{name: number(name) for name in NUMBERS},
     )
 

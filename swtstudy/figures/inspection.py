@@ -16,7 +16,7 @@ from swtstudy.figures.inspection_panels import (
 )
 from swtstudy.figures.style import Style, styled
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import PARAMETERS, family_of, goes_without_saying
+from swtstudy.parameters import PARAMETERS, family_of
 from swtstudy.wording import place_words, value_words
 
 if TYPE_CHECKING:
@@ -89,9 +89,9 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 
 def _headline(dataset: xr.Dataset) -> str:
     profile = str(dataset.profile.item())
-    names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.default is not None)]
-    own = {name: dataset[name].item() for name in names if name != "profile"}
-    values = [place_words(name, value) for name, value in own.items() if not goes_without_saying(name, value)]
+    shape = family_of(profile).shape
+    names = [*shape, *(n for n, row in PARAMETERS.items() if n in dataset.coords and row.part != "shape")]
+    values = [place_words(name, dataset[name].item()) for name in names]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if not math.isfinite(float(dataset.s)):

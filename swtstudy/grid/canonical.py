@@ -2,7 +2,7 @@
 
 Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one
 onto the other, or if they differ only in parameters that do not matter (the shape of another profile, a
-profile whose shape is plain, the phase of a load that stands still).
+profile whose shape is plain, the phase and the control of a load that stands still).
 """
 
 from __future__ import annotations
@@ -13,29 +13,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.codes import code_of, name_of
-from swtstudy.parameters import PARAMETERS, PLAIN, family_of, goes_without_saying
+from swtstudy.grid.codes import code_of, control_code, control_of, name_of
+from swtstudy.parameters import PARAMETERS, PLAIN, family_of
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
 
 
 def _numbers(part: str) -> tuple[str, ...]:
-    return tuple(name for name, row in PARAMETERS.items() if row.part == part and row.kind == "number")
+    """Those numbers of a part that have a column; one that takes another's place is in its column."""
+    rows = PARAMETERS.items()
+    return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
 
 
 #: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
 RATIO_COLUMNS = ("p", "q")
-LOAD_COLUMNS = (*RATIO_COLUMNS, *_numbers("load"))
+LOAD_COLUMNS = ("control", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", *RATIO_COLUMNS)
+SHARED_COLUMNS = ("profile", "control", *RATIO_COLUMNS)
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
 NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
-#: Columns of a table of canonical points, in the order in which they are sorted; for the profile see
-#: `swtstudy.grid.codes`.
+#: Columns of a table of canonical points, in the order in which they are sorted; for the profile and the
+#: control see `swtstudy.grid.codes`.
 COLUMNS = (
     *("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS),
     *reversed(_numbers("body")),
@@ -96,8 +98,11 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
-    amplitude, phase = (table[:, _COLUMN[name]] for name in ("normal_amplitude", "phase"))
-    phase, p, q = without_what_stands_still(amplitude, phase, p, q)
+    normal, tangential, phase = (
+        table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
+    )
+    phase, p, q = without_what_stands_still(normal, phase, p, q)
+    _make_control_canonical(table, normal == 0.0, tangential == 0.0)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
@@ -105,7 +110,7 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
     of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
     moves = table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0
-    both_ways = (q % 2 == 0) | (amplitude == 0.0)
+    both_ways = (q % 2 == 0) | (normal == 0.0)
     folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
     of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return mirrored
@@ -114,6 +119,19 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
 def _in_turns(angle: FloatArray) -> FloatArray:
     """An angle rounded in units of π."""
     return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
+
+
+def _make_control_canonical(
+    table: FloatArray, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
+) -> None:
+    """A component that stands still is prescribed as the other one is, both that do as displacements."""
+    control = table[:, _COLUMN["control"]]
+    force = control.astype(np.int64)
+    normal, tangential = (force & 1) == 1, (force & 2) == 2
+    moves = ~normal_rests & normal, ~tangential_rests & tangential
+    control[:] = control_code(
+        np.where(normal_rests, moves[1], normal), np.where(tangential_rests, moves[0], tangential)
+    )
 
 
 def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
@@ -141,7 +159,7 @@ def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def points_from(table: FloatArray) -> Points:
-    """A batch for the solver from canonical rows that share one profile."""
+    """A batch for the solver from canonical rows that share one profile and control."""
     from swtstudy.mechanics.points import Points
 
     profile = name_of(table[0, _COLUMN["profile"]])
@@ -150,6 +168,7 @@ def points_from(table: FloatArray) -> Points:
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
+        control=control_of(table[0, _COLUMN["control"]]),
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
@@ -160,6 +179,8 @@ def describe_point(row: FloatArray) -> str:
     parts = [f"profile={profile}"]
     parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in family_of(profile).shape]
     parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
+    control = control_of(row[_COLUMN["control"]])
     values = {name: row[_COLUMN[name]] for name in NUMBERS}
-    parts += [f"{name}={value:.6g}" for name, value in values.items() if not goes_without_saying(name, value)]
+    said = {n: v for n, v in values.items() if not (PARAMETERS[n].optional and v == PARAMETERS[n].default)}
+    parts += [f"{control.given_for(name)}={value:.6g}" for name, value in said.items()]
     return ", ".join(parts)

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, canonical_number, canonical_points
-from swtstudy.grid.codes import code_of
+from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import PAIRS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -26,7 +26,8 @@ class Grid:
     Attributes
     ----------
     fixed
-        The single-valued parameters; those that no profile of the grid has may be absent.
+        The single-valued parameters; those that no profile of the grid has may be absent, and of two that
+        take each other's place one is.
     axes
         The values along each dimension, in the order of the dimensions.
     """
@@ -49,6 +50,11 @@ class Grid:
         """Number of grid points."""
         return math.prod(self.shape)
 
+    @property
+    def control(self) -> Control:
+        """What is prescribed."""
+        return Control.given((*self.fixed, *self.axes))
+
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid; empty if it has none."""
         if name in self.axes:
@@ -61,11 +67,13 @@ class Grid:
         position = (
             dict(zip(self.axes, np.unravel_index(indices, self.shape), strict=True)) if self.axes else {}
         )
+        control = self.control
         columns: dict[str, NDArray] = {}
         for name in COLUMNS:
-            source = "frequency_ratio" if name in ("p", "q") else name
+            source = "frequency_ratio" if name in ("p", "q") else control.given_for(name)
             codes = np.array([_code(name, value) for value in self.values(source)] or [0.0])
             columns[name] = codes[position[source]] if source in position else codes
+        columns["control"] = control_code(np.array(control.normal_force), np.array(control.tangential_force))
         columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
         return canonical_points(columns)
 
@@ -81,9 +89,11 @@ def _code(name: str, value: Value) -> float:
 
 
 def complete(fixed: dict[str, Value], axes: dict[str, tuple[Value, ...]]) -> Grid:
-    """A grid with the defaults of Table 1 for every parameter that is not given."""
+    """A grid with the defaults of Table 1 for every parameter that is not given, nor one in its place."""
     filled = dict(fixed)
+    given = {*fixed, *axes}
+    given |= {PAIRS[name] for name in given if name in PAIRS}
     for name, parameter in PARAMETERS.items():
-        if name not in fixed and name not in axes and parameter.default is not None:
+        if name not in given and parameter.default is not None:
             filled[name] = read_value(parameter, parameter.default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
@@ -15,7 +15,7 @@ from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
-from swtstudy.parameters import FAMILIES, PARAMETERS
+from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -77,12 +77,24 @@ def read_grid(
     for name, raw in axes.items():
         if name in PARAMETERS and raw is not None:
             good_axes[name] = _read_axis(name, raw, keys(name), report)
+    for key, found, allowed in given_twice((*fixed, *axes), keys):
+        report(key, found, allowed)
     check_shapes_given(fixed, axes, good_fixed, good_axes, keys, report)
     if mistakes:
         return None, mistakes
     grid = complete(good_fixed, good_axes)
     check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes
+
+
+def given_twice(
+    names: Iterable[str], keys: Callable[[str], str] = lambda name: name
+) -> Iterator[tuple[str, str, str]]:
+    """Key, what was found and what is allowed of each pair of parameters of which one is to be given."""
+    given = {*names}
+    for name, other in PAIRS.items():
+        if {name, other} <= given:
+            yield f"{keys(other)}, {keys(name)}", "both", "one of the two: it says what is prescribed"
 
 
 def _read(name: str, raw: object, key: str, report: Report) -> Value | None:

@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 
 #: Shapes of one profile; each is looked at, a million in 0.1 s.
 MOST_SHAPES = 50_000_000
-#: Shapes that are looked at together: the working memory for one is some 100 bytes.
-_SLAB = 500_000
+#: Shapes that are looked at together: the working memory for one is some 100 bytes, and some 10 kB where the
+#: depth has to be found from a force.
+_SLAB, _TOGETHER = 500_000, 5_000
 
 
 def check_shapes_given(
@@ -60,8 +61,6 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
 
 def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    # The largest contact of the study is the hardest to keep compact.
-    normal_amplitude = max(float(value) for value in grid.values("normal_amplitude"))
     for profile in map(str, grid.values("profile")):
         names = family_of(profile).shape
         axes = [np.array(grid.values(name), float) for name in names]
@@ -71,20 +70,18 @@ def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None
         if count > MOST_SHAPES:
             report(", ".join(map(keys, names)), f"{count} shapes of the {profile}", f"at most {MOST_SHAPES}")
             continue
-        refused, first = _refused(profile, axes, normal_amplitude)
+        refused, first = _refused(grid, profile, axes)
         if first is not None:
             from swtstudy.mechanics.indenter import check_shape
 
-            shape = dict(zip(names, first, strict=True))
+            shape = {name: float(values[0]) for name, values in first.items()}
             found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
             more = f"; {refused - 1} more like it" if refused > 1 else ""
-            allowed = check_shape(profile, shape, normal_amplitude) or ""
+            allowed = check_shape(profile, shape, _largest_depths(grid, profile, first).item()) or ""
             report(", ".join(map(keys, names)), found + more, allowed)
 
 
-def _refused(
-    profile: str, axes: list[FloatArray], normal_amplitude: float
-) -> tuple[int, tuple[float, ...] | None]:
+def _refused(grid: Grid, profile: str, axes: list[FloatArray]) -> tuple[int, dict[str, FloatArray] | None]:
     """How many of the shapes are not admissible, and the first of these."""
     from swtstudy.mechanics.indenter import compact_shapes
 
@@ -93,8 +90,28 @@ def _refused(
         places = np.unravel_index(np.arange(start, min(start + _SLAB, math.prod(lengths))), lengths)
         values = [axis[place] for axis, place in zip(axes, places, strict=True)]
         shape = dict(zip(family_of(profile).shape, values, strict=True))
-        wrong = np.flatnonzero(~compact_shapes(profile, shape, normal_amplitude))
+        depth = _largest_depths(grid, profile, shape)
+        wrong = np.flatnonzero(~compact_shapes(profile, shape, depth))
         if wrong.size and first is None:
-            first = tuple(float(value[wrong[0]]) for value in values)
+            first = {name: value[wrong[:1]] for name, value in shape.items()}
         refused += wrong.size
     return refused, first
+
+
+def _largest_depths(grid: Grid, profile: str, shape: dict[str, FloatArray]) -> FloatArray:
+    """Largest depth of each shape in the grid, (n,): the largest contact is the hardest to keep compact."""
+    from swtstudy.mechanics.control.diagram import largest_depth
+    from swtstudy.mechanics.indenter import compact_shapes
+
+    amplitudes = grid.values(grid.control.given_for("normal_amplitude"))
+    normal = np.full(len(next(iter(shape.values()))), 1.0 + max(map(float, amplitudes)))
+    if not grid.control.normal_force:
+        return normal
+    # The depth at a force is known for shapes that carry the force at δ0.
+    depth = np.ones_like(normal)
+    sound = np.flatnonzero(compact_shapes(profile, shape, depth))
+    some = {name: values[sound] for name, values in shape.items()}
+    for rows in np.array_split(np.arange(len(sound)), len(sound) // _TOGETHER + 1):
+        own = {name: values[rows] for name, values in some.items()}
+        depth[sound[rows]] = largest_depth(grid.control, profile, own, normal[rows])
+    return depth

@@ -7,11 +7,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.parameters import DISPLACEMENTS, Control
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
-REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite")
+REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
+#: Those in which s is no finite number.
+WITHOUT_S = ("not_finite", "no_equilibrium")
 
 #: What points have unless it is given.
 _UNLESS_GIVEN = {
@@ -27,18 +31,21 @@ def _not_given() -> FloatArray:
 
 @dataclass(frozen=True)
 class Points:
-    """A batch of n parameter points that share one profile family (eq. 20).
+    """A batch of n parameter points that share one profile family and control (eq. 20).
 
     Attributes
     ----------
     profile
         Name of the profile, a key of `swtstudy.parameters.FAMILIES`.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
-        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad.
+        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad. The amplitudes are those of
+        forces where `control` says so.
     p, q
         Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
     shape
         Shape parameters κ_i of the profile, each of shape (n,).
+    control
+        What is prescribed.
     walker_exponent
         Shape (n,); 1/2 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
@@ -54,6 +61,7 @@ class Points:
     tangential_amplitude: FloatArray
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
+    control: Control = DISPLACEMENTS
     walker_exponent: FloatArray = field(default_factory=_not_given)
     bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
     bulk_stress_mean: FloatArray = field(default_factory=_not_given)
@@ -69,10 +77,10 @@ class Points:
 
     def take(self, index: NDArray[np.intp]) -> Points:
         """The points at ``index``, repetitions allowed."""
-        columns = dict(vars(self))
-        profile, shape = columns.pop("profile"), columns.pop("shape")
-        taken = {name: values[index] for name, values in columns.items()}
-        return Points(profile, **taken, shape={name: values[index] for name, values in shape.items()})
+        own = vars(self)
+        taken = {name: value[index] for name, value in own.items() if isinstance(value, np.ndarray)}
+        shape = {name: values[index] for name, values in self.shape.items()}
+        return Points(**{**own, **taken, "shape": shape})
 
 
 @dataclass(frozen=True)

@@ -8,18 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
 from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.indenter import make_profile, resolved_shape, roughness
+from swtstudy.mechanics.control.diagram import diagram, largest_depth
+from swtstudy.mechanics.indenter import resolved_shape, roughness
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.circle_gain import circle_gain
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.load.of_points import alike, largest_normal, largest_turn_count, shared_load
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
 from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
-from swtstudy.mechanics.stress.bulk import bulk_kind, bulk_of
-from swtstudy.mechanics.stress.scene import Scene, walker_exponents
+from swtstudy.mechanics.stress.bulk import bulk_kind
+from swtstudy.mechanics.stress.scene import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter. Half: 4 % slower, 60 MB less at
 #: 1,600 points; four times: 6 % faster, 80 MB more.
@@ -42,19 +44,19 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     Parameters
     ----------
     points
-        n points of one profile family.
+        n points of one profile family and control.
     rtol
         Relative accuracy asked for.
 
     Returns
     -------
     Solution
-        Arrays of shape (n,). The value of a point does not depend on the others.
+        Arrays of shape (n,), NaN where the body slides away. The value of a point does not depend on the
+        others.
     """
     n = len(points)
-    _, left_out = resolved_shape(points.profile, points.shape, largest_normal(points))
-    s, error, position, angle, surface = (np.zeros(n) for _ in range(5))
-    regime = np.zeros(n, dtype=np.int8)
+    s, error, position, angle, surface = (np.full(n, np.nan) for _ in range(5))
+    regime = np.full(n, REGIMES.index("no_equilibrium"), dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
     for index, scene in _scenes(points):
         lost = not_finite(scene)
@@ -63,7 +65,9 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         found = found.put(idle, Maximum.unknown(int(idle.sum()), 0.0))
         found = _or_far_field(scene, found)
         s[index] = found.swt
-        error[index] = np.maximum(found.error + left_out[index] * found.swt, LEAST_ERROR * found.swt)
+        shape = {name: values[index] for name, values in points.shape.items()}
+        _, left_out = resolved_shape(points.profile, shape, scene.profile.largest_depth)
+        error[index] = np.maximum(found.error + left_out * found.swt, LEAST_ERROR * found.swt)
         gain, _ = circle_gain(scene, found.position, found.double_angle)
         critical = found.swt > 0.0
         surface[index] = np.where(found.swt == 0.0, 0.0, found.swt * (1.0 + gain))
@@ -74,26 +78,49 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
-    """Indices of points that are solved together, and their scenes: each of one kind."""
-    largest = largest_normal(points)
-    kind = _kinds(points, roughness(points.profile, points.shape, largest))
+    """Indices of points that are solved together, and their scenes: each of one kind.
+
+    Points that are in no equilibrium are in none of them.
+    """
     for group in alike(points):
         turns = largest_turn_count(points.take(group))
         size = max(min(BATCH_SIZE // turns, BATCH_SQUARES // turns**2), 1)
         for sharing in _split(group, SHARING * size):
-            # One contact solution for all profiles.
             load, number = shared_load(points.take(sharing))
-            cycle = solve_cycle(load)
-            for same in np.unique(kind[sharing]):
-                for rows in _split(np.flatnonzero(kind[sharing] == same), size):
-                    some = points.take(sharing[rows])
-                    profile = make_profile(some.profile, some.shape, largest[sharing[rows]])
-                    coordinate = DepthCoordinate(profile)
-                    # Without tangential motion there is no traction, whatever the friction.
-                    friction = np.where(load.moves_tangentially[number[rows]], some.friction, 0.0)
-                    of_material = some.poisson_ratio, friction, walker_exponents(some)
-                    scene = Scene(cycle.take(number[rows]), coordinate, *of_material)
-                    yield sharing[rows], scene.carrying(bulk_of(some))
+            if not points.control.mixed:
+                carried = ~out_of_equilibrium(load, points.control)[number]
+                sharing, number = sharing[carried], number[carried]
+            some = points.take(sharing)
+            deepest = largest_depth(points.control, some.profile, some.shape, load.largest_normal[number])
+            kind = _kinds(some, roughness(some.profile, some.shape, deepest))
+            # One contact solution for all profiles.
+            cycle = None if points.control.mixed else solve_cycle(load)
+            for same in np.unique(kind):
+                for rows in _split(np.flatnonzero(kind == same), size):
+                    taken, scene = _scene(some.take(rows), load.take(number[rows]), cycle, number[rows])
+                    if taken.size:
+                        yield sharing[rows[taken]], scene
+
+
+def _scene(
+    points: Points, load: Load, shared: Cycle | None, number: NDArray[np.intp]
+) -> tuple[NDArray[np.intp], Scene]:
+    """The scene of those points that are in equilibrium, and which of the points these are.
+
+    With a ``shared`` contact solution all are, and the points' cycles are those of the given numbers in it.
+    """
+    in_diagram, coordinate = diagram(points.control, points.profile, points.shape, load)
+    every = np.arange(len(points))
+    # Without tangential motion there is no traction, whatever the friction.
+    friction = np.where(load.moves_tangentially, points.friction, 0.0)
+    if shared is not None:
+        scene = Scene(shared.take(number), coordinate, points.poisson_ratio, friction)
+        return every, scene.with_own(points)
+    carried = every[~out_of_equilibrium(in_diagram, points.control)]
+    own = points.poisson_ratio[carried], friction[carried]
+    # Loads out of equilibrium have a cycle too, of no meaning.
+    scene = Scene(solve_cycle(in_diagram).take(carried), coordinate.take(carried), *own)
+    return carried, scene.with_own(points.take(carried))
 
 
 def _kinds(points: Points, level: IntArray) -> IntArray:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mechanics.points import REGIMES, Solution
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import CONTROLS, PARAMETERS
 from swtstudy.records.records import STATES
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -90,17 +90,26 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Dimensions in the order of the grid's axes; single-valued parameters are scalar coordinates.
+        Dimensions in the order of the grid's axes; single-valued parameters are scalar coordinates, but for
+        optional ones at their default. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
         name: (name, _values(values), _attributes(name, values)) for name, values in grid.axes.items()
     }
     for name, value in grid.fixed.items():
-        coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
+        if not PARAMETERS[name].optional or value != PARAMETERS[name].default:
+            coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
+    coordinates["control"] = control_coordinate(grid)
     variables = {
         name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
     }
     return xr.Dataset(variables, coordinates)
+
+
+def control_coordinate(grid: Grid) -> xr.Variable:
+    """The scalar coordinate ``control``: what is prescribed on a grid."""
+    attributes = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
+    return xr.Variable((), grid.control.name, attributes)
 
 
 def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDArray]:

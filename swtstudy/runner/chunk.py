@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES, FloatArray, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined
 
@@ -108,7 +108,7 @@ def _checked(table: FloatArray, rtol: float, solver: Solver) -> Solution:
     from swtstudy.grid.canonical import points_from
 
     solution = solver(points_from(table), rtol)
-    lost = np.isnan(solution.s) & (np.asarray(solution.regime) != REGIMES.index("not_finite"))
+    lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")
     return solution

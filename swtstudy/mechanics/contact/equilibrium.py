@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import Load
+from swtstudy.parameters import Control
 
 #: Excess that is rounding, in the largest normal load: 2e-16 at most for 20,000 sines that just reach T = N.
 ROUNDING = 1e-12
 
 
-def out_of_equilibrium(load: Load, normal_force: bool, tangential_force: bool) -> NDArray[np.bool_]:
+def out_of_equilibrium(load: Load, control: Control) -> NDArray[np.bool_]:
     """Whether there is no state of equilibrium at some instant, so that there is no stationary cycle.
 
     A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.
@@ -20,7 +21,7 @@ def out_of_equilibrium(load: Load, normal_force: bool, tangential_force: bool) -
     ----------
     load
         n loads in the coordinate of the memory diagram.
-    normal_force, tangential_force
+    control
         What of them is prescribed as a force.
 
     Returns
@@ -28,8 +29,8 @@ def out_of_equilibrium(load: Load, normal_force: bool, tangential_force: bool) -
     Shape (n,).
     """
     least = -ROUNDING * load.largest_normal
-    lost = load.least_normal < least if normal_force else np.zeros(len(load), dtype=bool)
-    if tangential_force:
+    lost = load.least_normal < least if control.normal_force else np.zeros(len(load), dtype=bool)
+    if control.tangential_force:
         instants = load.turning_instants()
         # The normal force has none where the bodies are apart.
         normal, tangential = np.maximum(load.normal(instants), 0.0), np.abs(load.tangential(instants))

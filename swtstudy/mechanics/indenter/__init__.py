@@ -40,14 +40,16 @@ def resolved_shape(
     return PROFILES[name].resolved(largest_depth, **shape)
 
 
-def compact_shapes(profile: str, shape: dict[str, FloatArray], normal_amplitude: float) -> NDArray[np.bool_]:
-    """Whether `check_shape` has nothing against each of n shapes."""
-    return PROFILES[profile].compact(1.0 + normal_amplitude, **shape)
+def compact_shapes(
+    profile: str, shape: dict[str, FloatArray], largest_depth: FloatArray
+) -> NDArray[np.bool_]:
+    """Whether `check_shape` has nothing against each of n shapes up to a depth, each of shape (n,)."""
+    return PROFILES[profile].compact(largest_depth, **shape)
 
 
-def check_shape(profile: str, shape: dict[str, float], normal_amplitude: float) -> str | None:
-    """Why a profile cannot be used up to the depth 1 + ``normal_amplitude``, or None."""
-    return PROFILES[profile].check(1.0 + normal_amplitude, **shape)
+def check_shape(profile: str, shape: dict[str, float], largest_depth: float) -> str | None:
+    """Why a profile cannot be used up to a depth, or None."""
+    return PROFILES[profile].check(largest_depth, **shape)
 
 
 def too_small(profile: str, shape: dict[str, float], largest_depth: float) -> tuple[str, float] | None:

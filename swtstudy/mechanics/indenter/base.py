@@ -71,8 +71,8 @@ class Profile(ABC):
         return shape, np.zeros(len(largest_depth))
 
     @classmethod
-    def compact(cls, largest_depth: float, **shape: FloatArray) -> NDArray[np.bool_]:
-        """Whether the contact is a full disc up to ``largest_depth``, for shapes of shape (n,)."""
+    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
+        """Whether the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 
     @classmethod

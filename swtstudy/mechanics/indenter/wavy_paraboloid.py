@@ -76,7 +76,7 @@ class WavyParaboloid(Profile):
         )
 
     @classmethod
-    def compact(cls, largest_depth: float, **shape: FloatArray) -> NDArray[np.bool_]:
+    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
         h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
         return (h == 0.0) | (wavelength >= _smallest_wavelength(largest_depth, h, wavelength))
 
@@ -183,7 +183,9 @@ class WavyParaboloid(Profile):
         return TablePrimitives(self, position, nodes, nodes, largest)
 
 
-def _smallest_wavelength(largest_depth: float, h: FloatArray, wavelength: FloatArray) -> FloatArray:
+def _smallest_wavelength(
+    largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
+) -> FloatArray:
     """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
     with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
         phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi

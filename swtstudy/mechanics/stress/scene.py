@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
-from swtstudy.mechanics.control.prescribed import Prescribed
+from swtstudy.mechanics.control.coordinate import Coordinate
+from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.events.passages import split_at
-from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
@@ -21,6 +20,7 @@ from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
+from swtstudy.parameters import Control
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,12 @@ class Scene:
             self.bulk and self.bulk.take(index),
         )
 
+    def with_own(self, points: Points) -> Scene:
+        """The same with the criterion and the bulk stresses of its n points."""
+        γ = points.walker_exponent
+        own = replace(self, walker_exponent=None if (γ == SWT_EXPONENT).all() else γ)
+        return own.carrying(bulk_of(points))
+
     def carrying(self, bulk: BulkStress | None) -> Scene:
         """The same with bulk stresses."""
         if bulk is None or not bulk.moves.any():
@@ -97,21 +103,13 @@ class Scene:
 
 def scene_of(points: Points) -> Scene:
     """The scenes of points whose loads are alike, each with a contact solution of its own."""
-    load = load_of(points)
-    profile = make_profile(points.profile, points.shape, load.largest_normal)
-    of_material = points.poisson_ratio, points.friction, walker_exponents(points)
-    return Scene(solve_cycle(load), DepthCoordinate(profile), *of_material).carrying(bulk_of(points))
-
-
-def walker_exponents(points: Points) -> FloatArray | None:
-    """γ of a scene of points."""
-    γ = points.walker_exponent
-    return None if (γ == SWT_EXPONENT).all() else γ
+    own = points.poisson_ratio, points.friction, points.profile, points.shape
+    return prescribed_scene(load_of(points), points.control, *own).with_own(points)
 
 
 def prescribed_scene(
     load: Load,
-    prescribed: Prescribed,
+    control: Control,
     poisson_ratio: FloatArray,
     friction: FloatArray,
     profile: str = "paraboloid",
@@ -123,7 +121,7 @@ def prescribed_scene(
     ----------
     load
         n loads as they are prescribed.
-    prescribed
+    control
         What of them is a force.
     poisson_ratio, friction
         Shape (n,).
@@ -133,7 +131,7 @@ def prescribed_scene(
     Raises
     ------
     ValueError
-        See `Prescribed.diagram`.
+        See `swtstudy.mechanics.control.diagram.diagram`.
     """
-    in_diagram, coordinate = prescribed.diagram(profile, shape or {}, load)
+    in_diagram, coordinate = diagram(control, profile, shape or {}, load)
     return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)

@@ -1,0 +1,71 @@
+"""What is prescribed makes the memory diagram: the load in its coordinate, and that coordinate."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
+from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
+from swtstudy.mechanics.control.mapped import MappedLoad
+from swtstudy.mechanics.control.normal_map import DepthOfForce, ForceOfDepth, NormalMap
+from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.load.bimodal import BimodalLoad
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.polygon import PolygonLoad
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.parameters import Control
+
+
+def largest_depth(
+    control: Control, name: str, shape: dict[str, FloatArray], largest_normal: FloatArray
+) -> FloatArray:
+    """Largest indentation depth over δ0 at the largest normal load, as it is prescribed; shape (n,)."""
+    if not control.normal_force:
+        return largest_normal
+    return profile_up_to_force(name, shape, largest_normal)[0].largest_depth
+
+
+def diagram(control: Control, name: str, shape: dict[str, FloatArray], load: Load) -> tuple[Load, Coordinate]:
+    """The load in the coordinate of its memory diagram, and that coordinate.
+
+    The coordinate is that of the tangential load, into which the normal load is mapped where the two differ.
+
+    Parameters
+    ----------
+    control
+        What is prescribed.
+    name, shape
+        Family and shape parameters, each of shape (n,), of n profiles of one roughness.
+    load
+        n loads as they are prescribed.
+
+    Raises
+    ------
+    ValueError
+        If a polygon is prescribed by a force and a displacement and its normal load is not constant: its
+        sides are no straight lines of the diagram.
+    """
+    if control.normal_force:
+        profile, unit = profile_up_to_force(name, shape, load.largest_normal)
+    else:
+        profile = make_profile(name, shape, load.largest_normal)
+        unit = unit_half_load(name, shape, len(load)) if control.tangential_force else np.ones(0)
+    coordinate = ForceCoordinate(profile, unit) if control.tangential_force else DepthCoordinate(profile)
+    if not control.mixed:
+        return load, coordinate
+    force = ForceCoordinate(profile, unit)
+    return _mapped(load, DepthOfForce(force) if control.normal_force else ForceOfDepth(force)), coordinate
+
+
+def _mapped(load: Load, normal_map: NormalMap) -> Load:
+    """The load with its normal component mapped."""
+    if isinstance(load, BimodalLoad):
+        return MappedLoad(load, normal_map)
+    if not isinstance(load, PolygonLoad) or np.any(load.largest_normal != load.least_normal):
+        raise ValueError(
+            "a loop whose normal load is not constant needs two displacements or two forces: "
+            "with one of each its straight sides are curved in the memory diagram"
+        )
+    return replace(load, corner_normal=normal_map.value(load.corner_normal))

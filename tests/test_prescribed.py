@@ -1,0 +1,229 @@
+"""Forces instead of displacements, from the names of parameters to results."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+import stand_in
+from click.testing import CliRunner
+
+import swtstudy
+from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.merge import ConflictError, merge
+from swtstudy.cli import main
+from swtstudy.grid.canonical import COLUMNS, canonical_points, describe_point
+from swtstudy.grid.reading import read_grid
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.parameters import CONTROLS, Control
+
+FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
+SHAPES = {
+    "paraboloid": {},
+    "rounded_punch": {"flat_radius": 0.6},
+    "truncated_paraboloid": {"flat_radius": 0.5},
+    "wavy_paraboloid": {"waviness_amplitude": 0.03, "wavelength": 4.5},
+}
+
+
+def canonical(**parameters: object):
+    grid, mistakes = read_grid(parameters, {})
+    assert grid is not None, mistakes
+    return grid.canonical()
+
+
+@pytest.mark.parametrize("profile", SHAPES)
+def test_a_constant_normal_load_gives_the_same_s_for_a_force_and_its_displacement(profile: str) -> None:
+    """Cattaneo and Mindlin: Q_A/(μF_0) = 1 − N(c), g(c) = 1 − U, here with U from the closed form of N."""
+    from swtstudy.mechanics.control.force import unit_half_load
+    from swtstudy.mechanics.indenter import make_profile
+
+    own = {"profile": profile, **SHAPES[profile], "normal_amplitude": 0.0}
+    shape = {name: np.array([value]) for name, value in SHAPES[profile].items()}
+    one = make_profile(profile, shape, np.ones(1))
+    for u in (0.2, 0.6, 0.95):
+        stick = one.radius(np.array([[1.0 - u]]))
+        q = 1.0 - float(one.half_load(stick)[0, 0] / unit_half_load(profile, shape, 1)[0])
+        force = swtstudy.solve(**own, tangential_force_amplitude=q, rtol=1e-6)
+        displacement = swtstudy.solve(**own, tangential_amplitude=u, rtol=1e-6)
+        assert float(force.s) == pytest.approx(float(displacement.s), rel=2e-6)
+        assert abs(float(force.critical_x)) == pytest.approx(abs(float(displacement.critical_x)), rel=1e-5)
+    assert u != pytest.approx(q, rel=1e-3)
+
+
+def test_the_paraboloid_follows_the_closed_form_of_cattaneo_and_mindlin() -> None:
+    u = np.array([0.1, 0.5, 0.9])
+    q = 1.0 - (1.0 - u) ** 1.5
+    own = {"normal_amplitude": 0.0, "rtol": 1e-6}
+    forces = swtstudy.solve(tangential_force_amplitude=q, **own)
+    displacements = swtstudy.solve(tangential_amplitude=u, **own)
+    np.testing.assert_allclose(forces.s, displacements.s, rtol=2e-6)
+
+
+@pytest.mark.parametrize("control", [c for c in CONTROLS if c.mixed or c.normal_force])
+def test_what_is_given_says_what_is_prescribed(control: Control) -> None:
+    names = [control.given_for(name) for name in ("normal_amplitude", "tangential_amplitude")]
+    dataset = swtstudy.solve(**dict.fromkeys(names, 0.3), phase=[0.0, 1.0], rtol=1e-3)
+    assert dataset.control.item() == CONTROLS[control]
+    assert {*names} <= {*dataset.coords}
+    plain = swtstudy.solve(normal_amplitude=0.3, tangential_amplitude=0.3, phase=[0.0, 1.0], rtol=1e-3)
+    assert plain.control.item() == "displacements"
+    assert (np.abs(dataset.s / plain.s - 1.0) > 1e-2).all()
+    (row,), _ = canonical(**dict.fromkeys(names, 0.3))
+    assert all(f"{name}=0.3" in describe_point(row) for name in names)
+
+
+def test_a_component_that_stands_still_is_prescribed_as_the_other_one_is() -> None:
+    def rows(**parameters: object):
+        return canonical(**parameters)[0][0]
+
+    still = rows(normal_force_amplitude=0.0, tangential_amplitude=0.5)
+    np.testing.assert_array_equal(still, rows(normal_amplitude=0.0, tangential_amplitude=0.5))
+    still = rows(normal_amplitude=0.0, tangential_force_amplitude=0.5)
+    np.testing.assert_array_equal(still, rows(normal_force_amplitude=0.0, tangential_force_amplitude=0.5))
+    still = rows(normal_force_amplitude=0.5, tangential_amplitude=0.0)
+    np.testing.assert_array_equal(still, rows(normal_force_amplitude=0.5, tangential_force_amplitude=0.0))
+    still = rows(normal_amplitude=0.5, tangential_force_amplitude=0.0)
+    np.testing.assert_array_equal(still, rows(normal_amplitude=0.5, tangential_amplitude=0.0))
+    still = rows(normal_force_amplitude=0.0, tangential_force_amplitude=0.0)
+    np.testing.assert_array_equal(still, rows(normal_amplitude=0.0, tangential_amplitude=0.0))
+    four = [rows(**{n: 0.5, t: 0.5}) for n in ("normal_amplitude", "normal_force_amplitude")
+            for t in ("tangential_amplitude", "tangential_force_amplitude")]  # fmt: skip
+    assert len({tuple(row) for row in four}) == 4
+
+
+def test_without_equilibrium_there_is_no_s_but_a_regime() -> None:
+    limit = -0.6 * np.cos(1.0) + np.sqrt(1.0 - 0.36 * np.sin(1.0) ** 2)
+    dataset = swtstudy.solve(
+        normal_force_amplitude=0.6, tangential_force_amplitude=[0.999 * limit, 1.001 * limit], phase=1.0
+    )
+    names = [REGIMES[int(code)] for code in dataset.regime]
+    assert names == ["partial_slip", "no_equilibrium"]
+    assert np.isfinite(dataset.s.values).tolist() == [True, False]
+    for name in ("s_error", "s_surface", "critical_x", "critical_angle"):
+        assert np.isfinite(dataset[name].values).tolist() == [True, False]
+    pulled = swtstudy.solve(normal_force_amplitude=[0.999, 1.001], tangential_amplitude=0.3)
+    assert np.isfinite(pulled.s.values).tolist() == [True, False]
+    lifted = swtstudy.solve(normal_amplitude=[0.5, 1.1], tangential_force_amplitude=0.1)
+    assert np.isfinite(lifted.s.values).tolist() == [True, False]
+    # Table 1's numbers taken as forces.
+    table = swtstudy.solve(normal_force_amplitude=0.75, tangential_force_amplitude=5 / 6, phase=[0, 1, 2])
+    assert np.isnan(table.s).all()
+
+
+STUDY = """title = "Forces"
+rtol = 1e-3
+[fixed]
+normal_force_amplitude = {normal}
+[axes]
+tangential_force_amplitude = [0.1, 0.3, 0.9]
+phase = [0, 1]
+"""
+
+
+def test_a_run_keeps_what_has_no_equilibrium_and_says_what_is_prescribed(tmp_path) -> None:
+    path = tmp_path / "forces.nc"
+    dataset = run(Study.from_text(STUDY.format(normal=0.4)), path, workers=1)
+    assert (dataset.status == 0).all()
+    assert np.isnan(dataset.s).values.tolist() == [[False, False], [False, False], [True, True]]
+    found = open_results(path)
+    assert found.control.item() == "forces"
+    solved = swtstudy.solve(
+        normal_force_amplitude=0.4, tangential_force_amplitude=[0.1, 0.3, 0.9], phase=[0, 1], rtol=1e-3
+    )
+    np.testing.assert_array_equal(found.s, solved.s)
+
+    def fail(*_: object, **__: object) -> None:
+        raise AssertionError("computed again")
+
+    again = run(Study.from_text(STUDY.format(normal=0.4)), path, solver=fail, workers=1)
+    np.testing.assert_array_equal(again.s, found.s)
+    shown = CliRunner().invoke(main, ["info", str(path)]).output
+    assert re.search(r"prescribed +forces", shown)
+    assert "2 no_equilibrium" in shown
+    (tmp_path / "forces.toml").write_text(STUDY.format(normal=0.4))
+    planned = CliRunner().invoke(main, ["plan", str(tmp_path / "forces.toml")]).output
+    assert re.search(r"prescribed +forces", planned)
+
+
+def test_archives_that_prescribe_different_things_are_not_merged(tmp_path) -> None:
+    texts = STUDY.format(normal=0.4), STUDY.format(normal=0.4).replace("tangential_force", "tangential")
+    for number, text in enumerate(texts):
+        run(Study.from_text(text), tmp_path / f"{number}.nc", solver=stand_in.smooth, workers=1)
+    words = r"forces in .*0\.nc, normal_force\+tangential_displacement in .*1\.nc"
+    with pytest.raises(ConflictError, match=words):
+        merge([tmp_path / "0.nc", tmp_path / "1.nc"])
+
+
+def test_an_archive_whose_control_contradicts_its_parameters_is_refused(tmp_path) -> None:
+    from swtstudy.archive.error import ArchiveError
+    from swtstudy.archive.write import save
+
+    path = tmp_path / "forces.nc"
+    run(Study.from_text(STUDY.format(normal=0.4)), path, solver=stand_in.smooth, workers=1)
+    save(open_results(path).assign_coords(control="displacements"), path)
+    with pytest.raises(ArchiveError, match="control: found 'displacements'; allowed: 'forces'"):
+        open_results(path)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (
+            {"normal_force_amplitude": 0.1, "normal_amplitude": 0.2},
+            "normal_amplitude, normal_force_amplitude: found both; allowed: one of the two: it says what is "
+            "prescribed",
+        ),
+        ({"tangential_force_amplitude": -0.1}, r"tangential_force_amplitude: found -0.1 \(out of range\)"),
+        ({"normal_force_amplitude": "much"}, "normal_force_amplitude: found 'much'"),
+    ],
+)
+def test_one_message_for_each_mistake(given: dict[str, object], words: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        swtstudy.solve(**given)
+    assert len(caught.value.mistakes) == 1
+    assert re.match(words, str(caught.value))
+
+
+def test_waves_are_refused_at_the_depth_that_a_force_reaches() -> None:
+    """N grows faster than the depth: the force 1.4 is reached at the depth 1.25, the force 2 at 1.59."""
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 10.0, "wavelength": 3.49}
+    with pytest.raises(StudyError, match=r"wavelength 3\.49 is below .* up to the depth 1.4 δ0"):
+        swtstudy.solve(**waves, normal_amplitude=0.4)
+    assert read_grid({**waves, "normal_force_amplitude": 0.4}, {})[1] == []
+    with pytest.raises(StudyError, match=r"wavelength 3\.49 is below .* up to the depth 1.58618 δ0"):
+        swtstudy.solve(**waves, normal_force_amplitude=1.0)
+
+
+def test_a_real_contact_takes_forces() -> None:
+    bodies = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
+    contact = swtstudy.physical(
+        **bodies, normal_force=200.0, normal_force_amplitude=80.0, tangential_force_amplitude=30.0
+    )
+    own = contact.parameters()
+    assert own["normal_force_amplitude"] == pytest.approx(0.4)
+    assert own["tangential_force_amplitude"] == pytest.approx(0.3)
+    assert not {"normal_amplitude", "tangential_amplitude"} & {*own}
+    s = swtstudy.solve(**FORCES, poisson_ratio=0.33, friction=0.5).s
+    np.testing.assert_allclose(contact.solve().s, s, rtol=1e-6)
+    other = contact.with_parameters(tangential_amplitude=0.5)
+    assert other.tangential_force_amplitude is None
+    assert other.tangential_amplitude == pytest.approx(0.5 * contact.slip_scale)
+    assert contact.with_parameters(normal_force_amplitude=0.1).normal_force_amplitude == pytest.approx(20.0)
+    for wrong, words in (
+        ({"normal_amplitude": 0.001}, "normal_amplitude, normal_force_amplitude: found both"),
+        ({"tangential_force_amplitude": -1.0}, "tangential_force_amplitude: found -1.0; allowed: a force"),
+    ):
+        given = {"normal_force_amplitude": 80.0, "tangential_force_amplitude": 30.0, **wrong}
+        with pytest.raises(StudyError, match=words):
+            swtstudy.physical(**bodies, normal_force=200.0, **given)
+
+
+def test_rounding_does_not_make_two_points_of_one() -> None:
+    table, _ = canonical_points(
+        {**dict.fromkeys(COLUMNS, 0.0),
+         **{n: 0.5 for n in ("normal_amplitude", "tangential_amplitude", "friction", "poisson_ratio")},
+         "control": 3.0, "p": 1.0, "q": 1.0, "phase": np.array([0.25, 0.25 + np.pi, 0.25 - np.pi])}
+    )  # fmt: skip
+    assert (table == table[0]).all()
