@@ -24,6 +24,8 @@ from swtstudy.mechanics.stress.history import History
 #: Rounding of a coordinate, over the largest one: 1.3e-15 there and back on a rounded punch, 4e-16 on a wavy
 #: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart.
 COORDINATE, INSTANT = 2e-15, 1e-15
+#: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
+OUTSIDE = 1.1
 
 
 def arrival(
@@ -71,16 +73,23 @@ class SurfaceLine:
     ) -> None:
         self.cycle, self.coordinate, self.position, self.bulk = cycle, coordinate, position, bulk
         self.primitives = coordinate.profile.primitives(position, digits)
-        at = coordinate.of(position)
+        #: r, or a radius outside of the contact that no edge reaches either.
+        self.touched = position if bulk is None else self._near_contact()
+        at = coordinate.of(self.touched)
         #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
         self.edge_at_r, self.front_at_r = (
             tuple(coordinate.radius(v)[:, :, None] for v in (at - distance, at + distance))
-            for distance in arrival(cycle.load, coordinate, position, at)
+            for distance in arrival(cycle.load, coordinate, self.touched, at)
         )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
+
+    def _near_contact(self) -> FloatArray:
+        """The positions, those far outside of the largest contact nearer to it: a profile ends there."""
+        largest = self.coordinate.radius(self.cycle.load.largest_normal[:, None])
+        return np.minimum(self.position, OUTSIDE * largest)
 
     def _base(self) -> FloatArray:
         """Integrals over all pieces inside of each distinct piece, and slope · A at its start."""
@@ -140,7 +149,7 @@ class SurfaceLine:
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
         load = nodes.spread(profile.half_load(edge_radius))
-        inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
+        inside = np.minimum(load, profile.half_load(self.touched)[:, :, None])
         blocks = outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential
         history = History(*blocks)
         return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
