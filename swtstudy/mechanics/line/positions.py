@@ -89,10 +89,13 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     approach = profile.singular_approach
     face = profile.flat_radius[:, None]
     if everywhere:
+        least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
+        # Next to the contact the stress outside changes over the way that the edge goes.
+        beyond = largest + np.append(largest - least, largest * (BEYOND - 1.0), axis=1)
         if approach.shape[1]:
             face = BESIDE_FACE * face
             radius = np.where(radius <= profile.flat_radius[:, None], face, radius)
-        ends = np.concatenate([0.0 * face, face, radius, approach, largest * BEYOND], axis=1)
+        ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
         return np.sort(np.maximum(ends, INNERMOST_OF_LOST * largest), axis=1)
     least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None]) - face
     share = np.clip(0.5 * least / (largest - face), INNERMOST_OF_LOST, INNERMOST)
@@ -207,7 +210,7 @@ def positions_of_first_look(cycle: Cycle, coordinate: Coordinate, everywhere: bo
     low, high = ends[:, :1], ends[:, -1:]
     if everywhere:
         low = np.maximum(low, coordinate.profile.flat_radius[:, None])
-        high = ends[:, -1 - BEYOND.size, None]
+        high = ends[:, -2 - BEYOND.size, None]
     waves = (high - low)[:, 0] / coordinate.profile.feature_length
     normal, tangential = cycle.load.oscillations
     oscillations = max(tangential / normal - 1.0, 0.0)
