@@ -148,7 +148,8 @@ def test_a_maximum_outside_of_the_contact_is_found() -> None:
     outside = abs(found.critical_x[0]) / np.sqrt(1.3087)
     assert 1.005 < outside < 1.02
     dense = textbook_s(point, **{**ALIGNED, "positions": 200})
-    assert dense.s == pytest.approx(found.s[0], rel=2e-3)
+    # The maximum is narrow, and the positions are 2 % apart.
+    assert 1.0 - 1e-2 < dense.s / found.s[0] < 1.0 + 1e-3
     assert dense.critical_x == pytest.approx(found.critical_x[0], rel=2e-2)
 
 
