@@ -71,7 +71,7 @@ def test_what_is_given_says_what_is_prescribed(control: Control) -> None:
     assert plain.control.item() == "displacements"
     assert (np.abs(dataset.s / plain.s - 1.0) > 1e-2).all()
     (row,), _ = canonical(**dict.fromkeys(names, 0.3))
-    assert all(f"{name}=0.3" in describe_point(row) for name in names)
+    assert all(f"{name}=0.3" in describe_point(row, {}) for name in names)
 
 
 def test_a_component_that_stands_still_is_prescribed_as_the_other_one_is() -> None:

@@ -37,6 +37,7 @@ def test_defaults_are_table_1():
         "bulk_stress_phase": 0.0,
         "walker_exponent": 0.5,
         "profile": "paraboloid",
+        "load": "harmonic",
     }
     assert study.grid.axes == {}
     assert study.grid.size == 1

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, extreme_instants
-from swtstudy.mechanics.line.value import of_extremes, on_plane
+from swtstudy.mechanics.line.samples import of_extremes, on_plane
 from swtstudy.mechanics.planes.ascent import climb, normal_weights
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.hooke import strain_history

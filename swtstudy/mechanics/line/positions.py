@@ -92,11 +92,14 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
         least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
         # Next to the contact the stress outside changes over the way that the edge goes.
         beyond = largest + np.append(largest - least, largest * (BEYOND - 1.0), axis=1)
+        innermost = INNERMOST_OF_LOST * largest
         if approach.shape[1]:
+            nearest = approach.min(axis=1, keepdims=True)
+            innermost = np.where(nearest > 0.0, np.minimum(nearest, innermost), innermost)
+            radius = np.where(radius <= face, BESIDE_FACE * face, radius)
             face = BESIDE_FACE * face
-            radius = np.where(radius <= profile.flat_radius[:, None], face, radius)
         ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
-        return np.sort(np.maximum(ends, INNERMOST_OF_LOST * largest), axis=1)
+        return np.sort(np.maximum(ends, innermost), axis=1)
     least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None]) - face
     share = np.clip(0.5 * least / (largest - face), INNERMOST_OF_LOST, INNERMOST)
     innermost = face + share * (largest - face)
@@ -175,7 +178,8 @@ class _StretchesOfRange:
         steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
         if within:
             steps[(low >= last) | (high <= first)] = OUTSIDE_STEPS
-        real = length > NO_LENGTH * total
+        # Next to a sharp tip stretches are short, but not as they lie there.
+        real = length > np.minimum(NO_LENGTH * total, 0.5 * high)
         outermost = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
         # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
         high[np.arange(len(ends)), outermost] = ends[:, -1]

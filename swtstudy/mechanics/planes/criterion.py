@@ -40,7 +40,7 @@ class Walker:
         """One criterion at ``count`` places; None for γ = 1/2."""
         return None if exponent == SWT_EXPONENT else cls(np.full(count, exponent), np.full(count, modulus))
 
-    def take(self, *index: NDArray[np.intp] | int) -> Walker:
+    def take(self, *index: NDArray[np.intp] | slice | int) -> Walker:
         """The criterion at the places at ``index``."""
         return Walker(self.exponent[index], self.modulus[index])
 
