@@ -334,3 +334,27 @@ def test_one_body_of_a_real_contact_carries_it() -> None:
         with pytest.raises(swtstudy.StudyError, match=words):
             swtstudy.physical(**{**given, **wrong})
     assert swtstudy.physical(**given, bulk_stress_mean=-3.0).bulk_stress_mean == -3.0
+
+
+def test_the_shift_of_the_stick_zone() -> None:
+    """At δA = 0: a = 1, p0 = 2/π, c = √(1 − U), and e/a = 4 σ_B/[π (1 + ν)(4 − 3ν) μ p0] up to a − c."""
+    amplitude = np.array([0.0, 0.01, 0.1, 0.4])
+    found = swtstudy.solve(normal_amplitude=0.0, bulk_stress_amplitude=amplitude, tangential_amplitude=0.75)
+    shift = 4.0 * amplitude / (np.pi * 1.3 * 3.1 * 0.3 * (2.0 / np.pi))
+    expected = np.where(shift <= 1.0 - np.sqrt(0.25), shift, np.nan)
+    assert np.isnan(expected[-1])
+    np.testing.assert_allclose(found.bulk_shift, expected, rtol=1e-12)
+    own: dict[str, Any] = {"bulk_stress_amplitude": 0.01, "normal_amplitude": 0.2}
+    for other in (
+        {"friction": 0.0},
+        {"tangential_amplitude": 3.0},  # gross slip
+        {"normal_amplitude": 1.5},  # contact is lost
+        {"profile": "rounded_punch", "flat_radius": 0.5},
+        {"tangential_amplitude": 0.0, "normal_amplitude": 0.0},  # nothing slips
+    ):
+        assert np.isnan(swtstudy.solve(**{**own, **other}).bulk_shift)
+    assert "bulk_shift" not in swtstudy.solve(bulk_stress_mean=0.1)
+    forces = swtstudy.solve(
+        bulk_stress_amplitude=0.01, normal_force_amplitude=0.0, tangential_force_amplitude=0.5
+    )
+    assert float(forces.bulk_shift) == pytest.approx(0.02 / (0.3 * 1.3 * 3.1))

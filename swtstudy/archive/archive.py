@@ -15,6 +15,7 @@ from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.quantities import variables_of
+from swtstudy.records.bulk_shift import shifts
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -56,6 +57,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= {name: records.quantity(name)[points.index] for name in variables_of(study.quantities)}
+    arrays |= shifts(points)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
