@@ -358,3 +358,19 @@ def test_the_shift_of_the_stick_zone() -> None:
         bulk_stress_amplitude=0.01, normal_force_amplitude=0.0, tangential_force_amplitude=0.5
     )
     assert float(forces.bulk_shift) == pytest.approx(0.02 / (0.3 * 1.3 * 3.1))
+
+
+@pytest.mark.parametrize("exponent", [0.5, 0.35])
+def test_means_over_a_distance_know_it(exponent: float) -> None:
+    """Without friction at rest: the pressure's static field and the bulk stress, by quadrature over the depth."""
+    own: dict[str, Any] = {
+        "friction": 0.0, "normal_amplitude": 0.0, "poisson_ratio": 0.3, "walker_exponent": exponent,
+        "bulk_stress_amplitude": 0.1, "bulk_stress_mean": 0.2,
+    }  # fmt: skip
+    distance = 0.2
+    found = swtstudy.solve(critical_distance=distance, **own)
+    x = float(found.critical_x)
+    depth = np.linspace(0.0, 2.0 * distance, 401)
+    field = swtstudy.swt_field(np.array([x]), 0.0, depth, **own).s_local.values.ravel()
+    mean = float(np.trapezoid(field, depth) / (2.0 * distance))
+    assert float(found.s_line.sel(direction="depth").squeeze()) == pytest.approx(mean, rel=3e-3)

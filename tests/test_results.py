@@ -58,6 +58,7 @@ def test_what_a_reader_is_told_of_each_variable():
         "s": "1",
         "s_error": "1",
         "s_surface": "1",
+        "bulk_shift": "1",
         "critical_x": "1",
         "critical_angle": "degree",
         "regime": None,

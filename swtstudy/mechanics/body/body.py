@@ -12,7 +12,7 @@ from swtstudy.mechanics.events.stretches import stretches
 from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
 from swtstudy.mechanics.planes.ascent import normal_weights
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, curves
+from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import contact_states
@@ -91,8 +91,7 @@ class Body:
     @property
     def walker_exponent(self) -> float:
         """γ of the criterion."""
-        γ = self.scene.walker_exponent
-        return SWT_EXPONENT if γ is None else float(γ[0])
+        return self.scene.one_walker_exponent
 
 
 def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:

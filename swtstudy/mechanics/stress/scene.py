@@ -88,6 +88,11 @@ class Scene:
         """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
         return replace(self.take(index), cycle=self.cycle.select(index, keep))
 
+    @property
+    def one_walker_exponent(self) -> float:
+        """γ of a batch of one point."""
+        return SWT_EXPONENT if self.walker_exponent is None else float(self.walker_exponent[0])
+
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
