@@ -362,7 +362,7 @@ def test_the_shift_of_the_stick_zone() -> None:
 
 @pytest.mark.parametrize("exponent", [0.5, 0.35])
 def test_means_over_a_distance_know_it(exponent: float) -> None:
-    """Without friction at rest: the pressure's static field and the bulk stress, by quadrature over the depth."""
+    """Without friction at rest: a static field and the bulk stress, by quadrature over the depth."""
     own: dict[str, Any] = {
         "friction": 0.0, "normal_amplitude": 0.0, "poisson_ratio": 0.3, "walker_exponent": exponent,
         "bulk_stress_amplitude": 0.1, "bulk_stress_mean": 0.2,
@@ -374,3 +374,23 @@ def test_means_over_a_distance_know_it(exponent: float) -> None:
     field = swtstudy.swt_field(np.array([x]), 0.0, depth, **own).s_local.values.ravel()
     mean = float(np.trapezoid(field, depth) / (2.0 * distance))
     assert float(found.s_line.sel(direction="depth").squeeze()) == pytest.approx(mean, rel=3e-3)
+
+
+def test_it_has_its_own_curve_in_the_cycle() -> None:
+    own: dict[str, Any] = {"bulk_stress_amplitude": 0.1, "bulk_stress_mean": 0.05, "bulk_stress_phase": 2.0}
+    point = swtstudy.inspect_point(**PARAMETERS, **own)
+    time = point.time.values
+    np.testing.assert_allclose(point.bulk_stress, 0.05 + 0.1 * np.sin(1.5 * time + 2.0), atol=1e-12)
+    assert "bulk_stress" not in swtstudy.inspect_point(**PARAMETERS)
+    figure = swtstudy.inspect(**PARAMETERS, **own)
+    curves = [line for line in figure.axes[4].lines if line.get_label() == r"$\sigma_B$"]
+    assert len(curves) == 1
+    np.testing.assert_array_equal(curves[0].get_ydata(), point.bulk_stress)
+
+
+def test_a_loop_has_no_frequency_for_it() -> None:
+    loop = swtstudy.LoadPath("square", [[0, 0.5], [0.5, 0.5], [0.5, -0.5], [0, -0.5]])
+    with pytest.raises(swtstudy.StudyError, match=r"bulk_stress_amplitude: found 0\.1 with a loop"):
+        swtstudy.solve(load=loop, bulk_stress_amplitude=0.1)
+    raised = swtstudy.solve(load=loop, bulk_stress_mean=[0.0, 0.05]).s
+    assert float(raised[1]) > 1.1 * float(raised[0])
