@@ -36,13 +36,13 @@ class Parameter:
     kind
         "number", "ratio" (a rational number p/q), or "name": built in, or of what the user has defined.
     part
-        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of), or
-        "quantity" (of what is computed beside s).
+        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
+        "bulk" (the bulk stress of one body), "criterion", or "quantity" (of what is computed beside s).
     units
         CF units: "1", or "rad" for the phase.
     scale
-        What it is measured in where it is a length or a force, a key of `swtstudy.contacts.scales.SCALES`;
-        else empty.
+        What it is measured in where it is a length, a force or a stress, a key of
+        `swtstudy.contacts.scales.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
     optional
@@ -194,6 +194,54 @@ PARAMETERS: dict[str, Parameter] = {
         ),
         Parameter(
             "exponent", "n", "n", "exponent of the power law", None, 1.0, 20.0, open_lower=True, part="shape"
+        ),
+        Parameter(
+            "bulk_stress_amplitude",
+            r"\sigma_{B,A}/(E^* \delta_0/a_H)",
+            "BA",
+            "amplitude of the bulk stress, with the tangential frequency",
+            0.0,
+            0.0,
+            10.0,
+            part="bulk",
+            optional=True,
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_mean",
+            r"\sigma_{B,m}/(E^* \delta_0/a_H)",
+            "Bm",
+            "mean of the bulk stress",
+            0.0,
+            -10.0,
+            10.0,
+            part="bulk",
+            optional=True,
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_phase",
+            r"\psi_B",
+            "ψB",
+            "phase of the bulk stress against the tangential oscillation",
+            0.0,
+            -1000.0,
+            1000.0,
+            part="bulk",
+            optional=True,
+            units="rad",
+        ),
+        Parameter(
+            "walker_exponent",
+            r"\gamma",
+            "γ",
+            "Walker exponent",
+            0.5,
+            0.0,
+            0.9,
+            open_lower=True,
+            part="criterion",
+            optional=True,
         ),
     )
 }

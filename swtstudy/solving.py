@@ -44,7 +44,10 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         the surface line is not enough). Sequences become dimensions, in the order given, and single values
         scalar coordinates; the attributes state the version and rtol. The quantities that are asked are
         further data variables.
-        Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN.
+        Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN. Nor is
+        there where s is that of the bulk stress alone, far from the contact: critical_x is NaN. With a
+        bulk_stress_amplitude there is bulk_shift, too: by how much, in a_H, the bulk strain would move the
+        stick zone, which s leaves out.
 
     Raises
     ------
@@ -90,6 +93,7 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
     from swtstudy.mechanics.quantities import quantities_of
+    from swtstudy.records.bulk_shift import shifts
     from swtstudy.records.labelled import arrays_of, label
     from swtstudy.records.solutions import joined, solution_at
 
@@ -97,7 +101,7 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     batches = [points_from(block, unique.definitions) for block in blocks]
     solution = joined([solve_points(batch, rtol) for batch in batches])
-    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
+    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored) | shifts(unique)
     columns: dict[str, NDArray] = {}
     if asked.items:
         starts = np.cumsum([0, *map(len, blocks)]).tolist()

@@ -49,7 +49,8 @@ def test_the_columns_are_the_rows_of_the_table_of_parameters():
     assert LOAD_COLUMNS == ("control", "load", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
     shapes = ("flat_radius", "waviness_amplitude", "wavelength", "exponent")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
-    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio") == COLUMNS
+    extra = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase", "walker_exponent")
+    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS
     assert {*COLUMNS} - {"control", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
     assert describe_point(table[0], {}) == (

@@ -115,7 +115,7 @@ def test_s_is_continuous_in_every_parameter(point: Points) -> None:
 @few
 @given(st.lists(single_points(("paraboloid",)), min_size=2, max_size=5))
 def test_chunks_do_not_matter(singles: list[Points]) -> None:
-    names = ["poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase", "p", "q"]
+    names = [name for name, values in vars(singles[0]).items() if isinstance(values, np.ndarray)]
     batch = replace(
         singles[0],
         **{name: np.concatenate([getattr(single, name) for single in singles]) for name in names},

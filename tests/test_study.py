@@ -32,6 +32,10 @@ def test_defaults_are_table_1():
         "frequency_ratio": Fraction(1),
         "tangential_amplitude": 5 / 6,
         "phase": 0.0,
+        "bulk_stress_amplitude": 0.0,
+        "bulk_stress_mean": 0.0,
+        "bulk_stress_phase": 0.0,
+        "walker_exponent": 0.5,
         "profile": "paraboloid",
         "load": "harmonic",
     }

@@ -15,6 +15,7 @@ from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.quantities import columns_of
+from swtstudy.records.bulk_shift import shifts
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -55,6 +56,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
+    arrays |= shifts(points)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     columns = {name: records.quantity(name)[points.index] for name in columns_of(study.asked.items)}
     dataset = label(study.grid, arrays, study.asked, columns)

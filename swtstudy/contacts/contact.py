@@ -49,7 +49,7 @@ class PhysicalContact:
         R; of a power law f = rⁿ/(n Rⁿ⁻¹).
     depth
         Mean indentation depth δ0.
-    friction, frequency_ratio, phase, profile, load
+    friction, frequency_ratio, phase, profile, load, walker_exponent, bulk_stress_phase
         As in `swtstudy.parameters.PARAMETERS`.
     normal_amplitude, tangential_amplitude
         δA and uA, lengths; None where a force is prescribed.
@@ -57,6 +57,10 @@ class PhysicalContact:
         What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths, and exponent n.
     normal_force_amplitude, tangential_force_amplitude
         FA and QA, forces; None where a displacement is prescribed.
+    bulk_stress_amplitude, bulk_stress_mean
+        Stresses.
+    bulk_stress_body
+        0 or 1: the body that carries them.
     """
 
     moduli: Moduli
@@ -72,6 +76,11 @@ class PhysicalContact:
     normal_force_amplitude: float | None = None
     tangential_force_amplitude: float | None = None
     load: str | Named = HARMONIC
+    walker_exponent: float = 0.5
+    bulk_stress_amplitude: float = 0.0
+    bulk_stress_mean: float = 0.0
+    bulk_stress_phase: float = 0.0
+    bulk_stress_body: int = 0
 
     @property
     def length_scale(self) -> float:
@@ -142,10 +151,12 @@ class PhysicalContact:
         Parameters
         ----------
         body
-            0 or 1. The bodies share all parameters but the Poisson ratio: the tractions do not depend on it,
-            and the stress beneath them on that of the body itself alone.
+            0 or 1. The bodies share all parameters but the Poisson ratio and the bulk stress: the tractions
+            do not depend on these, and the stress beneath them on those of the body itself alone.
         """
         own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
+        if body != self.bulk_stress_body:
+            own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
         return {n: number_of(n, own[n], self) for n in PARAMETERS if own.get(n) is not None}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
@@ -160,7 +171,8 @@ class PhysicalContact:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         profile = parameters.get("profile", self.profile)
         kept = family_of(profile).shape if is_profile(profile) else ()
-        own = {n: v for n, v in self.parameters().items() if n not in self.shape or n in kept}
+        every = self.parameters(self.bulk_stress_body)
+        own = {n: v for n, v in every.items() if n not in self.shape or n in kept}
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
         own = {name: value for name, value in own.items() if name not in replaced}
         grid, mistakes = read_grid({**own, **parameters}, {})
@@ -215,6 +227,7 @@ class PhysicalContact:
         from swtstudy.solving import solve
 
         bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
+        bodies = [_completed(bodies[0], bodies[1]), _completed(bodies[1], bodies[0])]
         dataset = xr.concat(
             bodies, xr.DataArray(list(LABELS), dims="body", name="body"), coords="different", compat="equals"
         )
@@ -262,3 +275,12 @@ class PhysicalContact:
             A ValueError, as of `swt`, or if the constants are none.
         """
         return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
+
+
+def _completed(own: xr.Dataset, other: xr.Dataset) -> xr.Dataset:
+    """Single values with those that only the other body has: parameters at their default, or none."""
+    for name in sorted({*map(str, other.variables)} - {*map(str, own.variables)}):
+        fill = PARAMETERS[name].default if name in PARAMETERS else np.nan
+        values = other[name].variable.copy(data=np.asarray(fill))
+        own = own.assign_coords({name: values}) if name in other.coords else own.assign({name: values})
+    return own

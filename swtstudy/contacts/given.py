@@ -11,7 +11,7 @@ from swtstudy.contacts.scales import SCALES, may_vanish
 from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
 from swtstudy.parameters import PARAMETERS, SYMBOLS, families_with, family_of, spelled
 from swtstudy.units.moduli import Moduli
-from swtstudy.units.sizes import wrong_size
+from swtstudy.units.sizes import LARGEST, wrong_size
 
 #: Dundurs' |β| up to which the bodies count as similar.
 SIMILAR = 0.05
@@ -99,7 +99,26 @@ def wrong_sizes(sizes: Mapping[str, object], profile: str | None) -> list[Mistak
         kind = "length" if row is None else SCALES[row.scale].kind if row.scale else "number"
         allowed = f"a {kind} ≥ 0" if zero else f"a positive {kind}"
         allowed += " (this profile needs it)" * (name in needed)
-        mistakes += wrong_size(name, value, allowed, zero=zero)
+        either = row is not None and row.lower < 0.0
+        if either and plain_number(value) < 0.0:
+            mistakes += wrong_size(name, value, f"a {kind}", sign=-1.0)
+        else:
+            mistakes += wrong_size(name, value, f"a {kind}" if either else allowed, zero=zero)
+    return mistakes
+
+
+def wrong_bulk(ratio: object, parameters: Mapping[str, object], body: object) -> list[Mistake]:
+    """A stress ratio of a bulk stress that is none, or given beside the mean, and no body that carries it."""
+    mistakes = []
+    if ratio is not None:
+        if "bulk_stress_mean" in parameters:
+            found = "both"
+            mistakes.append(Mistake("bulk_stress_mean, bulk_stress_ratio", found, "one of the two"))
+        if not -LARGEST < plain_number(ratio) < 1.0:
+            allowed = "a number below 1: the least over the largest stress"
+            mistakes.append(Mistake("bulk_stress_ratio", literal(ratio), allowed))
+    if plain_number(body) not in (0.0, 1.0):
+        mistakes.append(Mistake("bulk_stress_body", literal(body), "0 or 1, the body that carries it"))
     return mistakes
 
 

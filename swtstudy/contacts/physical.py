@@ -15,6 +15,7 @@ from swtstudy.contacts.given import (
     pair_of_numbers,
     with_unknown,
     wrong_bodies,
+    wrong_bulk,
     wrong_load,
     wrong_sizes,
 )
@@ -44,6 +45,8 @@ def physical(
     depth: float | None = None,
     normal_force: float | None = None,
     similar: float = SIMILAR,
+    bulk_stress_ratio: float | None = None,
+    bulk_stress_body: int = 0,
     **parameters: object,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
@@ -59,13 +62,18 @@ def physical(
         One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar (eq. 1).
+    bulk_stress_ratio
+        Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
+    bulk_stress_body
+        0 or 1: the body that carries the bulk stress; the other one has none.
     **parameters
         The other names of `swtstudy.parameters.PARAMETERS`, single values. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
-        waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio, phase, profile and
-        exponent are as for `swtstudy.solve`.
+        waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
+        bulk_stress_mean are stresses, 0 unless given. Angles, numbers, frequency_ratio, profile and exponent
+        are as for `swtstudy.solve`.
 
     Returns
     -------
@@ -96,10 +104,14 @@ def physical(
     needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None and name in given)]
     lacking = [name for name in needed if given[name] is None]
     unknown = [name for name in parameters if name not in given]
-    mistakes = with_unknown(unknown, [*given, *PAIRS], lacking, _mistakes(given))
+    mistakes = [*_mistakes(given), *wrong_bulk(bulk_stress_ratio, parameters, bulk_stress_body)]
+    mistakes = with_unknown(unknown, [*given, *PAIRS], lacking, mistakes)
     if mistakes:
         raise StudyError(mistakes)
-    contact = _contact(given)
+    if bulk_stress_ratio is not None:
+        ratio, amplitude = plain_number(bulk_stress_ratio), plain_number(given["bulk_stress_amplitude"])
+        given["bulk_stress_mean"] = amplitude * (1.0 + ratio) / (1.0 - ratio)
+    contact = replace(_contact(given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
     _, mistakes = read_grid(contact.parameters(), {})

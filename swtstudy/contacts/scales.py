@@ -1,4 +1,4 @@
-"""What lengths and forces of a real contact are measured in, and the way from numbers to them and back."""
+"""What lengths, forces and stresses of a real contact are measured in, and the way there and back."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Scale:
-    """One length or force that others are measured in.
+    """One length, force or stress that others are measured in.
 
     Attributes
     ----------
@@ -26,7 +26,7 @@ class Scale:
     made_of
         The parameter whose length it is made of, if it is that of one.
     kind
-        "length" or "force".
+        "length", "force" or "stress".
     """
 
     of: Callable[[PhysicalContact], float]
@@ -40,6 +40,7 @@ SCALES: dict[str, Scale] = {
     "a_H": Scale(lambda contact: contact.length_scale, 0.5),
     "δ0": Scale(lambda contact: contact.depth, 1.0),
     "μ E* δ0/G*": Scale(lambda contact: contact.slip_scale, 1.0),
+    "E* δ0/a_H": Scale(lambda contact: contact.stress_scale, 0.5, kind="stress"),
     "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
     "μ F0": Scale(lambda contact: contact.friction * contact.normal_force, None, kind="force"),
     "√(hR)": Scale(

@@ -9,11 +9,15 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.planes import all_planes
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.numbers import read_numbers
+from swtstudy.parameters import PARAMETERS
 
 
-def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
+def swt_of_history(
+    stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0, walker_exponent: float = SWT_EXPONENT
+) -> CriticalPlane:
     """Largest Smith–Watson–Topper parameter over all planes (eq. 9).
 
     Parameters
@@ -23,6 +27,8 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
     poisson_ratio, young_modulus
         ν and E of Hooke's law. In this package's units (stress in E* √(δ0/R), s = swt/(E* δ0/R)) the half-
         space has E = 1 − ν².
+    walker_exponent
+        γ in (0, 0.9] of σ_n^(2 − 2γ) (E ε_n)^(2γ)/E, of largest σ_n and amplitude of ε_n; 1/2 is swt.
 
     Returns
     -------
@@ -61,6 +67,11 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
         mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
     if not 0.0 < plain_number(young_modulus) < math.inf:
         mistakes.append(Mistake("young_modulus", literal(young_modulus), "a positive number"))
+    row = PARAMETERS["walker_exponent"]
+    if not row.lower < plain_number(walker_exponent) <= row.upper:
+        mistakes.append(Mistake(row.name, literal(walker_exponent), row.allowed))
     if mistakes:
         raise StudyError(mistakes)
-    return all_planes.swt_of_history(history, plain_number(poisson_ratio), plain_number(young_modulus))
+    return all_planes.swt_of_history(
+        history, *map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
+    )

@@ -51,7 +51,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         What `swtstudy.solve` gives, and
 
         - over time (ω1 t): depth δ/δ0, displacement G*u/(μE*δ0), contact_radius, slip_radius; normal_stress
-          and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there;
+          and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there; with a
+          bulk stress bulk_stress, its part of sigma_xx;
         - over time and r: state (open, stick, forward or backward slip);
         - over x: s_local, that is swt on the surface line;
         - at a few marked instants, with their instant_time and reason: pressure p and traction q over x;
@@ -162,7 +163,7 @@ def _load(scene: Scene, nodes: TimeNodes) -> Variables:
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
     index = np.broadcast_to(np.arange(nodes.instant.size), (1, radius.size, nodes.instant.size))
-    surface = SurfaceLine(scene.cycle, scene.coordinate, radius[None], _RESOLUTION.digits)
+    surface = SurfaceLine(scene.cycle, scene.coordinate, radius[None], _RESOLUTION.digits, scene.bulk)
     return surface.history(Nodes(nodes.interval[None], nodes.instant[None], index))
 
 
@@ -170,6 +171,9 @@ def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float)
     """Stress and strain over the cycle at one point, on one plane."""
     history, side = _history(scene, nodes, np.array([abs(x)])), float(np.sign(x))
     sigma_xx, _, _, sigma_xz = stresses(history, scene.poisson_ratio, scene.friction, side)
+    bulk: Variables = {}
+    if history.bulk is not None:
+        bulk["bulk_stress"] = "time", history.bulk[0, 0], _named("bulk stress", r"\sigma_B")
     on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
     return {
         "normal_stress": ("time", on_plane[0][0, 0], _named("stress normal to the plane", r"\sigma_n")),
@@ -180,6 +184,7 @@ def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float)
         ),
         "sigma_xx": ("time", sigma_xx[0, 0], _named("stress xx", r"\sigma_{xx}")),
         "sigma_xz": ("time", sigma_xz[0, 0], _named("stress xz", r"\sigma_{xz}")),
+        **bulk,
     }
 
 

@@ -138,8 +138,14 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     draw_time_axis(axes, dataset.time)
     axes.set_ylabel(r"$\sigma_n$ over $E^* \sqrt{\delta_0/R}$", color=line.get_color())
     other.set_ylabel(r"$\varepsilon_n$ over $\sqrt{\delta_0/R}$", color=dashed.get_color())
-    for one, values in ((axes, stress), (other, strain)):
-        one.set_ylim(_limits(values.values, 0.08, 0.22))
+    shown = stress.values
+    if "bulk_stress" in dataset:
+        look: dict[str, Any] = {"color": line.get_color(), "linestyle": _DOTTED, "marker": ""}
+        axes.plot(time, dataset.bulk_stress, **look, label=r"$\sigma_B$")
+        axes.text(0.02, 0.03, r"dotted: $\sigma_B$", transform=axes.transAxes, color=line.get_color())
+        shown = np.concatenate([shown, dataset.bulk_stress.values])
+    for one, values in ((axes, shown), (other, strain.values)):
+        one.set_ylim(_limits(values, 0.08, 0.22))
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
     axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
 

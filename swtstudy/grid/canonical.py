@@ -36,10 +36,15 @@ SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS)
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
-NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
+NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.grid.codes`.
-COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
+COLUMNS = (
+    *("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS),
+    *reversed(_numbers("body")),
+    *_numbers("bulk"),
+    *_numbers("criterion"),
+)
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
@@ -92,7 +97,7 @@ def _make_profiles_canonical(table: FloatArray) -> None:
 
 def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     """Returns where x is mirrored."""
-    from swtstudy.mechanics.load.symmetry import fold_phase, without_what_stands_still
+    from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
     normal, tangential, phase = (
@@ -106,8 +111,18 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
     table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
-    table[:, _COLUMN["phase"]] = np.maximum(np.round((folded - nudge) / np.pi, DIGITS), 0.0) * np.pi
+    table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
+    of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
+    moves = table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0
+    both_ways = (q % 2 == 0) | (normal == 0.0)
+    folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
+    of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return mirrored
+
+
+def _in_turns(angle: FloatArray) -> FloatArray:
+    """An angle rounded in units of π."""
+    return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
 
 
 def _make_control_canonical(
@@ -174,7 +189,7 @@ def points_from(table: FloatArray, definitions: Definitions) -> Points:
 
 
 def describe_point(row: FloatArray, definitions: Definitions) -> str:
-    """A canonical row in words, for messages: only what matters for its profile and load."""
+    """A canonical row in words, for messages: what matters for its profile and load."""
     profile, course = (value_of(row[_COLUMN[name]], definitions, name) for name in ("profile", "load"))
     shape = family_of(profile).shape if isinstance(profile, str) else ()
     parts = [f"profile={profile}", *(f"{name}={row[_COLUMN[name]]:.6g}" for name in shape)]
@@ -183,5 +198,6 @@ def describe_point(row: FloatArray, definitions: Definitions) -> str:
     else:
         parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
     control = control_of(row[_COLUMN["control"]])
-    numbers = [name for name in NUMBERS if isinstance(course, str) or name != "phase"]
-    return ", ".join([*parts, *(f"{control.given_for(n)}={row[_COLUMN[n]]:.6g}" for n in numbers)])
+    values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or n != "phase"}
+    said = {n: v for n, v in values.items() if not (PARAMETERS[n].optional and v == PARAMETERS[n].default)}
+    return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

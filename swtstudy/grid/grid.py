@@ -119,7 +119,7 @@ def _code(name: str, value: Value) -> float:
     if isinstance(value, Fraction):
         return float({"p": value.numerator, "q": value.denominator}.get(name, value))
     # A phase is rounded in units of π once it is folded, not here.
-    return value if name == "phase" else canonical_number(value)
+    return value if PARAMETERS[name].units == "rad" else canonical_number(value)
 
 
 def complete(

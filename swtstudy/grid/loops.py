@@ -29,7 +29,11 @@ def check_amplitudes(
 
 
 def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
-    """With a force and a displacement the straight sides of a loop are curved in the memory diagram."""
+    """With a force and a displacement the straight sides of a loop are curved in the memory diagram.
+
+    Nor has a loop a frequency with which a bulk stress could oscillate.
+    """
+    _check_bulk_stress(grid, keys, report)
     if not grid.control.mixed or not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
     from swtstudy.mechanics.load.loop import Loop
@@ -39,3 +43,13 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
         report(keys("load"), found, "two displacements or two forces")
+
+
+def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+    loops = [load for load in grid.values("load") if not isinstance(load, str)]
+    oscillating = [value for value in grid.values("bulk_stress_amplitude") if value != 0.0]
+    if loops and oscillating:
+        found = f"{literal(oscillating[0])} with a loop, which has no frequency"
+        report(
+            keys("bulk_stress_amplitude"), found, "0, or the load harmonic; bulk_stress_mean goes with both"
+        )

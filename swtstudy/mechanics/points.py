@@ -21,6 +21,17 @@ REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_
 #: Those in which s is no finite number.
 WITHOUT_S = ("not_finite", "no_equilibrium")
 
+#: What points have unless it is given.
+_UNLESS_GIVEN = {
+    "walker_exponent": 0.5,
+    **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
+}
+_NOTHING = np.empty(0)
+
+
+def _not_given() -> FloatArray:
+    return _NOTHING
+
 
 @dataclass(frozen=True)
 class Points:
@@ -41,6 +52,10 @@ class Points:
         What is prescribed.
     path
         The loop that the load runs through; None for the two harmonic oscillations.
+    walker_exponent
+        Shape (n,); 1/2 unless given.
+    bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
+        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; 0 unless given.
     """
 
     profile: str
@@ -54,6 +69,15 @@ class Points:
     shape: dict[str, FloatArray] = field(default_factory=dict)
     control: Control = DISPLACEMENTS
     path: Loop | None = None
+    walker_exponent: FloatArray = field(default_factory=_not_given)
+    bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
+    bulk_stress_mean: FloatArray = field(default_factory=_not_given)
+    bulk_stress_phase: FloatArray = field(default_factory=_not_given)
+
+    def __post_init__(self) -> None:
+        for name, value in _UNLESS_GIVEN.items():
+            if getattr(self, name) is _not_given():
+                object.__setattr__(self, name, np.full(len(self), value))
 
     def __len__(self) -> int:
         return len(self.phase)

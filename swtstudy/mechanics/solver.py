@@ -18,7 +18,9 @@ from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
-from swtstudy.mechanics.points import REGIMES, Points, Solution
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
+from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
+from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Points times turning instants of one batch: enough to hide the interpreter. Half: 4 % slower, 60 MB less at
@@ -29,6 +31,8 @@ BATCH_SIZE = 1600
 BATCH_SQUARES = 60_000
 #: Relative error of tables, series and rounding, which no rtol removes (results/accuracy.md, at 1e-7).
 LEAST_ERROR = 8e-8
+#: swt closer to that far from the contact than this is no more than that, relative.
+SAME = 1e-9
 #: So many batches may share the contact solutions that are held at a time. 1 or 32: the same time and memory
 #: to 3 % and 22 MB at 1,600 points, whose loads differ.
 SHARING = 8
@@ -59,6 +63,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         idle = _idle(scene) & ~lost
         found = _maximum(scene, np.flatnonzero(~(lost | idle)), accuracy)
         found = found.put(idle, Maximum.unknown(int(idle.sum()), 0.0))
+        found = _or_far_field(scene, found)
         s[index] = found.swt
         shape = {name: values[index] for name, values in points.shape.items()}
         _, left_out = resolved_shape(points.profile, shape, scene.profile.largest_depth)
@@ -73,7 +78,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
 
 
 def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
-    """Indices of points that are solved together, and their scenes: of one kind of load and one roughness.
+    """Indices of points that are solved together, and their scenes: each of one kind.
 
     Points that are in no equilibrium are in none of them.
     """
@@ -87,11 +92,11 @@ def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
                 sharing, number = sharing[carried], number[carried]
             some = points.take(sharing)
             deepest = largest_depth(points.control, some.profile, some.shape, load.largest_normal[number])
-            level = roughness(some.profile, some.shape, deepest)
+            kind = _kinds(some, roughness(some.profile, some.shape, deepest))
             # One contact solution for all profiles.
             cycle = None if points.control.mixed else solve_cycle(load)
-            for same in np.unique(level):
-                for rows in _split(np.flatnonzero(level == same), size):
+            for same in np.unique(kind):
+                for rows in _split(np.flatnonzero(kind == same), size):
                     taken, scene = _scene(some.take(rows), load.take(number[rows]), cycle, number[rows])
                     if taken.size:
                         yield sharing[rows[taken]], scene
@@ -109,11 +114,18 @@ def _scene(
     # Without tangential motion there is no traction, whatever the friction.
     friction = np.where(load.moves_tangentially, points.friction, 0.0)
     if shared is not None:
-        return every, Scene(shared.take(number), coordinate, points.poisson_ratio, friction)
+        scene = Scene(shared.take(number), coordinate, points.poisson_ratio, friction)
+        return every, scene.with_own(points)
     carried = every[~out_of_equilibrium(in_diagram, points.control)]
     own = points.poisson_ratio[carried], friction[carried]
     # Loads out of equilibrium have a cycle too, of no meaning.
-    return carried, Scene(solve_cycle(in_diagram).take(carried), coordinate.take(carried), *own)
+    scene = Scene(solve_cycle(in_diagram).take(carried), coordinate.take(carried), *own)
+    return carried, scene.with_own(points.take(carried))
+
+
+def _kinds(points: Points, level: IntArray) -> IntArray:
+    """A number for each kind of scene: what has no bulk stress, or no powers, does not pay for those."""
+    return 6 * level + 2 * bulk_kind(points) + (points.walker_exponent != SWT_EXPONENT)
 
 
 def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
@@ -125,7 +137,20 @@ def _idle(scene: Scene) -> NDArray[np.bool_]:
     """Where s is 0: pressure alone makes no tension at ν = 1/2, and without motion no swing of strain."""
     load = scene.cycle.load
     rests = load.largest_normal == load.least_normal
+    if scene.bulk is not None:
+        return np.asarray((scene.friction == 0.0) & rests & ~scene.bulk.moves)
     return np.asarray((scene.friction == 0.0) & ((scene.poisson_ratio == 0.5) | rests))
+
+
+def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
+    """The maxima, or swt far from the contact where no point exceeds it: there is no critical point then."""
+    if scene.bulk is None:
+        return found
+    far = scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent)
+    # Not where s is not finite.
+    higher = (far > 0.0) & (far >= (1.0 - SAME) * found.swt)
+    none = np.zeros(len(far))
+    return found.put(higher, Maximum(far, none, none + np.nan, none).take(higher))
 
 
 def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:

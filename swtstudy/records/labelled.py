@@ -48,10 +48,17 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "units": "1",
         "symbol": r"s_\mathrm{surface}",
     },
+    "bulk_shift": {
+        "long_name": "shift of the stick zone",
+        "comment": "by the strain of the bulk stress, in a_H: s leaves it out; NaN for other profiles "
+        "than the paraboloid, without friction or stick, and where it exceeds the width of the slip zone",
+        "units": "1",
+        "symbol": r"e/a_H",
+    },
     "critical_x": {
         "long_name": "critical point x/a_H",
         "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0); NaN "
-        "where s is 0 or not finite: no point is critical there",
+        "where s is 0, not finite or that of the bulk stress alone: no point is critical there",
         "units": "1",
         "symbol": r"x/a_H",
     },

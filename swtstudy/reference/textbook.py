@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.points import FloatArray, Points
 
 
@@ -85,9 +84,16 @@ def textbook_s(
         onset = bisect(lambda t: np.abs(displacement(t) - held) < depth(t) - g[at[where]], time, step)
         time = np.union1d(time, onset)
     w, tau = march_springs(g, depth(time), displacement(time))
-    sigma = surface_stresses(radius, radius[at], w, tau, point)
-    s, side, k, angle = brute_force(sigma, point.poisson_ratio.item(), planes)
-    return TextbookSolution(s, float(side * radius[at[k]]), angle)
+    position = radius[at]
+    bulk_mean, bulk_amplitude, bulk_phase = (
+        v.item() for v in (point.bulk_stress_mean, point.bulk_stress_amplitude, point.bulk_stress_phase)
+    )
+    if bulk_mean or bulk_amplitude:
+        position = np.concatenate([position, largest * np.geomspace(1.001, 100.0, positions)])
+    sigma = surface_stresses(radius, position, w, tau, point)
+    sigma = sigma[0] + bulk_mean + bulk_amplitude * np.sin(p * time + bulk_phase), *sigma[1:]
+    s, side, k, angle = brute_force(sigma, point.poisson_ratio.item(), planes, point.walker_exponent.item())
+    return TextbookSolution(s, float(side * position[k]), angle)
 
 
 def bisect(
@@ -147,8 +153,10 @@ def surface_stresses(
     return *normal, (1.0 + nu) * pull - nu * pull_3, nu * pull_3, mu / np.pi * integral(area, tau)
 
 
-def brute_force(sigma: tuple[FloatArray, ...], nu: float, planes: int) -> tuple[float, float, int, float]:
-    """Largest swt (eq. 9) over sides, positions and planes: its value, the side, position and angle."""
+def brute_force(
+    sigma: tuple[FloatArray, ...], nu: float, planes: int, exponent: float = 0.5
+) -> tuple[float, float, int, float]:
+    """Largest swt (eq. 9, or Walker's) over sides, positions and planes: with side, position and angle."""
     n_xx, n_yy, zz, t_xx, t_yy, t_xz = sigma
     best = (-1.0, 1.0, 0, 0.0)
     for side in (1.0, -1.0):
@@ -157,7 +165,8 @@ def brute_force(sigma: tuple[FloatArray, ...], nu: float, planes: int) -> tuple[
             n_x, n_z = np.cos(angle), np.sin(angle)
             stress = xx * n_x**2 + zz * n_z**2 + 2.0 * t_xz * n_x * n_z
             strain = ((1.0 + nu) * stress - nu * (xx + yy + zz)) / (1.0 - nu**2)
-            swt = of_maxima(*(curve.max(axis=1) for curve in curves(stress, strain)))
+            tension, swing = np.maximum(stress.max(axis=1), 0.0), 0.5 * np.ptp(strain, axis=1) * (1.0 - nu**2)
+            swt = tension ** (2.0 - 2.0 * exponent) * swing ** (2.0 * exponent) / (1.0 - nu**2)
             if swt.max() > best[0]:
                 best = float(swt.max()), side, int(swt.argmax()), float(np.degrees(angle))
     return best

@@ -67,24 +67,31 @@ class Body:
             part = slice(first, first + INSTANTS)
             states = contact_states(scene.cycle, scene.coordinate, interval[part], instant[part], self.cells)
             stress[..., part, :] = states.stress(x, y, z, *material)
+        if scene.bulk is not None:
+            stress[..., 0] += scene.bulk.at(instant[None])[0]
         return stress
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
         """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
-        ν = float(self.scene.poisson_ratio[0])
+        ν, γ = float(self.scene.poisson_ratio[0]), self.walker_exponent
         x, y, z = np.broadcast_arrays(x, y, z)
         swt, normal = np.empty(x.size), np.empty((x.size, 3))
         columns = max(1, VALUES // self.nodes.instant.size)
         for first in range(0, x.size, columns):
             part = slice(first, first + columns)
             stress = self.stress(x.flat[part], y.flat[part], z.flat[part])
-            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2)
+            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2, γ)
         return CriticalPlane(swt.reshape(x.shape), normal.reshape(*x.shape, 3))
 
     def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
         ν = float(self.scene.poisson_ratio[0])
-        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2)
+        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2, self.walker_exponent)
+
+    @property
+    def walker_exponent(self) -> float:
+        """γ of the criterion."""
+        return self.scene.one_walker_exponent
 
 
 def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
@@ -187,7 +194,7 @@ def _on_critical_plane(body: Body, point: tuple[float, ...]) -> tuple[FloatArray
     """σ_n and E ε_n over the instants, shape (T,), on the critical plane of one point."""
     ν = float(body.scene.poisson_ratio[0])
     stress = body.stress(*point)
-    weights = normal_weights(swt_of_history(stress, ν).normal)
+    weights = normal_weights(swt_of_history(stress, ν, 1.0, body.walker_exponent).normal)
     return stress @ weights, strain_history(stress, ν) @ weights
 
 

@@ -93,7 +93,10 @@ class Histories:
         normal, drag = self._functions(instant, np.broadcast_to(at[:, None], instant.shape))
         x, y = (self.radius[at] * turn(self.angle[at]) for turn in (np.cos, np.sin))
         place = x[:, None], y[:, None], self.depth[at, None]
-        return normal_components(normal, *place, ν) + tangential_components(drag, *place, ν)
+        stress = normal_components(normal, *place, ν) + tangential_components(drag, *place, ν)
+        if self.scene.bulk is not None:
+            stress[..., 0] += self.scene.bulk.at(instant[None])[0]
+        return stress
 
     def _functions(
         self, instant: FloatArray, place: NDArray[np.intp]

@@ -96,6 +96,7 @@ class LocalSwt:
     def __init__(self, scene: Scene, circle: float, shown: Places, fineness: Fineness) -> None:
         self.scene, self.ν = scene, float(scene.poisson_ratio[0])
         self.fineness = fineness
+        self.γ = scene.one_walker_exponent
         self.slopes = resolving_cells(scene.cycle, scene.coordinate, fineness.cells)
         # The sides of a polygon of many are short.
         steps = max(1, min(fineness.steps, MANY // scene.cycle.begin.shape[1]))
@@ -104,7 +105,7 @@ class LocalSwt:
             np.broadcast_to(instant, (shown.radius.size, instant.size))
         )
         hot = np.zeros(instant.size, dtype=bool)
-        for curve in self._curves(stress, quick_planes(stress, self.ν)[1]):
+        for curve in self._curves(stress, quick_planes(stress, self.ν, self.γ)[1]):
             hot |= near_maximum(curve, HOT).any(axis=0)
         #: Instants, and which of the gaps that follow them matter.
         self.instant, self.open = instant, hot | np.roll(hot, -1)
@@ -119,13 +120,13 @@ class LocalSwt:
         rows: NDArray[np.intp] = np.arange(len(own))
         stress = histories.stress(instant)
         # A peak between the instants may make another plane critical: the planes are searched twice.
-        normal = highest_coarse_planes(stress, self.ν)
+        normal = highest_coarse_planes(stress, self.ν, self.γ)
         instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
         swt, normal = self._planes(stress)
         missing = np.zeros_like(swt)
         for peaks, doubt in zip(PEAKS, DOUBTS, strict=True):
             instant, stress = self._closer(histories, rows, instant, stress, normal, peaks)
-            better, normal = climb_from(stress, self.ν, normal)
+            better, normal = climb_from(stress, self.ν, normal, self.γ)
             missing[rows] += doubt * (better - swt[rows])
             open_ = better > (1.0 + SETTLED) * swt[rows]
             swt[rows] = better
@@ -153,8 +154,8 @@ class LocalSwt:
     def _planes(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Largest swt over the planes, and its planes."""
         if self.fineness.every_summit:
-            return planes_of_all_summits(stress, self.ν)
-        return quick_planes(stress, self.ν)
+            return planes_of_all_summits(stress, self.ν, self.γ)
+        return quick_planes(stress, self.ν, self.γ)
 
     def _own_instants(self, places: Places) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""

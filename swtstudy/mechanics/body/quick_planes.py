@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_on_planes
 from swtstudy.mechanics.planes.ascent import climb
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
@@ -26,52 +27,58 @@ CANDIDATES = 4
 BLOCK = 16
 
 
-def quick_planes(stress: FloatArray, poisson_ratio: float) -> tuple[FloatArray, FloatArray]:
+def quick_planes(
+    stress: FloatArray, poisson_ratio: float, walker_exponent: float = SWT_EXPONENT
+) -> tuple[FloatArray, FloatArray]:
     """Largest swt over the planes, and its planes.
 
     Parameters
     ----------
     stress
         Shape (m, T, 6), in E* √(δ0/R).
-    poisson_ratio
-        ν.
+    poisson_ratio, walker_exponent
+        ν and γ.
 
     Returns
     -------
     swt, normal
         Shape (m,), over E* δ0/R, and (m, 3).
     """
-    start, rival, worthy = _coarse_planes(stress, poisson_ratio)
-    swt, normal = climb_from(stress, poisson_ratio, start)
+    start, rival, worthy = _coarse_planes(stress, poisson_ratio, walker_exponent)
+    swt, normal = climb_from(stress, poisson_ratio, start, walker_exponent)
     several = np.flatnonzero(worthy)
     if several.size:
-        other, where = climb_from(stress[several], poisson_ratio, rival[several])
+        other, where = climb_from(stress[several], poisson_ratio, rival[several], walker_exponent)
         higher = other > swt[several]
         swt[several[higher]], normal[several[higher]] = other[higher], where[higher]
     return swt, normal
 
 
-def planes_of_all_summits(stress: FloatArray, poisson_ratio: float) -> tuple[FloatArray, FloatArray]:
+def planes_of_all_summits(
+    stress: FloatArray, poisson_ratio: float, walker_exponent: float
+) -> tuple[FloatArray, FloatArray]:
     """The same, told apart from summits closer than the coarse planes are to one another."""
     normals, index = hemisphere(PLANES), np.tile(np.arange(len(stress)), CANDIDATES)
-    swt = swt_on_planes(stress.astype(np.float32), normals.astype(np.float32), poisson_ratio)
+    single = stress.astype(np.float32), normals.astype(np.float32)
+    swt = swt_on_planes(*single, poisson_ratio, 1.0, walker_exponent)
     highest = np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES].T
-    swt, normal = climb_from(stress[index], poisson_ratio, normals[highest.ravel()])
+    swt, normal = climb_from(stress[index], poisson_ratio, normals[highest.ravel()], walker_exponent)
     best = swt.reshape(CANDIDATES, -1).argmax(axis=0) * len(stress) + np.arange(len(stress))
     return swt[best], normal[best]
 
 
-def highest_coarse_planes(stress: FloatArray, poisson_ratio: float) -> FloatArray:
+def highest_coarse_planes(stress: FloatArray, poisson_ratio: float, walker_exponent: float) -> FloatArray:
     """Normals, (m, 3), some degrees off those of `quick_planes`."""
-    return _coarse_planes(stress, poisson_ratio)[0]
+    return _coarse_planes(stress, poisson_ratio, walker_exponent)[0]
 
 
-def climb_from(stress: FloatArray, ν: float, start: FloatArray) -> tuple[FloatArray, FloatArray]:
+def climb_from(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
     """Summits of swt over E* δ0/R, (m,), and their normals, (m, 3), from normals nearby."""
-    return climb(stress, strain_history(stress, ν, 1.0 - ν**2), start)
+    modulus = 1.0 - ν**2
+    return climb(stress, strain_history(stress, ν, modulus), start, Walker.of(γ, modulus, len(start)))
 
 
-def _coarse_planes(stress: FloatArray, ν: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _coarse_planes(stress: FloatArray, ν: float, γ: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The highest of few planes, the highest other peak among them, and whether that is worth a climb."""
     normals, neighbours = hemisphere(PLANES), _neighbours()
     single = normals.astype(np.float32)
@@ -79,7 +86,7 @@ def _coarse_planes(stress: FloatArray, ν: float) -> tuple[FloatArray, FloatArra
     worthy = np.empty(len(stress), dtype=bool)
     for first in range(0, len(stress), BLOCK):
         part = slice(first, first + BLOCK)
-        swt = swt_on_planes(stress[part].astype(np.float32), single, ν)
+        swt = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, γ)
         row, best[part] = np.arange(len(swt)), swt.argmax(axis=1)
         least = WORTHY * swt[row, best[part]]
         peaked = swt >= swt[:, neighbours].max(axis=-1)

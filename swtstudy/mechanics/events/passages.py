@@ -45,7 +45,6 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
     shape (n, i).
     """
     memory = cycle.memory
-    n = len(memory.start)
     rows, instants = [], []
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
         row, interval, piece = np.nonzero(active[:, :, None] & np.isfinite(memory.start))
@@ -55,7 +54,12 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
         rows.append(row[hit])
         instants.append(instant)
     row, instant = np.concatenate(rows), np.concatenate(instants)
-    cuts = filled_rows(row, instant, n, PERIOD)
+    return split_at(cycle, filled_rows(row, instant, len(memory.start), PERIOD))
+
+
+def split_at(cycle: Cycle, cuts: FloatArray) -> tuple[Cycle, NDArray[np.intp]]:
+    """The same cycle with its intervals cut at more instants, (n, k), and as `split_at_breakpoints`."""
+    n = len(cuts)
     edges = np.sort(np.concatenate([np.zeros((n, 1)), cycle.end, cuts], axis=1), axis=1)
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
     parent = (middle[:, :, None] >= cycle.end[:, None]).sum(axis=-1)

@@ -11,7 +11,7 @@ from swtstudy.mechanics.points import FloatArray
 
 
 class InnerTable:
-    """T1 and T3 as series in α, ξ² = b² + (r² − b²) sin²α.
+    """T1 and T3 as series in α, ξ² = b² + (r² − b²) sin²α, up to the largest contact radius.
 
     Parameters
     ----------
@@ -21,14 +21,22 @@ class InnerTable:
         Shape (n, X), r = |x| > b; 0 results where r ≤ b.
     count
         Number of Chebyshev nodes.
+    largest
+        Shape (n,): largest contact radius.
     """
 
-    def __init__(self, profile: Profile, position: FloatArray, count: int) -> None:
+    def __init__(self, profile: Profile, position: FloatArray, count: int, largest: FloatArray) -> None:
         self.flat = profile.flat_radius[:, None]
         self.gap = np.maximum(position**2 - self.flat**2, 0.0)
-        angle = 0.25 * np.pi * (1.0 + chebyshev.nodes(count))
+        #: Largest α.
+        self.span: FloatArray | float = 0.5 * np.pi
+        outside = position > largest[:, None]
+        if np.any(outside):
+            share = (largest[:, None] ** 2 - self.flat**2) / np.maximum(self.gap, 1e-300)
+            self.span = np.where(outside, np.arcsin(np.sqrt(np.minimum(share, 1.0))), self.span)[..., None]
+        angle = 0.5 * self.span * (1.0 + chebyshev.nodes(count))
         radius2 = self.flat[..., None] ** 2 + self.gap[..., None] * np.sin(angle) ** 2
-        weight = 0.5 * np.pi * profile.weighted_slope(np.sqrt(radius2)) / position[..., None]
+        weight = self.span * profile.weighted_slope(np.sqrt(radius2)) / position[..., None]
         weight = np.where(self.gap[..., None] > 0.0, weight, 0.0)
         values = np.stack([weight, weight * radius2 / position[..., None] ** 2])
         self.series = chebyshev.running_integral(values)
@@ -36,7 +44,11 @@ class InnerTable:
     def __call__(self, radius: FloatArray) -> FloatArray:
         gap, flat = align(self.gap, radius), align(self.flat, radius)
         share = np.maximum(radius * radius - flat * flat, 0.0) / np.maximum(gap, 1e-300)
-        y = np.arcsin(np.sqrt(np.minimum(share, 1.0))) * (4.0 / np.pi) - 1.0
+        angle = np.arcsin(np.sqrt(np.minimum(share, 1.0)))
+        if isinstance(self.span, float):
+            y = angle * (4.0 / np.pi) - 1.0
+        else:
+            y = np.minimum(angle * (2.0 / align(self.span[..., 0], radius)), 2.0) - 1.0
         series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
         return chebyshev.evaluate(series, y)
 
@@ -106,7 +118,7 @@ class TablePrimitives(Primitives):
     def __init__(
         self, profile: Profile, position: FloatArray, inner_nodes: int, outer_nodes: int, largest: FloatArray
     ) -> None:
-        self._inner = InnerTable(profile, position, inner_nodes)
+        self._inner = InnerTable(profile, position, inner_nodes, largest)
         self._outer = OuterTable(profile, position, outer_nodes, largest)
 
     def inner(self, radius: FloatArray) -> FloatArray:

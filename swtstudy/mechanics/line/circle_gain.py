@@ -2,16 +2,19 @@
 
 The stress on the circle is made of the same building blocks as on the line, see
 `swtstudy.mechanics.stress.circle`. They know only r: edge and slip fronts pass the whole circle at once, and
-the instants that make swt on the line make it on the circle.
+the instants that make swt on the line make it on the circle. Not so with a bulk stress: where it presses, the
+line may be the lowest place of the circle, whose highest has its own instants and a plane that turns with it.
 """
 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, extreme_instants
 from swtstudy.mechanics.line.samples import of_extremes, on_plane
-from swtstudy.mechanics.planes.ascent import climb
+from swtstudy.mechanics.planes.ascent import climb, normal_weights
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
@@ -26,6 +29,9 @@ SAFE_POISSON_RATIO = 0.35
 #: points with ν > 0.35, no faster.
 ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
 CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
+#: With a bulk stress, at each ν: angles of a look at planes that turn with them by these shares, and the fall
+#: of swt below which no climb is tried, over sin²θ: on most circles it falls like that to the square or more.
+LOOK_ANGLES, TURNS, SLOW_FALL = ANGLES[2::3], np.array([0.0, 0.5, 1.0]), 0.4
 #: Steps of a smooth stretch of the cycle, and digits of tables. Half of the steps: 3e-4 at 6 of 300 points;
 #: 3.5 digits: 1e-4 at 8; no faster. Twice: 7e-5; 7.5: 4e-6.
 TIME_STEPS, DIGITS = 4, 5.5
@@ -55,10 +61,16 @@ def circle_gain(
     r, flat = np.abs(position), scene.profile.flat_radius
     at_edge = (flat > 0.0) & (r == flat)
     gain, angle = (np.where(at_edge, np.nan, 0.0) for _ in range(2))
-    rows = np.flatnonzero((scene.poisson_ratio > SAFE_POISSON_RATIO) & (r > 0.0) & ~at_edge)
+    doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | (scene.bulk is not None)
+    rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
     if rows.size:
         some = scene.take(rows)
         history, normal = _decisive_history(some, position[rows], double_angle[rows])
+        if scene.bulk is not None:
+            slow = np.flatnonzero(
+                (some.poisson_ratio > SAFE_POISSON_RATIO) | _falls_slowly(some, history, normal)
+            )
+            rows, some, history, normal = rows[slow], some.take(slow), history.take(slow), normal[slow]
         swt = _on_circle(some, history, normal, np.broadcast_to(ANGLES, (rows.size, ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
         off = np.flatnonzero((best > 0) & (base > 0.0))
@@ -69,6 +81,33 @@ def circle_gain(
             gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
             angle[rows[off]] = near[top[::-1]]
     return gain, angle
+
+
+def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:
+    """Whether swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
+    angle = np.broadcast_to(np.concatenate([[0.0], LOOK_ANGLES]), (len(scene), 1 + LOOK_ANGLES.size))
+    stress, strain = _circle(scene, history, angle)
+    walker = scene.walker and scene.walker.take(np.arange(len(scene)))
+    highest = np.zeros(angle.shape)
+    for share in TURNS:
+        weights = normal_weights(_turned(normal, share * angle))[..., None]
+        tension, elongation = ((v @ weights)[..., 0] for v in (stress, strain))
+        tops = (curve.max(axis=-1) for curve in curves(tension, elongation))
+        highest = np.maximum(highest, of_maxima(*tops, walker=walker))
+    least = (1.0 - SLOW_FALL * np.sin(angle[:, 1:]) ** 2) * highest[:, :1]
+    return np.asarray((highest[:, 1:] > least).any(axis=1))
+
+
+def _turned(normal: FloatArray, angle: FloatArray) -> FloatArray:
+    """Normals (n, 3) of planes through y turned about z by angles (n, k), shape (n, k, 3)."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.stack([c * normal[:, :1], s * normal[:, :1], normal[:, 2:] + 0.0 * c], axis=-1)
+
+
+def _circle(scene: Scene, history: History, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Stress and strain at angles (n, k) on the circles, shape (n, k, T, 6)."""
+    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
+    return stress, strain_history(stress, scene.poisson_ratio[:, None, None, None])
 
 
 def _decisive_history(
@@ -90,16 +129,23 @@ def _decisive_history(
     wide = look.line.history(brackets.samples())
     closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
     narrow = look.line.history(brackets.narrowed(closer).samples())
-    history = wide.joined(narrow).take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
+    history = wide.joined(narrow)
+    if scene.bulk is not None:
+        history = history.joined(look.history)
+    history = history.take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
     history = history.with_tangential_sign(side[:, None])
     θ = 0.5 * double_angle
     return history, np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)
 
 
 def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatArray) -> FloatArray:
-    """swt at angles (n, k) on the circles; the planes are climbed to from the line's."""
-    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
-    strain = strain_history(stress, scene.poisson_ratio[:, None, None, None])
-    start = np.broadcast_to(normal[:, None], (*angle.shape, 3)).reshape(-1, 3)
+    """swt at angles (n, k) on the circles; the planes are climbed to from the line's, turned or not."""
+    stress, strain = _circle(scene, history, angle)
     flat = (-1, *stress.shape[-2:])
-    return climb(stress.reshape(flat), strain.reshape(flat), start)[0].reshape(angle.shape)
+    walker = scene.walker and scene.walker.take(np.repeat(np.arange(len(scene)), angle.shape[1]), 0)
+    starts = [np.broadcast_to(normal[:, None], (*angle.shape, 3))]
+    if scene.bulk is not None:
+        starts.append(_turned(normal, angle))
+    histories = stress.reshape(flat), strain.reshape(flat)
+    found = [climb(*histories, start.reshape(-1, 3), walker)[0] for start in starts]
+    return np.asarray(np.max(found, axis=0).reshape(angle.shape))

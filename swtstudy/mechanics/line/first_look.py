@@ -106,7 +106,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
         Number of planes that are tried.
     """
     # Half of the period is enough where the other half is its mirror image.
-    mirrored = scene.cycle.load.mirrored_half
+    mirrored = scene.mirrored_half
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
     look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
     history = look.history

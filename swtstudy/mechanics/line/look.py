@@ -76,8 +76,8 @@ class Look:
     @classmethod
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
         """Look at r = ``position``, shape (n, X)."""
-        line = SurfaceLine(scene.cycle, scene.coordinate, position, digits)
-        parts = stretches(scene.cycle, scene.coordinate.of(position))
+        line = SurfaceLine(scene.cycle, scene.coordinate, position, digits, scene.bulk)
+        parts = stretches(scene.cycle, scene.coordinate.of(line.touched))
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
 

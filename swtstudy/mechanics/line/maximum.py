@@ -134,7 +134,7 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     """First look, local search and check."""
     finer, part_of = split_at_breakpoints(scene.cycle)
     split = replace(scene, cycle=finer)
-    positions = positions_of_first_look(split.cycle, scene.coordinate)
+    positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
     look = first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
     climb = Climb.start(scene, split, part_of, look, positions, accuracy.search)
     largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)

@@ -28,6 +28,14 @@ SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: its least radius is left out, and where contact is lost this share. 0.2 in place of 0.02: 7e-3 at some
 #: of 600 points.
 INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
+#: With a bulk stress tension is everywhere: under a flat face, and outside of the contact up to so many times
+#: its largest radius, beyond which swt differs from that of the bulk stress alone by less than 1e-3 of its
+#: difference at the edge.
+BEYOND = np.array([1.5, 5.0, 40.0])
+#: Steps of each of these stretches, in which swt has no cusps.
+OUTSIDE_STEPS = 5
+#: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
+BESIDE_FACE = 0.999
 #: Coordinates of cusps nearer than this, in the amplitudes of the motion, are one. 1e-11: 2e-15; 1e-7: 1e-12.
 SAME_DEPTH = 1e-9
 #: A stretch between cusps shorter than this share of the range is none. 1e-14: no change; 1e-10: 2e-10.
@@ -59,8 +67,11 @@ class Positions:
     step: FloatArray
 
 
-def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
-    """Radii at which swt(r) may have a cusp, and the ends of the range, ascending, shape (n, k)."""
+def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> FloatArray:
+    """Radii at which swt(r) may have a cusp, and the ends of the range, ascending, shape (n, k).
+
+    With ``everywhere`` the range is not the contact's but that of a bulk stress, see `BEYOND`.
+    """
     n = len(cycle.begin)
     # Empty intervals, which fill up the rows of a batch, have nothing to say.
     lasts = cycle.end > cycle.begin
@@ -77,6 +88,18 @@ def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
     profile = coordinate.profile
     approach = profile.singular_approach
     face = profile.flat_radius[:, None]
+    if everywhere:
+        least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
+        # Next to the contact the stress outside changes over the way that the edge goes.
+        beyond = largest + np.append(largest - least, largest * (BEYOND - 1.0), axis=1)
+        innermost = INNERMOST_OF_LOST * largest
+        if approach.shape[1]:
+            nearest = approach.min(axis=1, keepdims=True)
+            innermost = np.where(nearest > 0.0, np.minimum(nearest, innermost), innermost)
+            radius = np.where(radius <= face, BESIDE_FACE * face, radius)
+            face = BESIDE_FACE * face
+        ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
+        return np.sort(np.maximum(ends, innermost), axis=1)
     least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None]) - face
     share = np.clip(0.5 * least / (largest - face), INNERMOST_OF_LOST, INNERMOST)
     innermost = face + share * (largest - face)
@@ -87,7 +110,9 @@ def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 
-def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
+def spread_positions(
+    ends: FloatArray, spread: FloatArray, within: tuple[FloatArray, FloatArray] | None = None
+) -> Positions:
     """Cosine-spaced positions between the cusps, about ``spread`` of them and two for each cusp at most.
 
     Parameters
@@ -96,8 +121,11 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
         Shape (n, k), see `cusps`.
     spread
         Shape (n,): number of positions over the whole range, were there no cusps.
+    within
+        Shape (n, 1): ends of the range that is meant, if not the whole; stretches outside of it have
+        `OUTSIDE_STEPS`.
     """
-    parts = _StretchesOfRange.of(ends, spread)
+    parts = _StretchesOfRange.of(ends, spread, within)
     stretch, place, count = parts.places()
     step = gather(np.pi / parts.steps, stretch)
     alpha = place * step
@@ -140,17 +168,22 @@ class _StretchesOfRange:
     last: NDArray[np.intp]
 
     @classmethod
-    def of(cls, ends: FloatArray, spread: FloatArray) -> _StretchesOfRange:
+    def of(
+        cls, ends: FloatArray, spread: FloatArray, within: tuple[FloatArray, FloatArray] | None
+    ) -> _StretchesOfRange:
         """See `spread_positions`."""
         low, high = ends[:, :-1], ends[:, 1:].copy()
-        length, total = high - low, ends[:, -1:] - ends[:, :1]
+        first, last = within or (ends[:, :1], ends[:, -1:])
+        length, total = high - low, last - first
         steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
+        if within:
+            steps[(low >= last) | (high <= first)] = OUTSIDE_STEPS
         # Next to a sharp tip stretches are short, but not as they lie there.
         real = length > np.minimum(NO_LENGTH * total, 0.5 * high)
-        last = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
+        outermost = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
         # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
-        high[np.arange(len(ends)), last] = ends[:, -1]
-        return cls(low, high, steps, real, last)
+        high[np.arange(len(ends)), outermost] = ends[:, -1]
+        return cls(low, high, steps, real, outermost)
 
     def places(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
         """Stretch of each position and its place in it, shape (n, X), and the number of positions, (n,).
@@ -175,13 +208,18 @@ class _StretchesOfRange:
         return np.where((place == 0) & (stretch == 0) | (left < 0), stretch, left)
 
 
-def positions_of_first_look(cycle: Cycle, coordinate: Coordinate) -> Positions:
-    """Positions of the first look at each of the n points."""
-    ends = cusps(cycle, coordinate)
-    waves = (ends[:, -1] - ends[:, 0]) / coordinate.profile.feature_length
+def positions_of_first_look(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Positions:
+    """Positions of the first look at each of the n points; for ``everywhere`` see `cusps`."""
+    ends = cusps(cycle, coordinate, everywhere)
+    low, high = ends[:, :1], ends[:, -1:]
+    if everywhere:
+        low = np.maximum(low, coordinate.profile.flat_radius[:, None])
+        high = ends[:, -2 - BEYOND.size, None]
+    waves = (high - low)[:, 0] / coordinate.profile.feature_length
     normal, tangential = cycle.load.oscillations
     oscillations = max(tangential / normal - 1.0, 0.0)
-    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
+    spread = SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations
+    return spread_positions(ends, spread, (low, high) if everywhere else None)
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.planes.criterion import of_maxima
+from swtstudy.mechanics.planes.criterion import Walker, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle
 from swtstudy.mechanics.points import FloatArray
 
@@ -28,19 +28,24 @@ class Samples:
         Where they lie.
     near
         Shape (3, n, X, 3, k), see `of_extremes`.
+    walker
+        The criterion, shape (n, 1); None for swt.
     """
 
     brackets: TimeBrackets
     near: FloatArray
+    walker: Walker | None = None
 
     def take(self, index: NDArray[np.intp]) -> Samples:
         """Those of the points at ``index``."""
-        return Samples(self.brackets.take(index), self.near[:, index])
+        return Samples(
+            self.brackets.take(index), self.near[:, index], self.walker and self.walker.take(index)
+        )
 
     def or_other(self, own: NDArray[np.bool_], other: Samples) -> Samples:
         """These around the extremes that are ``own``, shape (n, X, 3), and other ones around the others."""
         near = np.where(own[..., None], self.near, other.near)
-        return Samples(self.brackets.or_other(own, other.brackets), near)
+        return replace(self, brackets=self.brackets.or_other(own, other.brackets), near=near)
 
     def narrowed(self, angle: FloatArray) -> TimeBrackets:
         """Brackets around the best samples on planes (n, X)."""
@@ -54,9 +59,9 @@ class Samples:
         """swt and 2θ of the best planes near some, each (n, X), until they rise by less than a share."""
         for _ in range(ANGLE_ROUNDS):
             peaks, start = self._at_peaks(angle), angle
-            angle = _turned(peaks, start)
-        before, peaks = _swt(peaks, start), self._at_peaks(angle)
-        swt = _swt(peaks, angle)
+            angle = _turned(peaks, start, self.walker)
+        before, peaks = _swt(peaks, start, self.walker), self._at_peaks(angle)
+        swt = _swt(peaks, angle, self.walker)
         rows, some = np.arange(len(angle)), self
         for _ in range(ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS):
             rises = np.flatnonzero((swt[rows] - before > gain * swt[rows]).any(axis=1))
@@ -64,9 +69,9 @@ class Samples:
                 break
             rows, some, before = rows[rises], some.take(rises), swt[rows[rises]]
             start = angle[rows]
-            turned = _turned(peaks[:, rises], start)
+            turned = _turned(peaks[:, rises], start, some.walker)
             peaks = some._at_peaks(turned)
-            found = _swt(peaks, turned)
+            found = _swt(peaks, turned, some.walker)
             swt[rows], angle[rows] = found, turned
         return swt, angle
 
@@ -76,14 +81,14 @@ class Samples:
         return np.asarray((self.near * weights).sum(axis=-1))
 
 
-def _turned(peaks: FloatArray, angle: FloatArray) -> FloatArray:
+def _turned(peaks: FloatArray, angle: FloatArray, walker: Walker | None) -> FloatArray:
     """2θ at which the extremes (3, n, X, 3) of planes (n, X) make the largest swt."""
-    return best_angle(peaks[..., 0], peaks[..., 1] + peaks[..., 2], angle)
+    return best_angle(peaks[..., 0], peaks[..., 1] + peaks[..., 2], angle, walker)
 
 
-def _swt(peaks: FloatArray, angle: FloatArray) -> FloatArray:
+def _swt(peaks: FloatArray, angle: FloatArray, walker: Walker | None) -> FloatArray:
     """swt by the extremes (3, n, X, 3) of planes (n, X)."""
-    return of_maxima(*np.moveaxis(on_plane(peaks, angle), -1, 0))
+    return of_maxima(*np.moveaxis(on_plane(peaks, angle), -1, 0), walker=walker)
 
 
 def of_extremes(planes: PlaneHistory) -> FloatArray:

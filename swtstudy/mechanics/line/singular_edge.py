@@ -11,8 +11,8 @@ position, so that distances far below what a number near b can hold cost nothing
   Short of that s ~ ln(1/(1 − δA/δ0)), at the least radius of the contact, and is given up once that is nearer
   than `NEAREST` (of the profile).
 
-In these cases s is not finite. Else it is; if the whole contact slides, σ_n falls like (1 − μ) L while Δε_n
-rises like L, and the maximum lies at an L of some (π/2)/(1 − μ).
+In these cases s is not finite, for every exponent of the criterion. Else it is; if the whole contact slides,
+σ_n falls like (1 − μ) L while Δε_n rises like L, and the maximum lies at an L of some γπ/(1 − μ).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, curves, of_maxima
 from swtstudy.mechanics.planes.through_y import climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -95,7 +95,11 @@ def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
         return np.zeros(len(scene), dtype=bool)
     face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
     slides = cycle.gross_slip & (cycle.load.least_normal > 0.0)
-    return np.asarray(face & slides & (scene.friction >= LEAST_FRICTION))
+    least: float | FloatArray = LEAST_FRICTION
+    if scene.walker_exponent is not None:
+        # The maximum is at an L in proportion to γ/(1 − μ).
+        least = 1.0 - (1.0 - LEAST_FRICTION) * scene.walker_exponent / SWT_EXPONENT
+    return np.asarray(face & slides & (scene.friction >= least))
 
 
 def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
@@ -187,7 +191,7 @@ def _swt(
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
     of_swt = curves(*planes.on_plane(angle))
-    return of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt)), angle
+    return of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt), walker=planes.walker), angle
 
 
 class _SeenFromEdge(TruncatedParaboloid):

@@ -138,7 +138,8 @@ class _Zoom:
 
     def _within(self, brackets: TimeBrackets) -> Samples:
         history = self.look.line.history(brackets.samples())
-        return Samples(brackets, of_extremes(self.scene.planes(history, self.side[:, None, None])))
+        near = of_extremes(self.scene.planes(history, self.side[:, None, None]))
+        return Samples(brackets, near, self.scene.walker)
 
     def to_maximum(self, samples: Samples, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         """swt and 2θ near a plane (n, X)."""
@@ -168,7 +169,7 @@ def _best_planes(
     of_swt = curves(*planes.on_plane(angle))
     found = []
     for top in (lambda curve: curve.max(axis=-1), lambda curve: lifted(curve, inside).max(axis=-1)):
-        swt = of_maxima(*(top(curve) for curve in of_swt))
+        swt = of_maxima(*(top(curve) for curve in of_swt), walker=planes.walker)
         found.append(np.moveaxis(swt, 0, -1))
     angle = np.moveaxis(angle, 0, -1)
     best, other = (swt.argmax(axis=-1) for swt in found)
@@ -177,7 +178,8 @@ def _best_planes(
     apart &= found[1] >= RIVAL_SHARE * pick(found[1], best)[..., None]
     at = np.nonzero(apart.any(axis=-1) & (best == other))
     if at[0].size:
-        high = of_maxima(*(reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt))
+        reached = (reach(np.stack([start[at] for start in curve]), inside[at]) for curve in of_swt)
+        high = of_maxima(*reached, walker=planes.walker and planes.walker.take(at[0], 0))
         high = np.where(apart[at], np.moveaxis(high, 0, -1), 0.0)
         rival = high.argmax(axis=-1)
         other[at] = np.where(pick(high, rival) > pick(found[1][at], best[at]), rival, best[at])

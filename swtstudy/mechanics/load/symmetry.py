@@ -37,3 +37,37 @@ def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray,
     folded = np.maximum(phase - turns * period, 0.0)
     mirrored = (q % 2 == 1) & (turns % 2 == 1)
     return folded, mirrored
+
+
+def fold_bulk_phase(
+    phase: FloatArray,
+    moves: NDArray[np.bool_],
+    mirrored: NDArray[np.bool_],
+    both_ways: NDArray[np.bool_],
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Fold ψ_B of bulk stresses that oscillate with the tangential load, once ψ is folded.
+
+    Mirroring x leaves a bulk stress as it is, but the shift of time by π/ω2 that flips u flips its
+    oscillation, too.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    moves
+        Shape (n,): whether the bulk stress oscillates; elsewhere it has no phase.
+    mirrored
+        Shape (n,): where `fold_phase` mirrors x.
+    both_ways
+        Shape (n,): whether that shift of time leaves ψ as it is, so that ψ_B + π mirrors x.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent ψ_B in [0, π) or [0, 2π), and whether x is mirrored by both folds together.
+    """
+    phase = phase + np.where(mirrored, np.pi, 0.0)
+    period = np.where(both_ways, 1.0, 2.0) * np.pi
+    turns = np.floor(phase / period + 1e-12)
+    folded = np.maximum(phase - turns * period, 0.0)
+    return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & (turns % 2 == 1))

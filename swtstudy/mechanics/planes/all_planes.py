@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.ascent import climb, normal_weights, swap_instants, symmetric_tensor
-from swtstudy.mechanics.planes.criterion import of_maxima
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker, of_maxima
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
@@ -50,24 +50,29 @@ class CriticalPlane(NamedTuple):
     normal: FloatArray
 
 
-def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> CriticalPlane:
+def swt_of_history(
+    stress: ArrayLike,
+    poisson_ratio: float,
+    young_modulus: float = 1.0,
+    walker_exponent: float = SWT_EXPONENT,
+) -> CriticalPlane:
     """Largest swt over all planes (eq. 9); `swtstudy.swt_of_history`, without its checks of the input."""
     history = np.asarray(stress, dtype=float)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
     strain = strain_history(history, poisson_ratio, young_modulus)
-    start = _starts(history, poisson_ratio)
+    start = _starts(history, poisson_ratio, walker_exponent)
     index = np.tile(np.arange(len(history)), CANDIDATES)
-    swt, normal = climb(history[index], strain[index], start.reshape(-1, 3))
+    walker = Walker.of(walker_exponent, young_modulus, len(index))
+    swt, normal = climb(history[index], strain[index], start.reshape(-1, 3), walker)
     highest = swt.reshape(CANDIDATES, -1).max(axis=0)
     open_ = np.flatnonzero((swt > 0.0) & (swt >= PROMISING * highest[index]) & _distinct(normal))
     for _ in range(LARGEST_SWAPS):
         if not len(open_):
             break
-        some = index[open_]
-        higher, where = climb(
-            history[some], strain[some], swap_instants(history[some], strain[some], normal[open_])
-        )
+        some = history[index[open_]], strain[index[open_]]
+        own = walker and walker.take(open_)
+        higher, where = climb(*some, swap_instants(*some, normal[open_], own), own)
         better = higher > swt[open_]
         open_ = open_[better]
         swt[open_], normal[open_] = higher[better], where[better]
@@ -80,7 +85,11 @@ def swt_of_history(stress: ArrayLike, poisson_ratio: float, young_modulus: float
 
 
 def swt_on_planes(
-    stress: ArrayLike, normals: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0
+    stress: ArrayLike,
+    normals: ArrayLike,
+    poisson_ratio: float,
+    young_modulus: float = 1.0,
+    walker_exponent: float = SWT_EXPONENT,
 ) -> FloatArray:
     """The parameter on given planes.
 
@@ -90,8 +99,8 @@ def swt_on_planes(
         Shape (..., time, 6).
     normals
         Shape (planes, 3), unit vectors.
-    poisson_ratio, young_modulus
-        ν, E.
+    poisson_ratio, young_modulus, walker_exponent
+        ν, E, γ.
 
     Returns
     -------
@@ -104,15 +113,21 @@ def swt_on_planes(
     # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
     on_planes -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
     modulus = young_modulus / (1.0 + poisson_ratio)
-    return of_maxima(tension, on_planes.max(axis=-2) / modulus, -on_planes.min(axis=-2) / modulus)
+    strain = on_planes.max(axis=-2) / modulus, -on_planes.min(axis=-2) / modulus
+    return of_maxima(tension, *strain, walker=Walker.of(walker_exponent, young_modulus))
 
 
-def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0) -> FloatArray:
+def highest_coarse_swt(
+    stress: ArrayLike,
+    poisson_ratio: float,
+    young_modulus: float = 1.0,
+    walker_exponent: float = SWT_EXPONENT,
+) -> FloatArray:
     """Largest parameter over the coarse planes only: a few per cent low, several times as fast.
 
     Parameters
     ----------
-    stress, poisson_ratio, young_modulus
+    stress, poisson_ratio, young_modulus, walker_exponent
         As for `swt_of_history`.
 
     Returns
@@ -125,18 +140,19 @@ def highest_coarse_swt(stress: ArrayLike, poisson_ratio: float, young_modulus: f
     history = history.reshape(-1, *history.shape[-2:])
     normals = hemisphere(COARSE_PLANES).astype(np.float32)
     blocks = (history[first : first + BLOCK] for first in range(0, len(history), BLOCK))
-    swt = [swt_on_planes(block, normals, poisson_ratio, young_modulus).max(axis=1) for block in blocks]
+    of_criterion = poisson_ratio, young_modulus, walker_exponent
+    swt = [swt_on_planes(block, normals, *of_criterion).max(axis=1) for block in blocks]
     return np.concatenate([np.zeros(0), *swt]).reshape(batch)
 
 
-def _starts(stress: FloatArray, poisson_ratio: float) -> FloatArray:
+def _starts(stress: FloatArray, poisson_ratio: float, walker_exponent: float) -> FloatArray:
     """Normals from which to climb, shape (candidates, n, 3)."""
     normals = hemisphere(COARSE_PLANES)
     single, single_normals = stress.astype(np.float32), normals.astype(np.float32)
     start = np.empty((len(stress), CANDIDATES, 3))
     for first in range(0, len(stress), BLOCK):
         part = slice(first, first + BLOCK)
-        swt = swt_on_planes(single[part], single_normals, poisson_ratio)
+        swt = swt_on_planes(single[part], single_normals, poisson_ratio, 1.0, walker_exponent)
         start[part] = normals[np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES]]
         # Tension may be confined to a cone too narrow for the coarse planes.
         blind = first + np.flatnonzero(swt.max(axis=1) <= 0.0)

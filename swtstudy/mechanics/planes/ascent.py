@@ -1,8 +1,9 @@
 """Climbing to the critical plane: Newton's method on the sphere for a product of two quadratic forms.
 
 For a triple of instants (of the largest σ_n, the largest and the smallest ε_n) the parameter is h(n) = (nᵀ
-A n)(nᵀ B n) with A a stress and B half a difference of strains, and swt(n) ≥ h(n) with equality for the
-triple that is active at n. A step that raises h raises swt, whichever triple is active afterwards.
+A n)(nᵀ B n), or powers of both, with A a stress and B half a difference of strains, and swt(n) ≥ h(n) with
+equality for the triple that is active at n. A step that raises h raises swt, whichever triple is active
+afterwards.
 
 On every history of discrete instants swt(n) is scalloped: neighbouring triples have summits of their own
 close by. `swap_instants` looks from one summit to those that a change of one instant reaches.
@@ -13,6 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.planes import criterion
+from swtstudy.mechanics.planes.criterion import Walker
 from swtstudy.mechanics.points import FloatArray
 
 #: Largest step of a climb, rad. Half or twice: 2e-16 in 16 values of bodies.
@@ -46,7 +48,9 @@ def symmetric_tensor(components: FloatArray) -> FloatArray:
     return components[..., [[0, 5, 4], [5, 1, 3], [4, 3, 2]]]
 
 
-def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[FloatArray, FloatArray]:
+def climb(
+    stress: FloatArray, strain: FloatArray, start: FloatArray, walker: Walker | None = None
+) -> tuple[FloatArray, FloatArray]:
     """Climb to a summit of swt(n) for each history.
 
     Parameters
@@ -55,6 +59,8 @@ def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[Fl
         Shape (n, time, 6).
     start
         Shape (n, 3): unit normals.
+    walker
+        The criterion, shape (n,); None for swt.
 
     Returns
     -------
@@ -62,18 +68,19 @@ def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[Fl
         Shapes (n,), (n, 3).
     """
     normal = start.copy()
-    swt, tension, elongation = _active_forms(stress, strain, normal)
+    swt, tension, elongation = _active_forms(stress, strain, normal, walker)
     trust = np.full(len(normal), LARGEST_STEP)
     going = np.flatnonzero(swt > 0.0)
     for _ in range(LARGEST_ITERATIONS):
         if not len(going):
             break
-        here = normal[going]
+        here, own = normal[going], walker and walker.take(going)
         tangent = _tangent_basis(here)
         jets = _jet_weights(here, tangent)
-        step, _ = _newton_step(_apply(jets, tension[going]), _apply(jets, elongation[going]), trust[going])
+        forms = _apply(jets, tension[going]), _apply(jets, elongation[going])
+        step, _ = _newton_step(*forms, trust[going], own)
         trial = _move(here, tangent, step)
-        value, new_tension, new_elongation = _active_forms(stress[going], strain[going], trial)
+        value, new_tension, new_elongation = _active_forms(stress[going], strain[going], trial, own)
         up = value > swt[going]
         moved = going[up]
         swt[moved], normal[moved] = value[up], trial[up]
@@ -83,7 +90,9 @@ def climb(stress: FloatArray, strain: FloatArray, start: FloatArray) -> tuple[Fl
     return swt, normal
 
 
-def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) -> FloatArray:
+def swap_instants(
+    stress: FloatArray, strain: FloatArray, normal: FloatArray, walker: Walker | None = None
+) -> FloatArray:
     """From each summit, the normal at which some other triple promises to be higher.
 
     Parameters
@@ -92,6 +101,8 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
         Shape (n, time, 6).
     normal
         Shape (n, 3): summits for their active triples, with swt > 0.
+    walker
+        The criterion, shape (n,); None for swt.
 
     Returns
     -------
@@ -113,10 +124,12 @@ def swap_instants(stress: FloatArray, strain: FloatArray, normal: FloatArray) ->
     possible = (forms[..., 0] > 0.0) & (changes[..., 0] > 0.0)
     possible[:, :: top.shape[1]] = False
     forms[~possible] = changes[~possible] = 1.0
+    of_all = walker and walker.take(np.repeat(np.arange(len(normal)), possible.shape[1]))
     steps, gain = _newton_step(
-        forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, LARGEST_STEP)
+        forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, LARGEST_STEP), of_all
     )
-    height = np.log(criterion.combined(forms[..., 0], changes[..., 0])) + gain.reshape(possible.shape)
+    value = criterion.combined(forms[..., 0], changes[..., 0], of_all and of_all.reshape(*possible.shape))
+    height = np.log(value) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
     return _move(normal, tangent, steps.reshape(*possible.shape, 2)[np.arange(len(normal)), best])
 
@@ -134,7 +147,7 @@ def _ranked(jets: FloatArray) -> FloatArray:
 
 
 def _active_forms(
-    stress: FloatArray, strain: FloatArray, normal: FloatArray
+    stress: FloatArray, strain: FloatArray, normal: FloatArray, walker: Walker | None
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The parameter on one plane per history, with the stress and half the strain change of its triple.
 
@@ -148,11 +161,13 @@ def _active_forms(
     elongation = (strain @ weights)[..., 0]
     row = np.arange(len(stress))
     top, high, low = tension.argmax(axis=1), elongation.argmax(axis=1), elongation.argmin(axis=1)
-    swt = criterion.of_maxima(tension[row, top], elongation[row, high], -elongation[row, low])
+    swt = criterion.of_maxima(tension[row, top], elongation[row, high], -elongation[row, low], walker=walker)
     return swt, stress[row, top], 0.5 * (strain[row, high] - strain[row, low])
 
 
-def _newton_step(first: FloatArray, second: FloatArray, trust: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _newton_step(
+    first: FloatArray, second: FloatArray, trust: FloatArray, walker: Walker | None
+) -> tuple[FloatArray, FloatArray]:
     """Step to the summit of ln swt within the trust region, and the gain that the model promises.
 
     Parameters
@@ -161,13 +176,15 @@ def _newton_step(first: FloatArray, second: FloatArray, trust: FloatArray) -> tu
         Shape (n, 6): jets of the tension and of the amplitude, both positive.
     trust
         Shape (n,): largest length of the step, rad.
+    walker
+        The criterion, shape (n,); None for swt.
 
     Returns
     -------
     step, gain
         Shapes (n, 2) and (n,).
     """
-    slope, stiffness = criterion.log_derivatives(first, second)
+    slope, stiffness = criterion.log_derivatives(first, second, walker)
     slope_1, slope_2 = slope.T
     # Positive definite on a summit.
     stiff_11, stiff_22, stiff_12 = stiffness.T

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes import criterion
+from swtstudy.mechanics.planes.criterion import Walker
 from swtstudy.mechanics.points import FloatArray
 
 #: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.
@@ -38,26 +39,37 @@ class PlaneHistory:
         Shape (3, …, T): A, B, C of σ_n in E* √(δ0/R).
     strain
         Shape (3, …, T): A, B, C of ε_n in √(δ0/R).
+    walker
+        Shape (…) or broadcast to it: the criterion; None for swt.
     """
 
     stress: FloatArray
     strain: FloatArray
+    walker: Walker | None = None
 
     @classmethod
     def from_stresses(
-        cls, sigma: tuple[FloatArray, FloatArray, FloatArray, FloatArray], poisson_ratio: FloatArray
+        cls,
+        sigma: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+        poisson_ratio: FloatArray,
+        walker_exponent: FloatArray | None = None,
     ) -> PlaneHistory:
-        """From σ_xx, σ_yy, σ_zz, σ_xz of shape (n, …, T) and ν of shape (n,), with E = (1 − ν²) E*."""
+        """From σ_xx, σ_yy, σ_zz, σ_xz of shape (n, …, T), with E = (1 − ν²) E*; ν and γ of shape (n,)."""
         xx, yy, zz, xz = sigma
         nu = poisson_ratio.reshape((-1,) + (1,) * (xx.ndim - 1))
         stress = np.stack([0.5 * (xx + zz), 0.5 * (xx - zz), np.broadcast_to(xz, xx.shape)])
         strain = stress / (1.0 - nu)
         strain[0] -= (nu / (1.0 - nu * nu)) * (2.0 * stress[0] + yy)
-        return cls(stress, strain)
+        if walker_exponent is None:
+            return cls(stress, strain)
+        γ = walker_exponent.reshape(nu.shape[:-1])
+        return cls(stress, strain, Walker(γ, 1.0 - nu[..., 0] ** 2))
 
     def take(self, *index: NDArray[np.intp] | slice) -> PlaneHistory:
         """Those at ``index`` of the points' axes."""
-        return PlaneHistory(self.stress[:, *index], self.strain[:, *index])
+        # The criterion is that of the point at all its positions.
+        walker = self.walker and self.walker.take(index[0], *(0 for _ in index[1:]))
+        return PlaneHistory(self.stress[:, *index], self.strain[:, *index], walker)
 
     def on_plane(self, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         """σ_n and ε_n, shape (…, T), on the planes at 2θ, shape (…)."""
@@ -92,7 +104,8 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
     starts = np.stack([best[at], np.where(left > right, best[at] - 1, best[at] + 1)]) * step
     some = history.take(*at)
     starts = climb_over_planes(some, starts, 1)
-    found = criterion.of_maxima(*(curve.max(axis=-1) for curve in criterion.curves(*some.on_plane(starts))))
+    tops = (curve.max(axis=-1) for curve in criterion.curves(*some.on_plane(starts)))
+    found = criterion.of_maxima(*tops, walker=some.walker)
     swt[at], angle[at] = found.max(axis=0), np.where(found[1] > found[0], starts[1], starts[0])
     return swt, angle
 
@@ -103,14 +116,14 @@ def _on_planes(history: PlaneHistory, count: int) -> FloatArray:
     stress, strain = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.strain))
     table = np.empty((count, *stress.shape[2:]))
     step, half = 2.0 * np.pi / count, count // 2
-    curve = np.empty_like(stress[0])
+    curve, walker = np.empty_like(stress[0]), history.walker
     for k in range(half):
         of_stress, of_strain = (b * np.cos(k * step) + c * np.sin(k * step) for _, b, c in (stress, strain))
         # Half a turn of 2θ further the wave has the other sign.
         for plane, combine in ((k, np.add), (k + half, np.subtract)):
             tension = combine(stress[0], of_stress, out=curve).max(axis=0)
             combine(strain[0], of_strain, out=curve)
-            table[plane] = criterion.of_maxima(tension, curve.max(axis=0), -curve.min(axis=0))
+            table[plane] = criterion.of_maxima(tension, curve.max(axis=0), -curve.min(axis=0), walker=walker)
     return table
 
 
@@ -136,12 +149,14 @@ def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: i
                 (history.strain, strain.argmin(axis=-1)),
             )
         )
-        double_angle = best_angle(peak, high - low, double_angle)
+        double_angle = best_angle(peak, high - low, double_angle, history.walker)
     return double_angle
 
 
-def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) -> FloatArray:
-    """Maximum over 2θ of (A + B cos + C sin)(D + E cos + F sin) near ``double_angle``.
+def best_angle(
+    peak: FloatArray, swing: FloatArray, double_angle: FloatArray, walker: Walker | None = None
+) -> FloatArray:
+    """Maximum over 2θ of (A + B cos + C sin)(D + E cos + F sin), or of powers of both, near ``double_angle``.
 
     Parameters
     ----------
@@ -149,6 +164,8 @@ def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) ->
         Shape (3, …): coefficients of σ_n at its maximum, and of ε_n between its extremes.
     double_angle
         Shape (…), rad.
+    walker
+        The criterion; None for swt.
     """
     (a, b, c), (d, e, f) = peak, swing
     angle = double_angle
@@ -156,7 +173,7 @@ def best_angle(peak: FloatArray, swing: FloatArray, double_angle: FloatArray) ->
         cosine, sine = np.cos(angle), np.sin(angle)
         u, v = b * cosine + c * sine, e * cosine + f * sine
         du, dv = c * cosine - b * sine, f * cosine - e * sine
-        slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v))
+        slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v), walker)
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
         angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
     return angle

@@ -42,6 +42,8 @@ def circle_stress(
     across = ν * c * (2.0 * c * c * k - 3.0 * j)
     stress = np.zeros((*np.broadcast_shapes(c.shape, t1.shape), 6))
     stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * t1 * c + across
+    if history.bulk is not None:
+        stress[..., 0] += history.bulk[:, None]
     stress[..., 1] = radial * s * s + hoop * c * c - across
     stress[..., 2] = -history.pressure[:, None]
     stress[..., 4] = (μ * history.traction)[:, None]

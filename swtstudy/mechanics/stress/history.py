@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,8 @@ class History:
         T1 and T3 with the springs' τ′: (1/π) ∫ 2 sin φ τ′ dφ and (1/π) ∫ 2 sin³φ τ′ dφ.
     traction
         (1/π) ∫ τ′ dξ/√(ξ²−r²) over the springs outside r: −q/μ.
+    bulk
+        B, what a bulk stress adds to σ_xx; None without one.
     """
 
     pressure: FloatArray
@@ -31,20 +33,35 @@ class History:
     tangential_1: FloatArray
     tangential_3: FloatArray
     traction: FloatArray
+    bulk: FloatArray | None = None
 
     def take(self, *index: NDArray[np.intp] | int) -> History:
         """The blocks at ``index`` of the leading axes."""
-        return History(*(values[index] for values in vars(self).values()))
+        bulk = None if self.bulk is None else self.bulk[index]
+        return History(*(values[index] for values in self._blocks)).carrying(bulk)
 
     def with_tangential_sign(self, sign: float | FloatArray) -> History:
         """The same with the tangential load times ±1."""
         tangential = (sign * v for v in (self.tangential_1, self.tangential_3, self.traction))
-        return History(self.pressure, self.mean_pressure, *tangential)
+        return History(self.pressure, self.mean_pressure, *tangential).carrying(self.bulk)
 
     def joined(self, other: History) -> History:
         """These instants, then the other ones."""
-        both = zip(vars(self).values(), vars(other).values(), strict=True)
-        return History(*(np.concatenate(pair, axis=-1) for pair in both))
+        both = zip(self._blocks, other._blocks, strict=True)
+        bulk = None
+        if self.bulk is not None and other.bulk is not None:
+            bulk = np.concatenate([self.bulk, other.bulk], axis=-1)
+        return History(*(np.concatenate(pair, axis=-1) for pair in both)).carrying(bulk)
+
+    def carrying(self, bulk: FloatArray | None) -> History:
+        """The same with a bulk stress, shape (n, X, T)."""
+        return replace(self, bulk=bulk)
+
+    @property
+    def _blocks(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """What the contact makes."""
+        of_traction = self.tangential_1, self.tangential_3, self.traction
+        return self.pressure, self.mean_pressure, *of_traction
 
 
 def stresses(
@@ -67,5 +84,7 @@ def stresses(
     sigma_xx = (
         spread - history.pressure + pull * ((1.0 + nu) * history.tangential_1 - nu * history.tangential_3)
     )
+    if history.bulk is not None:
+        sigma_xx = sigma_xx + history.bulk
     sigma_yy = -spread - 2.0 * nu * history.pressure + pull * nu * history.tangential_3
     return sigma_xx, sigma_yy, -history.pressure, mu * history.traction

@@ -20,6 +20,7 @@ from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
 
@@ -27,6 +28,8 @@ from swtstudy.mechanics.stress.history import History
 #: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart,
 #: and from the coordinate to the instant and back there are five roundings. 1e-15: 5e-7 at rtol 1e-6.
 COORDINATE, INSTANT = 2e-15, 2.5e-15
+#: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
+OUTSIDE = 1.1
 
 
 def arrival(
@@ -60,27 +63,44 @@ class SurfaceLine:
         Shape (n, X): r = |x| > 0 in a_H.
     digits
         Digits of the largest stress to which tables and series are made.
+    bulk
+        n bulk stresses, or None.
     """
 
-    def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
+    def __init__(
+        self,
+        cycle: Cycle,
+        coordinate: Coordinate,
+        position: FloatArray,
+        digits: float,
+        bulk: BulkStress | None = None,
+    ) -> None:
         self.cycle, self.coordinate, self.position, self.digits = cycle, coordinate, position, digits
-        self.primitives = coordinate.profile.primitives(position, digits)
-        at = coordinate.of(position)
+        self.primitives, self.bulk = coordinate.profile.primitives(position, digits), bulk
+        #: r, or a radius outside of the contact that no edge reaches either.
+        self.touched = position if bulk is None else self._near_contact()
+        at = coordinate.of(self.touched)
         #: The coordinate of r, and how near to it a contact edge, and a slip front, has arrived, (n, X, 1).
         self.at = at[:, :, None]
         self.edge_near, self.front_near = (
-            distance[:, :, None] for distance in arrival(cycle.load, coordinate, position, at)
+            distance[:, :, None] for distance in arrival(cycle.load, coordinate, self.touched, at)
         )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
 
+    def _near_contact(self) -> FloatArray:
+        """The positions, those far outside of the largest contact nearer to it: a profile ends there."""
+        largest = self.coordinate.radius(self.cycle.load.largest_normal[:, None])
+        return np.minimum(self.position, OUTSIDE * largest)
+
     def take(self, index: NDArray[np.intp]) -> SurfaceLine:
         """The lines at ``index`` with their positions, repetitions allowed."""
         taken = copy(self)
         taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
         taken.position, taken.base = self.position[index], self.base[:, index]
+        taken.touched, taken.bulk = self.touched[index], self.bulk and self.bulk.take(index)
         taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
         taken.at = self.at[index]
         taken.edge_near, taken.front_near = self.edge_near[index], self.front_near[index]
@@ -144,8 +164,10 @@ class SurfaceLine:
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
         load = nodes.spread(profile.half_load(edge_radius))
-        inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
-        return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
+        inside = np.minimum(load, profile.half_load(self.touched)[:, :, None])
+        blocks = outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential
+        history = History(*blocks)
+        return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
 
     def _spread_radius(
         self, nodes: Nodes, radius: FloatArray, coordinate: FloatArray, near: FloatArray

@@ -11,11 +11,14 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.control.diagram import diagram
+from swtstudy.mechanics.events.passages import split_at
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.parameters import Control
 
@@ -32,12 +35,18 @@ class Scene:
         The coordinate of their memory diagrams, which knows the n profiles.
     poisson_ratio, friction
         Shape (n,).
+    walker_exponent
+        Shape (n,): γ of the criterion; None where it is 1/2 for all of them.
+    bulk
+        n bulk stresses, at whose turning instants the cycles are cut, see `carrying`; None without.
     """
 
     cycle: Cycle
     coordinate: Coordinate
     poisson_ratio: FloatArray
     friction: FloatArray
+    walker_exponent: FloatArray | None = None
+    bulk: BulkStress | None = None
 
     def __len__(self) -> int:
         return len(self.friction)
@@ -54,22 +63,53 @@ class Scene:
             self.coordinate.take(index),
             self.poisson_ratio[index],
             self.friction[index],
+            None if self.walker_exponent is None else self.walker_exponent[index],
+            self.bulk and self.bulk.take(index),
         )
+
+    def with_own(self, points: Points) -> Scene:
+        """The same with the criterion and the bulk stresses of its n points."""
+        γ = points.walker_exponent
+        own = replace(self, walker_exponent=None if (γ == SWT_EXPONENT).all() else γ)
+        return own.carrying(bulk_of(points))
+
+    def carrying(self, bulk: BulkStress | None) -> Scene:
+        """The same with bulk stresses."""
+        if bulk is None or not bulk.moves.any():
+            return replace(self, bulk=bulk)
+        return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants())[0])
+
+    @property
+    def mirrored_half(self) -> bool:
+        """Whether half a period later the stress is the same at −x."""
+        return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
     def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
         """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
         return replace(self.take(index), cycle=self.cycle.select(index, keep))
 
+    @property
+    def one_walker_exponent(self) -> float:
+        """γ of a batch of one point."""
+        return SWT_EXPONENT if self.walker_exponent is None else float(self.walker_exponent[0])
+
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
         """σ_n and ε_n on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
-        return PlaneHistory.from_stresses(sigma, self.poisson_ratio)
+        return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.walker_exponent)
+
+    @property
+    def walker(self) -> Walker | None:
+        """The criterion at positions of shape (n, X)."""
+        if self.walker_exponent is None:
+            return None
+        return Walker(self.walker_exponent[:, None], 1.0 - self.poisson_ratio[:, None] ** 2)
 
 
 def scene_of(points: Points) -> Scene:
     """The scenes of points whose loads are alike, each with a contact solution of its own."""
     own = points.poisson_ratio, points.friction, points.profile, points.shape
-    return prescribed_scene(load_of(points), points.control, *own)
+    return prescribed_scene(load_of(points), points.control, *own).with_own(points)
 
 
 def prescribed_scene(

@@ -1,0 +1,194 @@
+"""Walker's mean-stress exponent: closed forms, brute force, and the way back to swt at γ = 1/2."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scenes import PROFILE_NAMES, points, random_points, take
+from scipy.spatial.transform import Rotation
+from test_critical_plane_3d import rotated, smooth_histories
+from test_values import ALIGNED
+
+import swtstudy
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.body.body_maximum import body_maximum
+from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.planes.all_planes import swt_of_history
+from swtstudy.mechanics.planes.ascent import symmetric_tensor
+from swtstudy.mechanics.planes.criterion import Walker, derivatives, log_derivatives
+from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.reference.textbook import textbook_s
+
+Array = NDArray[np.float64]
+SEVERAL = np.array([0.1, 0.3, 0.5, 0.7, 0.85])
+
+
+def with_exponent(batch: Points, exponent: Any) -> Points:
+    return replace(batch, walker_exponent=np.broadcast_to(exponent, (len(batch),)).astype(float))
+
+
+def test_swt_is_what_it_was_to_the_last_bit() -> None:
+    batch = random_points(4, 12)
+    plain, given = solve_points(batch), solve_points(with_exponent(batch, 0.5))
+    for name, values in vars(plain).items():
+        np.testing.assert_array_equal(getattr(given, name), values)
+
+
+def test_points_with_other_exponents_leave_swt_alone() -> None:
+    batch = random_points(4, 6, largest_term=1)
+    mixed = solve_points(with_exponent(batch, [0.5, 0.3, 0.5, 0.8, 0.5, 0.7]))
+    alone = solve_points(take(batch, [0, 2, 4]))
+    np.testing.assert_array_equal(mixed.s[::2], alone.s)
+    np.testing.assert_array_equal(mixed.critical_x[::2], alone.critical_x)
+
+
+def edge_of_constant_depth(nu: float, mu: float, amplitude: float) -> tuple[float, float]:
+    """Largest σ_xx and (1 − ν²) times the amplitude of ε_xx at |x| = a for δA = 0: Cattaneo–Mindlin."""
+    theta = np.arcsin(np.sqrt(1.0 - amplitude))
+    i = 0.5 * (0.5 * np.pi - theta) + 0.25 * np.sin(2.0 * theta)
+    j = (0.5 * np.pi - theta) / 8.0 + np.sin(4.0 * theta) / 32.0
+    pull, hoop = 2.0 * mu * (i + nu * j), 2.0 * nu * mu * (i - j)
+    return 2.0 / np.pi * ((1.0 - 2.0 * nu) / 3.0 + pull), 2.0 / np.pi * (pull - nu * hoop)
+
+
+@pytest.mark.parametrize(("nu", "mu", "amplitude"), [(0.3, 0.3, 5 / 6), (0.0, 0.8, 0.5), (0.45, 0.5, 0.2)])
+def test_constant_depth_has_a_closed_form(nu: float, mu: float, amplitude: float) -> None:
+    batch = with_exponent(points("paraboloid", nu, mu, 0.0, amplitude * np.ones(5)), SEVERAL)
+    found = solve_points(batch, 1e-7)
+    tension, swing = edge_of_constant_depth(nu, mu, amplitude)
+    expected = tension ** (2.0 - 2.0 * SEVERAL) * swing ** (2.0 * SEVERAL) / (1.0 - nu**2)
+    np.testing.assert_allclose(found.s, expected, rtol=1e-6)
+    np.testing.assert_allclose(np.abs(found.critical_x), 1.0, rtol=1e-9)
+
+
+def test_s_is_continuous_in_the_exponent() -> None:
+    batch = points(phase=[0.0, 1.0, 2.3])
+    at, near = (solve_points(with_exponent(batch, γ), 1e-7).s for γ in (0.5, 0.5 + 1e-9))
+    np.testing.assert_allclose(near, at, rtol=1e-7)
+
+
+def test_where_the_critical_point_jumps_s_does_not() -> None:
+    """ψ = 1 at Table 1: from the edge on the x-normal to oblique planes well inside the contact."""
+    γ = np.linspace(0.6, 0.7, 11)
+    found = solve_points(with_exponent(points(phase=np.ones(11)), γ), 1e-6)
+    jump = np.abs(np.diff(np.abs(found.critical_x)))
+    assert jump.max() > 0.3
+    assert np.sort(jump)[-2] < 0.05
+    assert np.abs(np.diff(np.log(found.s), n=2)).max() < 0.06
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.8])
+@pytest.mark.parametrize("profile", PROFILE_NAMES)
+def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> None:
+    point = with_exponent(random_points(3, 1, profile, largest_term=3), exponent)
+    ratio = textbook_s(point, **{**ALIGNED, "positions": 400}).s / solve_points(point).s[0]
+    # As at γ = 1/2, but a small γ doubles the weight of the tension, whose cusps in x are missed.
+    assert 1.0 - 4e-2 < ratio < 1.0 + 7e-4
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.5, 0.7, 0.9])
+def test_all_planes_against_brute_force_and_rotation(exponent: float) -> None:
+    nu, modulus = 0.3, 7.0
+    stress = smooth_histories(np.random.default_rng(5), 40)
+    swt, normal = swt_of_history(stress, nu, modulus, exponent)
+    tensor = symmetric_tensor(stress)
+    strain = (
+        (1.0 + nu) * tensor - nu * np.trace(tensor, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+    ) / (modulus)
+
+    def on(normals: Array) -> Array:
+        tension, elongation = (
+            np.einsum("...pi,...tij,...pj->...tp", normals, v, normals) for v in (tensor, strain)
+        )
+        high = np.maximum(tension.max(axis=-2), 0.0)
+        return (
+            high ** (2 - 2 * exponent)
+            * (modulus * np.ptp(elongation, axis=-2) / 2) ** (2 * exponent)
+            / modulus
+        )
+
+    # 3,000 planes are 3° apart.
+    brute = on(np.broadcast_to(hemisphere(3000), (40, 3000, 3))).max(axis=1)
+    assert np.all(brute <= swt * (1.0 + 1e-12))
+    np.testing.assert_allclose(brute, swt, rtol=1e-2)
+    np.testing.assert_allclose(on(normal[:, None])[:, 0], swt, rtol=1e-12)
+    rotations = Rotation.random(40, random_state=3).as_matrix()
+    turned, _ = swt_of_history(rotated(stress, rotations), nu, modulus, exponent)
+    np.testing.assert_allclose(turned, swt, rtol=1e-10)
+
+
+def test_derivatives_are_those_of_the_powers() -> None:
+    rng = np.random.default_rng(0)
+    first, second = rng.uniform(0.5, 2.0, (2, 6, 40))
+    γ = rng.uniform(0.1, 0.9, 40)
+    walker = Walker(γ, np.ones(40))
+    slope, stiffness = log_derivatives(first.T, second.T, walker)
+    α, β = 2.0 - 2.0 * γ, 2.0 * γ
+    f, g = first / first[0], second / second[0]
+    np.testing.assert_allclose(slope, (α * f[1:3] + β * g[1:3]).T, rtol=1e-13)
+    bend = α * (f[3] - f[1] ** 2) + β * (g[3] - g[1] ** 2)
+    np.testing.assert_allclose(stiffness[:, 0], -bend, rtol=1e-12)
+    # Both first derivatives vanish at one place, and the bends there differ by a positive factor.
+    zero = np.zeros(40)
+    rise, fall = derivatives((first[0], zero, first[3]), (second[0], zero, second[3]), walker)
+    assert np.all(rise == 0.0)
+    np.testing.assert_allclose(fall / first[0] / second[0] * α, α * f[3] + β * g[3], rtol=1e-13)
+
+
+def test_the_body_says_the_same_as_the_line() -> None:
+    for exponent in (0.3, 0.7):
+        point = with_exponent(points(phase=1.0), exponent)
+        line = solve_points(point, 1e-6)
+        body, at_line = body_maximum(scene_of(point), float(line.critical_x[0]))
+        assert at_line.swt == pytest.approx(line.s[0], rel=1e-5)
+        assert body.swt == pytest.approx(line.s[0], rel=1e-4)
+
+
+def test_fields_and_means_have_the_exponent() -> None:
+    parameters: dict[str, Any] = {"phase": 1.0, "walker_exponent": 0.3}
+    solved = swtstudy.solve(**parameters)
+    x = float(solved.critical_x)
+    field = swtstudy.swt_field(x, 0.0, 0.0, **parameters)
+    assert float(field.s_local) == pytest.approx(float(solved.s), rel=3e-3)
+    means = swtstudy.solve(critical_distance=1e-6, **parameters)
+    assert float(means.s_line.sel(direction="depth").squeeze()) == pytest.approx(float(solved.s), rel=0.01)
+    stress = swtstudy.stress_field(x, 0.0, 0.0, **parameters)
+    history = np.stack([stress[name].values for name in stress if name.startswith("sigma")], axis=-1)
+    own = swtstudy.swt_of_history(history, 0.3, 1.0 - 0.3**2, walker_exponent=0.3)
+    assert float(own.swt) == pytest.approx(float(solved.s), rel=2e-5)
+    shown = swtstudy.inspect_point(**parameters)
+    assert float(shown.s_local.max()) == pytest.approx(float(solved.s), rel=1e-2)
+
+
+@pytest.mark.parametrize("exponent", [0.0, 0.95, -1.0, "many"])
+def test_exponents_that_are_none(exponent: object) -> None:
+    allowed = r"walker_exponent: found .*; allowed: a number in \(0, 0.9\]"
+    with pytest.raises(swtstudy.StudyError, match=allowed):
+        swtstudy.solve(walker_exponent=exponent)
+    with pytest.raises(swtstudy.StudyError, match=allowed):
+        swtstudy.swt_of_history(np.ones((3, 6)), 0.3, walker_exponent=exponent)  # type: ignore[arg-type]
+
+
+def test_a_life_takes_swt_of_every_exponent_in_the_same_equation() -> None:
+    """σ_ar = √(E SWT_γ): for R = −1 all exponents have the same life."""
+    contact = swtstudy.physical(
+        young_modulus=200e3,
+        poisson_ratio=0.3,
+        radius=10.0,
+        depth=0.01,
+        friction=0.4,
+        tangential_amplitude=0.005,
+    )
+    other = contact.with_parameters(walker_exponent=0.3)
+    assert (contact.parameters()["walker_exponent"], other.parameters()["walker_exponent"]) == (0.5, 0.3)
+    ratio = other.solve().SWT / contact.solve().SWT
+    s = swtstudy.solve(**{**contact.parameters(), "walker_exponent": [0.5, 0.3]}).s
+    np.testing.assert_allclose(ratio, float(s[1] / s[0]), rtol=1e-12)
+    wave = np.zeros((2, 6))
+    wave[:, 0] = 100.0, -100.0
+    for exponent in (0.2, 0.5, 0.9):
+        assert swt_of_history(wave, 0.3, 200e3, exponent).swt == pytest.approx(100.0**2 / 200e3, rel=1e-12)
