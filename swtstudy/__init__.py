@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
+    from swtstudy.optimum.optimise import optimise
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FatigueConstants",
+    "LoadPath",
     "Study",
     "StudyError",
     "__version__",
@@ -36,6 +39,7 @@ __all__ = [
     "inspect_point",
     "nonlocal_swt",
     "open_results",
+    "optimise",
     "physical",
     "run",
     "run_suite",
@@ -49,6 +53,7 @@ __all__ = [
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
     "FatigueConstants": "swtstudy.contacts.life",
+    "LoadPath": "swtstudy.mechanics.load.load_path",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "audit_study": "swtstudy.audit.audit",
@@ -56,6 +61,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.open",
+    "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",

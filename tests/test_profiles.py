@@ -209,10 +209,9 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     radius = np.append(position, batch(indenter).radius(np.array([[0.6]]))[0])
     radius = np.sort(np.minimum(radius, batch(indenter).radius(np.array([[DEEPEST]]))[0, 0]))
     primitives = batch(indenter).primitives(position[None], 9.0)
-    inner, outer = (
-        f(np.broadcast_to(radius, (1, position.size, radius.size)))[:, 0]
-        for f in (primitives.inner, primitives.outer)
-    )
+    upper = np.broadcast_to(radius, (1, position.size, radius.size))
+    inner, outer = (f(upper)[:, 0] for f in (primitives.inner, primitives.outer))
+    np.testing.assert_array_equal(primitives.pressure(upper)[0], outer[0])
     largest = max(inner.max(), outer.max(), 1.0)
     for k, r in enumerate(position):
         for j in range(k % 3, radius.size, 3):

@@ -61,10 +61,10 @@ class House:
 
 WHOLE = House(
     "swtstudy",
-    ("parameters", "mistakes", "numbers", "accuracy", "version", "files", "wording"),
+    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording", "quantities"),
     (
         *("mechanics", "reference", "grid", "units", "study", "records", "archive", "runner", "results"),
-        *("solving", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
+        *("solving", "optimum", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )
@@ -73,7 +73,7 @@ MECHANICS = House(
     ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("solver", "__init__"),
+        *("solver", "quantities", "__init__"),
     ),
 )
 

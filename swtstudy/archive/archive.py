@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import platform
-from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -13,7 +12,9 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.grid.canonical import describe_point
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
+from swtstudy.quantities import variables_of
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -54,19 +55,20 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
+    arrays |= {name: records.quantity(name)[points.index] for name in variables_of(study.quantities)}
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
-    dataset.status.attrs["failures"] = json.dumps(failures(records))
+    dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))
 
 
-def failures(records: Records) -> list[dict[str, Any]]:
+def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]:
     """The failed points: canonical row, description and message of each."""
     return [
         {
             "row": records.table[index].tolist(),
-            "point": describe_point(records.table[index]),
+            "point": describe_point(records.table[index], definitions),
             "message": records.messages.get(int(index), ""),
         }
         for index in np.flatnonzero(records.status == FAILED)
@@ -91,8 +93,14 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "wall_time_seconds": round(seconds, 3),
         "computing_time_seconds": round(sum(run.seconds for run in records.runs), 3),
         "study": study.text,
-        "runs": json.dumps([asdict(run) for run in records.runs]),
+        "runs": json.dumps([run.to_json() for run in records.runs]),
     }
+    defined = [
+        {"parameter": each.parameter, "name": each.name, "content": each.content()}
+        for each in study.grid.definitions.values()
+    ]
+    if defined:
+        attributes["definitions"] = json.dumps(defined)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

@@ -11,7 +11,7 @@ from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, STATES
+from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -31,6 +31,9 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
         if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
     yield f"  prescribed     {grid_of(dataset).control.name}"
+    asked = made_by(read_runs(attributes["runs"]))
+    if asked:
+        yield f"  quantities     {', '.join(asked)}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"

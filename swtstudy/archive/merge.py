@@ -15,11 +15,13 @@ from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
-from swtstudy.grid.values import Value
+from swtstudy.grid.values import Value, as_number
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, matching
+from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
@@ -59,24 +61,27 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
-    _refuse_conflicts(paths, records, sources)
     grids = [grid_of(dataset) for dataset in datasets]
     _refuse_other_controls(paths, grids)
     grid = _union(grids)
+    _refuse_conflicts(paths, records, sources, grid.definitions)
     points = unique_points(grid)
     made = f"merged from {', '.join(path.name for path in paths)}"
     absent = look_up(points.table, records, np.ones(len(records), bool)) < 0
     if absent.any():
         gaps = f"{int(absent[points.index].sum())} of {grid.size} points"
         if not sparse:
-            example = describe_point(points.table[np.flatnonzero(absent)[0]])
+            example = describe_point(points.table[np.flatnonzero(absent)[0]], points.definitions)
             raise GapsError(
                 f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
                 "--sparse (sparse=True in Python) leaves them missing"
             )
         made += f", {gaps} in none of them"
     merged = matching(points.table, records, records.status != MISSING)
-    study = _study(paths, datasets, grid)
+    quantities = made_by(records.runs)
+    if not sparse:
+        _refuse_gaps_in_quantities(paths, merged, quantities, grid.definitions)
+    study = _study(paths, datasets, grid, quantities)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
@@ -103,7 +108,9 @@ def _refuse_other_controls(paths: Sequence[Path], grids: list[Grid]) -> None:
         raise ConflictError(f"results of different prescribed loads cannot be merged: {words}")
 
 
-def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray) -> None:
+def _refuse_conflicts(
+    paths: Sequence[Path], records: Records, sources: NDArray, definitions: Definitions
+) -> None:
     computed = np.flatnonzero(records.status == COMPUTED)
     first, group = group_rows(records.table[computed])
     one, other = computed[first[group]], computed
@@ -117,8 +124,20 @@ def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray)
         index = int(np.flatnonzero(apart)[0])
         a, b = (f"{s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other))
         more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
-        point = describe_point(records.table[one[index]])
+        point = describe_point(records.table[one[index]], definitions)
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
+
+
+def _refuse_gaps_in_quantities(
+    paths: Sequence[Path], merged: Records, names: tuple[str, ...], definitions: Definitions
+) -> None:
+    for name, lacks in zip(names, merged.lacking(names).T, strict=True):
+        if lacks.any():
+            example = describe_point(merged.table[np.flatnonzero(lacks)[0]], definitions)
+            raise GapsError(
+                f"{name} is known of some points in {_names(paths)}, but not of {int(lacks.sum())} others, "
+                f"such as {example}; --sparse (sparse=True in Python) leaves it NaN, and a run computes it"
+            )
 
 
 def _union(grids: list[Grid]) -> Grid:
@@ -132,13 +151,15 @@ def _union(grids: list[Grid]) -> Grid:
 
 def _distinct(values: list[Value]) -> tuple[Value, ...]:
     """Distinct values, numbers in increasing order."""
-    keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
-    if any(isinstance(value, str) for value in values):
+    if any(isinstance(value, str | Named) for value in values):
         return tuple(dict.fromkeys(values))
-    return tuple(sorted(keyed.values()))
+    keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
+    return tuple(sorted(keyed.values(), key=as_number))
 
 
-def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:
+def _study(
+    paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, quantities: tuple[str, ...]
+) -> Study:
     """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
@@ -147,7 +168,7 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Stu
         layout = read_figure(datasets[0].attrs["figure"])
         if {name for _, name in layout.roles()} == set(grid.dims):
             figure = layout
-    text = to_toml(" + ".join(titles), rtol, grid, figure)
+    text = to_toml(" + ".join(titles), rtol, grid, figure, quantities)
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:

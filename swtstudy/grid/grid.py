@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import COLUMNS, canonical_number, canonical_points
+from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import PAIRS, PARAMETERS, Control
+from swtstudy.named import Named
+from swtstudy.parameters import AMPLITUDES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
 
 
+#: Name of the dimension along which the sampled parameters vary together.
+SAMPLE = "sample"
+
+
 @dataclass(frozen=True)
 class Grid:
-    """A grid of parameter points.
+    """A grid of parameter points: the product of a sample, if there is one, and of axes.
 
     Attributes
     ----------
@@ -30,20 +36,25 @@ class Grid:
         take each other's place one is.
     axes
         The values along each dimension, in the order of the dimensions.
+    samples
+        The values of the parameters that vary together along the first dimension, `SAMPLE`: all of one
+        length, a point of the sample at each place.
     """
 
     fixed: dict[str, Value]
     axes: dict[str, tuple[Value, ...]]
+    samples: dict[str, tuple[Value, ...]] = field(default_factory=dict)
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions."""
-        return tuple(self.axes)
+        return (*((SAMPLE,) if self.samples else ()), *self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
-        return tuple(map(len, self.axes.values()))
+        sampled = next(iter(self.samples.values()), None)
+        return (*(() if sampled is None else (len(sampled),)), *map(len, self.axes.values()))
 
     @property
     def size(self) -> int:
@@ -53,47 +64,79 @@ class Grid:
     @property
     def control(self) -> Control:
         """What is prescribed."""
-        return Control.given((*self.fixed, *self.axes))
+        return Control.given((*self.fixed, *self.axes, *self.samples))
+
+    @property
+    def definitions(self) -> dict[float, Named]:
+        """What the user has defined, by its code."""
+        values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
+        return {value.code: value for value in values if isinstance(value, Named)}
 
     def values(self, name: str) -> tuple[Value, ...]:
-        """All values of a parameter on this grid; empty if it has none."""
-        if name in self.axes:
-            return self.axes[name]
+        """All values of a parameter on this grid, or along its sample; empty if it has none."""
+        along = self.axes.get(name) or self.samples.get(name)
+        if along is not None:
+            return along
         return (self.fixed[name],) if name in self.fixed else ()
+
+    def dimension(self, name: str) -> str | None:
+        """The dimension along which a parameter varies; None if it has a single value or none."""
+        if name in self.samples:
+            return SAMPLE
+        return name if name in self.axes else None
 
     def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
         indices = np.arange(start, self.size if stop is None else stop)
-        position = (
-            dict(zip(self.axes, np.unravel_index(indices, self.shape), strict=True)) if self.axes else {}
-        )
-        control = self.control
+        places = np.unravel_index(indices, self.shape) if self.dims else ()
+        position = dict(zip(self.dims, places, strict=True))
         columns: dict[str, NDArray] = {}
-        for name in COLUMNS:
-            source = "frequency_ratio" if name in ("p", "q") else control.given_for(name)
-            codes = np.array([_code(name, value) for value in self.values(source)] or [0.0])
-            columns[name] = codes[position[source]] if source in position else codes
-        columns["control"] = control_code(np.array(control.normal_force), np.array(control.tangential_force))
+        for name, codes in self._codes.items():
+            along = self.dimension(self._source(name))
+            columns[name] = codes if along is None else codes[position[along]]
+        force = (self.control.normal_force, self.control.tangential_force)
+        columns["control"] = control_code(*map(np.array, force))
         columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
         return canonical_points(columns)
+
+    @cached_property
+    def _codes(self) -> dict[str, NDArray]:
+        """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
+        return {
+            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0.0])
+            for name in COLUMNS
+        }
+
+    def _source(self, column: str) -> str:
+        """The parameter that a column of canonical rows comes from."""
+        return "frequency_ratio" if column in RATIO_COLUMNS else self.control.given_for(column)
 
 
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
-    if isinstance(value, str):
-        return code_of(value)
+    if isinstance(value, str | Named):
+        return code_of(value, name)
     if isinstance(value, Fraction):
         return float({"p": value.numerator, "q": value.denominator}.get(name, value))
     # A phase is rounded in units of π once it is folded, not here.
     return value if name == "phase" else canonical_number(value)
 
 
-def complete(fixed: dict[str, Value], axes: dict[str, tuple[Value, ...]]) -> Grid:
-    """A grid with the defaults of Table 1 for every parameter that is not given, nor one in its place."""
-    filled = dict(fixed)
-    given = {*fixed, *axes}
+def complete(
+    fixed: dict[str, Value],
+    axes: dict[str, tuple[Value, ...]],
+    samples: dict[str, tuple[Value, ...]] | None = None,
+) -> Grid:
+    """A grid with defaults for every parameter that is not given, nor one in its place.
+
+    These are those of Table 1, but for the amplitudes of loops, which are 1.
+    """
+    filled, samples = dict(fixed), samples or {}
+    given = {*fixed, *axes, *samples}
     given |= {PAIRS[name] for name in given if name in PAIRS}
+    loops = any(isinstance(value, Named) for value in axes.get("load", (fixed.get("load"),)))
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
-            filled[name] = read_value(parameter, parameter.default)
-    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes))
+            default = LOOP_AMPLITUDE if loops and name in AMPLITUDES else parameter.default
+            filled[name] = read_value(parameter, default)
+    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

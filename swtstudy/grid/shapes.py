@@ -10,7 +10,7 @@ import numpy as np
 
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import Report, literal
 from swtstudy.parameters import PARAMETERS, families_with, family_of
 
@@ -102,9 +102,11 @@ def _largest_depths(grid: Grid, profile: str, shape: dict[str, FloatArray]) -> F
     """Largest depth of each shape in the grid, (n,): the largest contact is the hardest to keep compact."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes
+    from swtstudy.mechanics.load.load_path import LoadPath
 
-    amplitudes = grid.values(grid.control.given_for("normal_amplitude"))
-    normal = np.full(len(next(iter(shape.values()))), 1.0 + max(map(float, amplitudes)))
+    amplitude = max(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
+    reach = max(load.reach if isinstance(load, LoadPath) else 1.0 for load in grid.values("load"))
+    normal = np.full(len(next(iter(shape.values()))), 1.0 + max(amplitude * reach, 0.0))
     if not grid.control.normal_force:
         return normal
     # The depth at a force is known for shapes that carry the force at δ0.

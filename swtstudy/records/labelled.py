@@ -9,10 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.grid import SAMPLE, Grid
+from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.named import Named
 from swtstudy.parameters import CONTROLS, PARAMETERS
+from swtstudy.quantities import attributes_of
 from swtstudy.records.records import STATES
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -90,18 +92,22 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Dimensions in the order of the grid's axes; single-valued parameters are scalar coordinates, but for
-        optional ones at their default. The coordinate ``control`` says what is prescribed.
+        Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
+        optional ones at their default; those of a sample are coordinates along its dimension, which numbers
+        its points. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
-        name: (name, _values(values), _attributes(name, values)) for name, values in grid.axes.items()
+        name: (grid.dimension(name), _values(values), _attributes(name, values))
+        for name, values in (grid.samples | grid.axes).items()
     }
+    if grid.samples:
+        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
     for name, value in grid.fixed.items():
         if not PARAMETERS[name].optional or value != PARAMETERS[name].default:
             coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {
-        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
+        name: (grid.dims, array.reshape(grid.shape), _attributes_of(name)) for name, array in arrays.items()
     }
     return xr.Dataset(variables, coordinates)
 
@@ -126,10 +132,14 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
     }
 
 
+def _attributes_of(variable: str) -> dict[str, Any]:
+    return dict(ATTRIBUTES[variable]) if variable in ATTRIBUTES else attributes_of(variable)
+
+
 def _values(values: tuple[Value, ...]) -> NDArray:
-    if isinstance(values[0], str):
-        return np.array(values, dtype=object)
-    return np.array([float(value) for value in values])
+    if any(isinstance(value, str | Named) for value in values):
+        return np.array([str(value) for value in values], dtype=object)
+    return np.array([as_number(value) for value in values])
 
 
 def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
@@ -140,7 +150,7 @@ def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
         "comment": parameter.meaning,
         "symbol": parameter.symbol,
     }
-    if parameter.kind != "profile":
+    if parameter.kind != "name":
         attributes["units"] = parameter.units
     if isinstance(values[0], Fraction):
         attributes["fractions"] = " ".join(map(str, values))

@@ -12,7 +12,9 @@ from typing import Any
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import Range, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import read_quantities, variables_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -36,6 +38,8 @@ class Study:
         Its points.
     rtol
         Relative accuracy asked of s.
+    quantities
+        Names of what is asked beside s, of `swtstudy.quantities.QUANTITIES`.
     figure
         Layout of the figure, or None.
     text
@@ -56,6 +60,7 @@ class Study:
     title: str
     grid: Grid
     rtol: float
+    quantities: tuple[str, ...]
     figure: FigureLayout | None
     text: str
 
@@ -100,11 +105,20 @@ class Study:
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise StudyError([Mistake("", reason, "a readable study file (TOML)", source)]) from None
-        return cls.from_text(text, source)
+        return cls.from_text(text, source, find_study(source).parent)
 
     @classmethod
-    def from_text(cls, text: str, source: str = "study") -> Study:
-        """Validate the text of a study file; `source` names it in messages.
+    def from_text(cls, text: str, source: str = "study", folder: str | PathLike[str] = ".") -> Study:
+        """Validate the text of a study file.
+
+        Parameters
+        ----------
+        text
+            The text.
+        source
+            Names it in messages.
+        folder
+            To which the paths of files in it are relative.
 
         Raises
         ------
@@ -121,30 +135,51 @@ class Study:
         except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
             message = "an integer with too many digits"
             raise StudyError([Mistake("", message, "TOML with shorter ones", source)]) from None
-        return _study_from(raw, text, source)
+        return _study_from(raw, text, source, Path(folder))
 
 
-def _study_from(raw: Mapping[str, Any], text: str, source: str) -> Study:
+def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)
     fixed, axes = _parts(raw)
     places = {name: "fixed" for name in fixed} | {name: "axes" for name in axes}
-    grid, found = read_grid(fixed, axes, lambda name: f"{places.get(name, 'fixed')}.{name}", source)
+    known, found = _definitions(raw, folder, source)
     mistakes += found
+
+    def keys(name: str) -> str:
+        return f"{places.get(name, 'fixed')}.{name}"
+
+    grid, found = read_grid(fixed, axes, keys, source, known=known)
+    mistakes += found
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed, source))
+
+    quantities = read_quantities(raw.get("quantities", []), "quantities", report)
     figure = _figure_from(raw)
     if figure is not None:
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
-
-        def report(key: str, found: str, allowed: str) -> None:
-            mistakes.append(Mistake(key, found, allowed, source))
-
-        check_figure(figure, names, grid, report)
+        check_figure(figure, names, grid, variables_of(quantities), report)
     if mistakes or table is None or grid is None:
         raise StudyError(mistakes)
-    return Study(table.title, grid, table.rtol, figure, text)
+    return Study(table.title, grid, table.rtol, quantities, figure, text)
+
+
+def _definitions(
+    raw: Mapping[str, Any], folder: Path, source: str
+) -> tuple[dict[str, dict[str, Named]], list[Mistake]]:
+    """What the study defines, by parameter and name, as far as its structure is sound."""
+    tables = raw.get("loads", {})
+    if not tables or not isinstance(tables, dict):
+        return {}, []
+    from swtstudy.study.loops import read_loops
+
+    sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
+    found, mistakes = read_loops(sound, folder, source)
+    return {"load": found}, mistakes
 
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

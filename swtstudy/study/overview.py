@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -27,6 +28,7 @@ def as_html(study: Study) -> str:
         ("axis", name, _values(values), _meaning(name, roles.get(name)))
         for name, values in study.grid.axes.items()
     ]
+    rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in study.quantities]
     rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter, families_with
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
+from swtstudy.quantities import QUANTITIES
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
@@ -16,8 +17,10 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 _DESCRIPTIONS = {
     "title": "One line that describes the study.",
     "rtol": "Relative accuracy asked of s.",
+    "quantities": "What is computed beside s, as data variables of the results.",
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
+    "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -25,6 +28,11 @@ _RANGE_DESCRIPTIONS = {
     "stop": "Last value, included.",
     "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
+}
+_LOAD_DESCRIPTIONS = {
+    "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
+    "amplitude times c_t.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, or contours or a heat map over x and vertical.",
@@ -34,7 +42,7 @@ _FIGURE_DESCRIPTIONS = {
     "panels": "Axis whose values are the panels side by side.",
     "y": (
         f"One row of panels for each: {', '.join(VARIABLES)}, "
-        f"or {QUANTITY} for s over its value at one place."
+        f"a quantity that the study asks for, or {QUANTITY} for s over its value at one place."
     ),
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
@@ -51,10 +59,18 @@ def study_schema() -> dict[str, Any]:
     for table, descriptions in (
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
+        (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):
         for name, entry in table.items():
             entry["description"] = descriptions[name]
+    keys["quantities"] = {
+        "description": keys["quantities"]["description"],
+        "type": "array",
+        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in QUANTITIES.values()]},
+        "uniqueItems": True,
+        "default": [],
+    }
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     for part, entry_of in (("fixed", _value), ("axes", _axis)):
@@ -81,8 +97,12 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:
         entry["default"] = parameter.default
-    if parameter.kind == "profile":
-        return entry | {"enum": list(FAMILIES)}
+    if parameter.kind == "name":
+        names = list(BUILT_IN[parameter.name])
+        # Beside the built-in loads there may be the study's own loops.
+        return entry | (
+            {"type": "string", "examples": names} if parameter.name == "load" else {"enum": names}
+        )
     lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
@@ -93,7 +113,7 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
     description = value.pop("description")
     value.pop("default", None)
     values = {"type": "array", "items": value, "minItems": 1}
-    if parameter.kind == "profile":
+    if parameter.kind == "name":
         return {"description": description, **values}
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 

@@ -44,11 +44,21 @@ class FigureTable(_Table):
     regimes: bool = False
 
 
+class LoadTable(_Table):
+    """A loop of loads: its vertices, or the file that has them."""
+
+    vertices: Any = None
+    file: str | None = None
+
+
 class StudyTable(_Table):
     """A study file."""
 
     title: str = Field(min_length=1)
     rtol: float = Field(default=DEFAULT_RTOL, ge=SMALLEST_RTOL, le=LARGEST_RTOL)
+    # Checked against the table of quantities.
+    quantities: Any = []
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
+    loads: dict[str, LoadTable] = {}
     figure: FigureTable | None = None

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from fractions import Fraction
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
+from swtstudy.named import Named
 from swtstudy.study.figure import FigureLayout
 
 
-def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) -> str:
+def to_toml(
+    title: str, rtol: float, grid: Grid, figure: FigureLayout | None, quantities: Sequence[str] = ()
+) -> str:
     """The text of a study file that gives exactly this grid.
 
     Examples
@@ -27,9 +31,14 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     <BLANKLINE>
     """
     lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
+    if quantities:
+        lines.append(f"quantities = [{', '.join(map(quoted, quantities))}]")
     lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
+    for defined in grid.definitions.values():
+        lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
+        lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]
     if figure is not None:
         lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
         lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())
@@ -42,7 +51,7 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
 
 
 def _literal(value: Value) -> str:
-    return quoted(str(value)) if isinstance(value, str | Fraction) else repr(value)
+    return quoted(str(value)) if isinstance(value, str | Fraction | Named) else repr(value)
 
 
 def quoted(text: str) -> str:

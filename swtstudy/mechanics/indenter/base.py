@@ -42,6 +42,10 @@ class Primitives(ABC):
         over 2 r²), v = √(ξ²−r²), ξ from max(r, b) to radius; 0 where the radius is smaller.
         """
 
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        """Π alone, the first of `outer`, shape (n, X, …)."""
+        return np.asarray(self.outer(radius)[0])
+
 
 class Profile(ABC):
     """n profiles of one family, in contact up to a depth.
