@@ -36,7 +36,7 @@ def height(name: str, r: Array) -> Array:
 
 def table(name: str, count: int = 200, end: float = 2.5) -> TabulatedProfile:
     r = np.linspace(0.0, end, count)
-    return TabulatedProfile(name, r, height(name, r))
+    return TabulatedProfile(f"{name} of {count}", r, height(name, r))
 
 
 def worn(face: float = 0.4, blend: float = 0.1) -> TabulatedProfile:
@@ -88,8 +88,8 @@ def test_integrals_of_the_pieces(one: TabulatedProfile) -> None:
     for k, r in enumerate(position.tolist()):
         for j in range(k % 2, radius.size, 2):
             np.testing.assert_allclose(inner[:, k, j], of_table.inner(r, radius[j]), rtol=0.0, atol=2e-8)
-            # g′ and g′/ξ are fitted each by itself behind a face.
-            np.testing.assert_allclose(outer[:, k, j], of_table.outer(r, radius[j]), rtol=0.0, atol=3e-6)
+            # Behind a face g′ and g′/ξ are fitted each by itself, at a kink to what 105 points tell.
+            np.testing.assert_allclose(outer[:, k, j], of_table.outer(r, radius[j]), rtol=0.0, atol=2e-5)
 
 
 @pytest.mark.parametrize("one", [table("wavy_paraboloid", 60), worn()], ids=lambda one: one.name)
@@ -112,7 +112,7 @@ def test_contact_radius_and_load(one: TabulatedProfile) -> None:
 )
 def test_s_converges_to_that_of_the_closed_form(name: str, coarse: float, fine: float) -> None:
     box = random_points(5, 12)
-    columns = {k: v for k, v in vars(box).items() if k not in ("profile", "shape", "control")}
+    columns = {k: v for k, v in vars(box).items() if k not in ("profile", "shape", "control", "path")}
     expected = solve_points(points(name, **columns, **SHAPES[name]), 1e-7)
     for count, tolerance in ((200, coarse), (2000, fine)):
         found = solve_points(points(table(name, count), **columns), 1e-7)
@@ -150,8 +150,8 @@ def test_the_largest_depth_of_a_table() -> None:
     assert one.deepest == pytest.approx(2.25, rel=1e-9)
     assert one.refused_at(2.2) is None
     assert one.refused_at(2.3) == (
-        "the depth 2.3 is beyond the table of paraboloid, which ends at the radius 1.5: the contact is as large "
-        "as that at the depth 2.25"
+        "the depth 2.3 is beyond the table of paraboloid of 200, which ends at the radius 1.5: the contact "
+        "is as large as that at the depth 2.25"
     )
 
 
@@ -165,7 +165,7 @@ R = np.linspace(0.0, 2.0, 20)
         (R, R[1:], 0.0, "found 20 radii and 19 heights"),
         (R + 0.1, R**2, 0.0, "found a first point at the radius 0.1 with the height 0; allowed: 0 and 0"),
         (R, R**2 + 0.5, 0.0, "found a first point at the radius 0 with the height 0.5"),
-        (np.where(R == R[7], R[6], R), R**2, 0.0, "found 0.631579 after 0.631579; allowed: ascending radii"),
+        (np.where(R[7] == R, R[6], R), R**2, 0.0, "found 0.631579 after 0.631579; allowed: ascending radii"),
         (
             R,
             np.where(R > 1.0, np.nan, R),

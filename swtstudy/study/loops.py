@@ -49,13 +49,13 @@ def read_loops(
             found[name] = LoadPath(name, vertices)
         except StudyError as error:
             mistakes += [
-                Mistake(f"{key}.{given[0]}", f"{each.found}{_place(each)}", each.allowed, source)
+                Mistake(f"{key}.{given[0]}", f"{each.found}{place_of(each)}", each.allowed, source)
                 for each in error.mistakes
             ]
     return found, mistakes
 
 
-def _place(mistake: Mistake) -> str:
+def place_of(mistake: Mistake) -> str:
     """Where in a file or a list the mistake is."""
     place = ": ".join(part for part in (mistake.source, mistake.key) if part)
     return f" ({place})" if place else ""

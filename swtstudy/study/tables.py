@@ -51,6 +51,15 @@ class LoadTable(_Table):
     file: str | None = None
 
 
+class ProfileTable(_Table):
+    """A profile as a table: its radii and heights, or the file that has them."""
+
+    radius: Any = None
+    height: Any = None
+    file: str | None = None
+    smoothing: Any = 0.0
+
+
 class StudyTable(_Table):
     """A study file."""
 
@@ -61,4 +70,5 @@ class StudyTable(_Table):
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     loads: dict[str, LoadTable] = {}
+    profiles: dict[str, ProfileTable] = {}
     figure: FigureTable | None = None

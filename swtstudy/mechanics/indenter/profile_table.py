@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +13,8 @@ from scipy.interpolate import PPoly
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN
 
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6
@@ -21,7 +24,7 @@ RADII = 4001
 SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
 
 
-class TabulatedProfile:
+class TabulatedProfile(Named):
     """A measured or computed axisymmetric profile: heights f above its lowest point, at the axis.
 
     Parameters
@@ -46,19 +49,16 @@ class TabulatedProfile:
     Two profiles are the same if their contents are; their names do not matter.
     """
 
+    parameter: ClassVar[str] = "profile"
+
     def __init__(self, name: str, radius: ArrayLike, height: ArrayLike, smoothing: float = 0.0) -> None:
-        self._name = name
+        self.name = name
         self._radius, self._height = (_frozen(values) for values in (radius, height))
         self._smoothing = smoothing
         mistakes = list(_mistakes(name, self._radius, self._height, smoothing))
         if mistakes:
             raise StudyError(mistakes)
         self._smoothing = float(smoothing)
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return self._name
 
     @property
     def radius(self) -> FloatArray:
@@ -76,12 +76,26 @@ class TabulatedProfile:
         return self._smoothing
 
     def __repr__(self) -> str:
-        return f"TabulatedProfile({self._name!r}, {self._radius.size} points up to {self._radius[-1]:g})"
+        return f"TabulatedProfile({self.name!r}, {self._radius.size} points up to {self._radius[-1]:g})"
+
+    def content(self) -> dict[str, Any]:
+        return {
+            "radius": self._radius.tolist(),
+            "height": self._height.tolist(),
+            "smoothing": self._smoothing,
+        }
+
+    @classmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> TabulatedProfile:
+        return cls(name, content["radius"], content["height"], content["smoothing"])
+
+    def notes(self) -> dict[str, Any]:
+        return {"deviation": self.deviation}
 
     def scaled(self, length: float, depth: float) -> TabulatedProfile:
         """The same profile in other units: radii in ``length``, heights in ``depth``."""
         return TabulatedProfile(
-            self._name, self._radius / length, self._height / depth, self._smoothing / depth
+            self.name, self._radius / length, self._height / depth, self._smoothing / depth
         )
 
     @cached_property
@@ -130,11 +144,11 @@ class TabulatedProfile:
         radius, falls = self._sampled[0], self._falls
         if falls.size:
             return (
-                f"{self._name} has no full disc of contact at the depth {depth:g}: g′ < 0 at the radius "
+                f"{self.name} has no full disc of contact at the depth {depth:g}: g′ < 0 at the radius "
                 f"{radius[falls[0]]:.4g}; if its heights are noisy, ask for smoothing"
             )
         return (
-            f"the depth {depth:g} is beyond the table of {self._name}, which ends at the radius "
+            f"the depth {depth:g} is beyond the table of {self.name}, which ends at the radius "
             f"{radius[-1]:.4g}: the contact is as large as that at the depth {self.deepest:.4g}"
         )
 
@@ -170,9 +184,11 @@ def _every_other(values: FloatArray) -> FloatArray:
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
     """What is wrong with a table."""
-    if not isinstance(name, str) or not name or not name.isprintable():
-        yield Mistake("name", literal(name), "a text")
+    if not isinstance(name, str) or not name.strip():
+        yield Mistake("name", literal(name), "a text that is not empty")
         name = "profile"
+    if name in BUILT_IN["profile"]:
+        yield Mistake("name", literal(name), "another one: this is a built-in profile")
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1 or not np.all(np.isfinite(values)):
             yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")

@@ -21,7 +21,7 @@ from swtstudy.mechanics.points import FloatArray
 DEGREE = 4
 #: What the pieces miss of g′, over its largest value, and over what a table of every other point misses.
 TOLERANCE, SHARE_OF_COARSE = 1e-8, 0.1
-#: Pieces are halved until they fit, but are no shorter than the steps of the table.
+#: Pieces are halved until they fit, but are no shorter than a quarter of the steps of the table.
 FIRST_PIECES = 8
 #: Pieces shorter than this share of the whole are of two degrees less: in powers of w high ones lose digits.
 NARROW = 0.015
@@ -178,7 +178,7 @@ def _edges(f: PPoly, b: float, last: float, allowed: float) -> FloatArray:
         exact = _slope_at(f, b, w)
         found = np.stack([_horner(fit[:, :, None], w - start[:, None]) for fit in (over_radius, slope)])
         missed = np.abs(found * np.stack([np.hypot(w, b), np.ones_like(w)]) - exact).max(axis=0)
-        bad = (missed.max(axis=1) > allowed) & (width > 2.0 * narrowest)
+        bad = (missed.max(axis=1) > allowed) & (width > 0.5 * narrowest)
         settled.append(start[~bad])
         start, width = start[bad], 0.5 * width[bad]
         start, width = np.concatenate([start, start + width]), np.tile(width, 2)
