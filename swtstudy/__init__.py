@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
     from swtstudy.optimum.optimise import optimise
@@ -32,6 +33,7 @@ __all__ = [
     "LoadPath",
     "Study",
     "StudyError",
+    "TabulatedProfile",
     "__version__",
     "audit_study",
     "inspect",
@@ -54,6 +56,7 @@ _HOMES = {
     "LoadPath": "swtstudy.mechanics.load.load_path",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
+    "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",

@@ -55,6 +55,10 @@ class Named(ABC):
         content = int.from_bytes(digest[: CONTENT_BITS // 8], "big")
         return float((self.cost << CONTENT_BITS) + content)
 
+    def notes(self) -> dict[str, Any]:
+        """What archives say of it besides its content, as JSON can hold it."""
+        return {}
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Named) and (self.name, self.code) == (other.name, other.code)
 

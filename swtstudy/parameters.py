@@ -361,6 +361,9 @@ FAMILIES: dict[str, Family] = {
     )
 }
 
+#: The family of what the user has defined.
+TABLE = Family("table")
+
 #: The family that others are at their plain shape.
 PLAIN = "paraboloid"
 
@@ -377,9 +380,9 @@ def is_profile(raw: object) -> TypeGuard[str]:
     return isinstance(raw, str) and raw in FAMILIES
 
 
-def family_of(profile: str) -> Family:
-    """The family of the profile of a name."""
-    return FAMILIES[profile]
+def family_of(profile: object) -> Family:
+    """The family of a profile, or of that of a name; what the user has defined has no shape parameters."""
+    return FAMILIES.get(str(profile), TABLE)
 
 
 def families_with(name: str) -> list[str]:

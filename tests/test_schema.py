@@ -76,7 +76,6 @@ def test_three_mistakes(validator):
 @pytest.mark.parametrize(
     "line",
     [
-        'profile = "cone"',
         "wavelength = 0",
         "frequency_ratio = 65",
         "friction = true",

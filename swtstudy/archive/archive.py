@@ -98,7 +98,7 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "runs": json.dumps([run.to_json() for run in records.runs]),
     }
     defined = [
-        {"parameter": each.parameter, "name": each.name, "content": each.content()}
+        {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
         for each in study.grid.definitions.values()
     ]
     if defined:

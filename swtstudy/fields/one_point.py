@@ -33,7 +33,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     grid, mistakes = read_grid(dict(parameters), {})
     if grid is None:
         raise StudyError(mistakes)
-    profile = str(grid.fixed["profile"])
+    profile = grid.fixed["profile"]
     ratio = Fraction(str(grid.fixed["frequency_ratio"]))
 
     def number(name: str) -> np.ndarray:
@@ -41,7 +41,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 
     course = grid.fixed["load"]
     return Points(
-        profile=profile,
+        profile=profile,  # type: ignore[arg-type]
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in family_of(profile).shape},

@@ -175,10 +175,10 @@ def points_from(table: FloatArray, definitions: Definitions) -> Points:
     from swtstudy.mechanics.load.loop import Loop
     from swtstudy.mechanics.points import Points
 
-    profile = str(value_of(table[0, _COLUMN["profile"]], definitions))
+    profile = value_of(table[0, _COLUMN["profile"]], definitions)
     course = value_of(table[0, _COLUMN["load"]], definitions, "load")
     return Points(
-        profile=profile,
+        profile=profile,  # type: ignore[arg-type]
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},

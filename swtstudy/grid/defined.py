@@ -7,6 +7,7 @@ from swtstudy.named import Named
 
 def kinds() -> dict[str, type[Named]]:
     """The classes of definitions, by parameter; imported where they are needed."""
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
 
-    return {each.parameter: each for each in (LoadPath,)}
+    return {each.parameter: each for each in (LoadPath, TabulatedProfile)}

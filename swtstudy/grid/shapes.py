@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import Report, literal
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS, families_with, family_of
 
 if TYPE_CHECKING:
@@ -61,9 +62,12 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
 
 def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    for profile in map(str, grid.values("profile")):
+    profile: Any
+    for profile in grid.values("profile"):
         names = family_of(profile).shape
         axes = [np.array(grid.values(name), float) for name in names]
+        if isinstance(profile, Named):
+            _check_table(grid, profile, keys, report)
         if not names:
             continue
         count = math.prod(map(len, axes))
@@ -81,7 +85,16 @@ def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None
             report(", ".join(map(keys, names)), found + more, allowed)
 
 
-def _refused(grid: Grid, profile: str, axes: list[FloatArray]) -> tuple[int, dict[str, FloatArray] | None]:
+def _check_table(grid: Grid, profile: Any, keys: Callable[[str], str], report: Report) -> None:
+    """A profile that the user has defined, up to the largest depth."""
+    from swtstudy.mechanics.indenter import check_shape
+
+    wrong = check_shape(profile, {}, _largest_depths(grid, profile, {}).item())
+    if wrong is not None:
+        report(keys("profile"), str(profile), wrong)
+
+
+def _refused(grid: Grid, profile: Any, axes: list[FloatArray]) -> tuple[int, dict[str, FloatArray] | None]:
     """How many of the shapes are not admissible, and the first of these."""
     from swtstudy.mechanics.indenter import compact_shapes
 
@@ -98,7 +111,7 @@ def _refused(grid: Grid, profile: str, axes: list[FloatArray]) -> tuple[int, dic
     return refused, first
 
 
-def _largest_depths(grid: Grid, profile: str, shape: dict[str, FloatArray]) -> FloatArray:
+def _largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray]) -> FloatArray:
     """Largest depth of each shape in the grid, (n,): the largest contact is the hardest to keep compact."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes
@@ -106,7 +119,7 @@ def _largest_depths(grid: Grid, profile: str, shape: dict[str, FloatArray]) -> F
 
     amplitude = max(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
     reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
-    normal = np.full(len(next(iter(shape.values()))), 1.0 + max(amplitude * reach, 0.0))
+    normal = np.full(len(next(iter(shape.values()), (0,))), 1.0 + max(amplitude * reach, 0.0))
     if not grid.control.normal_force:
         return normal
     # The depth at a force is known for shapes that carry the force at δ0.

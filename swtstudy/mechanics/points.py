@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from swtstudy.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.loop import Loop
 
 FloatArray = NDArray[np.float64]
@@ -40,7 +41,7 @@ class Points:
     Attributes
     ----------
     profile
-        Name of the profile, a key of `swtstudy.parameters.FAMILIES`.
+        Name of the profile, a key of `swtstudy.parameters.FAMILIES`, or the table of one.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
         Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad. The amplitudes are those of
         forces where `control` says so.
@@ -58,7 +59,7 @@ class Points:
         Shape (n,), as in `swtstudy.parameters.PARAMETERS`; 0 unless given.
     """
 
-    profile: str
+    profile: str | TabulatedProfile
     poisson_ratio: FloatArray
     friction: FloatArray
     normal_amplitude: FloatArray

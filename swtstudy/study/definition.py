@@ -172,14 +172,20 @@ def _definitions(
     raw: Mapping[str, Any], folder: Path, source: str
 ) -> tuple[dict[str, dict[str, Named]], list[Mistake]]:
     """What the study defines, by parameter and name, as far as its structure is sound."""
-    tables = raw.get("loads", {})
-    if not tables or not isinstance(tables, dict):
-        return {}, []
-    from swtstudy.study.loops import read_loops
+    known: dict[str, dict[str, Named]] = {}
+    mistakes: list[Mistake] = []
+    for parameter in ("load", "profile"):
+        tables = raw.get(f"{parameter}s", {})
+        if not tables or not isinstance(tables, dict):
+            continue
+        from swtstudy.study.loops import read_loops
+        from swtstudy.study.profile_tables import read_profiles
 
-    sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
-    found, mistakes = read_loops(sound, folder, source)
-    return {"load": found}, mistakes
+        sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
+        read = read_loops if parameter == "load" else read_profiles
+        known[parameter], found = read(sound, folder, source)
+        mistakes += found
+    return known, mistakes
 
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

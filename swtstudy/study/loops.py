@@ -49,7 +49,8 @@ def read_loops(
         except StudyError as error:
             where = f"{key}.{given[0]}" if len(given) == 1 else key
             mistakes += [
-                Mistake(where, f"{each.found}{_place(each)}", each.allowed, source) for each in error.mistakes
+                Mistake(where, f"{each.found}{place_of(each)}", each.allowed, source)
+                for each in error.mistakes
             ]
     return found, mistakes
 
@@ -61,7 +62,7 @@ def _loop(name: str, table: Mapping[str, Any], kind: str, folder: Path) -> Named
     return LoadPath(name, read_columns(folder / table["file"], COLUMNS) if by_file else table["vertices"])
 
 
-def _place(mistake: Mistake) -> str:
+def place_of(mistake: Mistake) -> str:
     """Where in a file or a list the mistake is."""
     place = ": ".join(part for part in (mistake.source, mistake.key) if part)
     return f" ({place})" if place else ""

@@ -21,6 +21,7 @@ _DESCRIPTIONS = {
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
+    "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -28,6 +29,12 @@ _RANGE_DESCRIPTIONS = {
     "stop": "Last value, included.",
     "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
+}
+_PROFILE_DESCRIPTIONS = {
+    "radius": "Radii r, in a length a_H: at least 8, ascending from 0.",
+    "height": "Heights f at these radii, in a depth δ0: 0 at the axis.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
+    "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
 }
 _LOAD_DESCRIPTIONS = {
     "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
@@ -62,6 +69,7 @@ def study_schema() -> dict[str, Any]:
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
         (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
+        (parts["ProfileTable"]["properties"], _PROFILE_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):
         for name, entry in table.items():
@@ -102,10 +110,8 @@ def _value(parameter: Parameter) -> dict[str, Any]:
         entry["default"] = parameter.default
     if parameter.kind == "name":
         names = list(BUILT_IN[parameter.name])
-        # Beside the built-in loads there may be the study's own loops.
-        return entry | (
-            {"type": "string", "examples": names} if parameter.name == "load" else {"enum": names}
-        )
+        # Beside the built-in ones there may be what the study defines.
+        return entry | {"type": "string", "examples": names}
     lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from swtstudy.accuracy import ALLOWED_RTOL
 from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.study.tables import FigureTable, LoadTable, RangeTable, StudyTable
+from swtstudy.study.tables import FigureTable, LoadTable, ProfileTable, RangeTable, StudyTable
 
 #: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {
@@ -18,6 +18,7 @@ _ALLOWED = {
     "fixed": "a table of single values",
     "axes": "a table of axes",
     "loads": "a table of loops, [loads.NAME]",
+    "profiles": "a table of profiles, [profiles.NAME]",
     "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
     "figure.kind": '"lines", "contour" or "heatmap"',
     "figure.vertical": "the name of an axis",
@@ -52,7 +53,9 @@ def _mistake(detail: Any, source: str) -> Mistake:
         allowed = "a list of values or {start, stop, num}"
     elif path[0] == "loads" and len(path) == 2:
         allowed = "a table with vertices or file"
-    elif path[0] == "loads" and path[-1] == "file":
+    elif path[0] == "profiles" and len(path) == 2:
+        allowed = "a table with radius and height, or file"
+    elif path[0] in ("loads", "profiles") and path[-1] == "file":
         allowed = "the path of a CSV file"
     elif path[0] == "axes" and path[-1] == "spacing":
         allowed = '"linear" or "log"'
@@ -65,6 +68,11 @@ def _mistake(detail: Any, source: str) -> Mistake:
 
 
 def _known(path: list[Any]) -> list[str]:
-    inner: dict[str, type[BaseModel]] = {"axes": RangeTable, "figure": FigureTable, "loads": LoadTable}
+    inner: dict[str, type[BaseModel]] = {
+        "axes": RangeTable,
+        "figure": FigureTable,
+        "loads": LoadTable,
+        "profiles": ProfileTable,
+    }
     model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable
     return list(model.model_fields)

@@ -53,6 +53,15 @@ class LoadTable(_Table):
     tangential: Any = None
 
 
+class ProfileTable(_Table):
+    """A profile as a table: its radii and heights, or the file that has them."""
+
+    radius: Any = None
+    height: Any = None
+    file: str | None = None
+    smoothing: Any = 0.0
+
+
 class StudyTable(_Table):
     """A study file."""
 
@@ -63,4 +72,5 @@ class StudyTable(_Table):
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     loads: dict[str, LoadTable] = {}
+    profiles: dict[str, ProfileTable] = {}
     figure: FigureTable | None = None

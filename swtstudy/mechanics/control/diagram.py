@@ -8,7 +8,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
 from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.control.normal_map import DepthOfForce, ForceOfDepth, NormalMap
-from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
@@ -17,7 +17,7 @@ from swtstudy.parameters import Control
 
 
 def largest_depth(
-    control: Control, name: str, shape: dict[str, FloatArray], largest_normal: FloatArray
+    control: Control, name: str | TabulatedProfile, shape: dict[str, FloatArray], largest_normal: FloatArray
 ) -> FloatArray:
     """Largest indentation depth over δ0 at the largest normal load, as it is prescribed; shape (n,)."""
     if not control.normal_force:
@@ -25,7 +25,9 @@ def largest_depth(
     return profile_up_to_force(name, shape, largest_normal)[0].largest_depth
 
 
-def diagram(control: Control, name: str, shape: dict[str, FloatArray], load: Load) -> tuple[Load, Coordinate]:
+def diagram(
+    control: Control, name: str | TabulatedProfile, shape: dict[str, FloatArray], load: Load
+) -> tuple[Load, Coordinate]:
     """The load in the coordinate of its memory diagram, and that coordinate.
 
     The coordinate is that of the tangential load, into which the normal load is mapped where the two differ.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
@@ -45,14 +45,14 @@ class ForceCoordinate(Coordinate):
         return half_load / align(self.unit, radius), slope
 
 
-def unit_half_load(name: str, shape: dict[str, FloatArray], count: int) -> FloatArray:
+def unit_half_load(name: str | TabulatedProfile, shape: dict[str, FloatArray], count: int) -> FloatArray:
     """`Profile.half_load` of ``count`` profiles of a family at the depth δ0, shape (count,)."""
     profile = make_profile(name, shape, np.ones(count))
     return profile.half_load(profile.radius(np.ones(count)))
 
 
 def profile_up_to_force(
-    name: str, shape: dict[str, FloatArray], largest_force: FloatArray
+    name: str | TabulatedProfile, shape: dict[str, FloatArray], largest_force: FloatArray
 ) -> tuple[Profile, FloatArray]:
     """n profiles of a family in contact up to a normal force over that at δ0, (n,), and its half at δ0."""
     unit = unit_half_load(name, shape, len(largest_force))

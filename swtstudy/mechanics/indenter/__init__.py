@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,8 @@ from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid
 from swtstudy.mechanics.indenter.power_law import PowerLaw
+from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.indenter.tabulated import Tabulated
 from swtstudy.mechanics.indenter.wavy_paraboloid import WavyParaboloid
 from swtstudy.mechanics.points import FloatArray, IntArray
 
@@ -23,53 +26,76 @@ PROFILES: dict[str, type[Profile]] = {
 }
 
 
-def make_profile(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> Profile:
-    """n profiles of family ``name`` with shape parameters of shape (n,), in contact up to a depth (n,).
+def _class_of(
+    profile: str | TabulatedProfile, shape: Mapping[str, Any]
+) -> tuple[type[Profile], dict[str, Any]]:
+    """The class of a family or of tables, and its shape: the table is that of all n profiles."""
+    if isinstance(profile, str):
+        return PROFILES[profile], dict(shape)
+    return Tabulated, {"table": profile}
+
+
+def make_profile(
+    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
+) -> Profile:
+    """n profiles of a family with shape parameters (n,), or of one table, in contact up to a depth (n,).
 
     What cannot be resolved is left out, see `resolved_shape`.
     """
-    resolved, _ = resolved_shape(name, shape, largest_depth)
-    return PROFILES[name](largest_depth, **resolved)
+    own, given = _class_of(profile, shape)
+    resolved, _ = own.resolved(largest_depth, **given)
+    return own(largest_depth, **resolved)
 
 
-def roughness(name: str, shape: dict[str, FloatArray], largest_depth: FloatArray) -> IntArray:
+def roughness(
+    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
+) -> IntArray:
     """Levels of `Profile.roughness` of n profiles."""
-    return PROFILES[name].roughness(largest_depth, **shape)
+    own, given = _class_of(profile, shape)
+    return own.roughness(largest_depth, **given)
 
 
 def resolved_shape(
-    name: str, shape: dict[str, FloatArray], largest_depth: FloatArray
+    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
 ) -> tuple[dict[str, FloatArray], FloatArray]:
     """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
-    return PROFILES[name].resolved(largest_depth, **shape)
+    own, given = _class_of(profile, shape)
+    return own.resolved(largest_depth, **given)
 
 
 def compact_shapes(
-    profile: str, shape: dict[str, FloatArray], largest_depth: FloatArray
+    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
 ) -> NDArray[np.bool_]:
     """Whether `check_shape` has nothing against each of n shapes up to a depth, each of shape (n,)."""
-    return PROFILES[profile].compact(largest_depth, **shape)
+    own, given = _class_of(profile, shape)
+    return own.compact(largest_depth, **given)
 
 
-def check_shape(profile: str, shape: dict[str, float], largest_depth: float) -> str | None:
+def check_shape(profile: str | TabulatedProfile, shape: dict[str, float], largest_depth: float) -> str | None:
     """Why a profile cannot be used up to a depth, or None."""
-    return PROFILES[profile].check(largest_depth, **shape)
+    own, given = _class_of(profile, shape)
+    return own.check(largest_depth, **given)
 
 
-def length_law(profile: str, shape: Mapping[str, float]) -> tuple[float, float]:
+def length_law(profile: str | TabulatedProfile, shape: Mapping[str, float]) -> tuple[float, float]:
     """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ."""
-    return PROFILES[profile].length_law(**shape)
+    own, given = _class_of(profile, shape)
+    return own.length_law(**given)
 
 
-def too_small(profile: str, shape: dict[str, float], largest_depth: float) -> tuple[str, float] | None:
+def too_small(
+    profile: str | TabulatedProfile, shape: dict[str, float], largest_depth: float
+) -> tuple[str, float] | None:
     """The shape parameter that no full disc up to a depth can have, and its least value, or None."""
-    return PROFILES[profile].too_small(largest_depth, **shape)
+    own, given = _class_of(profile, shape)
+    return own.too_small(largest_depth, **given)
 
 
 __all__ = [
     "PROFILES",
     "Primitives",
     "Profile",
+    "TabulatedProfile",
     "check_shape",
     "compact_shapes",
     "length_law",

@@ -118,6 +118,11 @@ class Profile(ABC):
         """Shape (n, k): radii that lead up to a singularity of the stress or a tip, in ever smaller steps."""
         return np.zeros((len(self.largest_depth), 0))
 
+    @property
+    def landmarks(self) -> FloatArray:
+        """Shape (n, k): radii near which g′ turns within a small part of the contact."""
+        return np.zeros((len(self.largest_depth), 0))
+
     def extra_nodes(self, digits: float) -> int:
         """Chebyshev nodes that running integrals of g′ need beyond those of a smooth profile."""
         return 0

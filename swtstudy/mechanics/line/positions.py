@@ -106,7 +106,8 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     if approach.shape[1]:
         nearest = approach.min(axis=1, keepdims=True)
         innermost = np.where(nearest > face, nearest, innermost)
-    ends = np.concatenate([radius, innermost, approach], axis=1)
+    landmarks = np.minimum(profile.landmarks, largest)
+    ends = np.concatenate([radius, innermost, approach, landmarks], axis=1)
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 

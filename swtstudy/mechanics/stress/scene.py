@@ -13,6 +13,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.events.passages import split_at
 from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
@@ -117,7 +118,7 @@ def prescribed_scene(
     control: Control,
     poisson_ratio: FloatArray,
     friction: FloatArray,
-    profile: str = "paraboloid",
+    profile: str | TabulatedProfile = "paraboloid",
     shape: dict[str, FloatArray] | None = None,
 ) -> Scene:
     """The scenes of n loads of one kind, prescribed as displacements or forces.

@@ -1,0 +1,210 @@
+"""A table of a profile f(r), and what is made of it once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PPoly
+
+from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN
+
+#: Fewest points of a table, and relative slope −g′ that is rounding or fit.
+FEWEST, NEGATIVE = 8, 1e-6
+#: Radii at which compactness is looked at, and of the first guess of the contact radius.
+RADII = 4001
+#: A piece shorter than this share of the contact is a landmark of the search, of which there are so many.
+SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
+
+
+class TabulatedProfile(Named):
+    """A measured or computed axisymmetric profile: heights f above its lowest point, at the axis.
+
+    Parameters
+    ----------
+    name
+        Its name on axes, in archives and in figures.
+    radius, height
+        Shape (k,), at least 8 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
+        in a depth δ0, the mean one of a study; in `swtstudy.physical` both in the unit of its lengths.
+        Heights of 0 at the begin are a flat face.
+    smoothing
+        Root mean square of what the fit may miss of the heights, in their unit, if they are noisy. Nothing is
+        smoothed unless asked: a spline goes through all points.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake, and the radius of it.
+
+    Notes
+    -----
+    Two profiles are the same if their contents are; their names do not matter.
+    """
+
+    parameter: ClassVar[str] = "profile"
+
+    def __init__(self, name: str, radius: ArrayLike, height: ArrayLike, smoothing: float = 0.0) -> None:
+        self.name = name
+        self._radius, self._height = (_frozen(values) for values in (radius, height))
+        self._smoothing = smoothing
+        mistakes = list(_mistakes(name, self._radius, self._height, smoothing))
+        if mistakes:
+            raise StudyError(mistakes)
+        self._smoothing = float(smoothing)
+
+    @property
+    def radius(self) -> FloatArray:
+        """Shape (k,)."""
+        return self._radius
+
+    @property
+    def height(self) -> FloatArray:
+        """Shape (k,)."""
+        return self._height
+
+    @property
+    def smoothing(self) -> float:
+        """Root mean square of what the fit may miss."""
+        return self._smoothing
+
+    def __repr__(self) -> str:
+        return f"TabulatedProfile({self.name!r}, {self._radius.size} points up to {self._radius[-1]:g})"
+
+    def content(self) -> dict[str, Any]:
+        return {
+            "radius": self._radius.tolist(),
+            "height": self._height.tolist(),
+            "smoothing": self._smoothing,
+        }
+
+    @classmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> TabulatedProfile:
+        return cls(name, content["radius"], content["height"], content["smoothing"])
+
+    def notes(self) -> dict[str, Any]:
+        return {"deviation": self.deviation}
+
+    def scaled(self, length: float, depth: float) -> TabulatedProfile:
+        """The same profile in other units: radii in ``length``, heights in ``depth``."""
+        return TabulatedProfile(
+            self.name, self._radius / length, self._height / depth, self._smoothing / depth
+        )
+
+    @cached_property
+    def fit(self) -> PPoly:
+        """The spline f, from the edge of the face."""
+        return spline(self._radius, self._height, self._smoothing)
+
+    @cached_property
+    def pieces(self) -> SlopePieces:
+        """g′ by pieces."""
+        coarse = spline(_every_other(self._radius), _every_other(self._height), self._smoothing)
+        return SlopePieces.of(self.fit, resolved(self.fit, coarse))
+
+    @property
+    def deviation(self) -> float:
+        """The largest distance of the fit from the heights."""
+        on_curve = self._radius >= self.fit.x[0]
+        missed = np.where(on_curve, self.fit(self._radius), 0.0) - self._height
+        return float(np.abs(missed).max())
+
+    @cached_property
+    def guesses(self) -> tuple[FloatArray, FloatArray]:
+        """√g, nearly straight, and w = √(ξ² − b²), each of shape (k,)."""
+        end = self.pieces.start[-1]
+        w = np.linspace(0.0, 2.0 * end, RADII)
+        depth = self.pieces.value(self.pieces.depth, w, self.pieces.piece(w))
+        return np.sqrt(np.maximum.accumulate(np.maximum(depth, 0.0))), w
+
+    @cached_property
+    def landmarks(self) -> FloatArray:
+        """Radii, shape (k,), where g′ turns within a small part of the contact."""
+        start = self.pieces.start
+        short = start[:-1][np.diff(start) < SHORT_PIECE * start[-1]]
+        return np.hypot(short[:: max(-(-short.size // MOST_LANDMARKS), 1)], self.pieces.flat_radius)
+
+    @cached_property
+    def deepest(self) -> float:
+        """The depth up to which there is a full disc of contact within the table."""
+        falls, g = self._falls, self._sampled[2]
+        return float(g[falls[0]] if falls.size else g[-1])
+
+    def refused_at(self, depth: float) -> str | None:
+        """Why there is no full disc of contact up to a depth, and the radius of it; or None."""
+        if depth <= self.deepest:
+            return None
+        radius, falls = self._sampled[0], self._falls
+        if falls.size:
+            return (
+                f"{self.name} has no full disc of contact at the depth {depth:g}: g′ < 0 at the radius "
+                f"{radius[falls[0]]:.4g}; if its heights are noisy, ask for smoothing"
+            )
+        return (
+            f"the depth {depth:g} is beyond the table of {self.name}, which ends at the radius "
+            f"{radius[-1]:.4g}: the contact is as large as that at the depth {self.deepest:.4g}"
+        )
+
+    @cached_property
+    def _sampled(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radii up to the table's end, g′ and g there."""
+        pieces = self.pieces
+        w = np.linspace(0.0, pieces.start[-1], RADII)
+        place = pieces.piece(w)
+        slope, depth = (pieces.value(c, w, place) for c in (pieces.slope, pieces.depth))
+        return np.hypot(w, pieces.flat_radius), slope, depth
+
+    @property
+    def _falls(self) -> NDArray[np.intp]:
+        """Where of these radii g falls."""
+        slope = self._sampled[1]
+        return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())
+
+
+def _frozen(values: ArrayLike) -> FloatArray:
+    """A copy that cannot be changed, empty if it is not of numbers."""
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty((0, 0))
+    array.flags.writeable = False
+    return array
+
+
+def _every_other(values: FloatArray) -> FloatArray:
+    return np.append(values[:-1:2], values[-1])
+
+
+def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
+    """What is wrong with a table."""
+    if not isinstance(name, str) or not name.strip():
+        yield Mistake("name", literal(name), "a text that is not empty")
+        name = "profile"
+    if name in BUILT_IN["profile"]:
+        yield Mistake("name", literal(name), "another one: this is a built-in profile")
+    for key, values in (("radius", radius), ("height", height)):
+        if values.ndim != 1 or not np.all(np.isfinite(values)):
+            yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")
+            return
+    if radius.size != height.size or radius.size < FEWEST:
+        found = f"{radius.size} radii and {height.size} heights"
+        yield Mistake(f"{name}.radius, {name}.height", found, f"as many of each, at least {FEWEST}")
+        return
+    if radius[0] != 0.0 or height[0] != 0.0:
+        found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
+        yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
+    falls = np.flatnonzero(np.diff(radius) <= 0.0)
+    if falls.size:
+        found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"
+        yield Mistake(f"{name}.radius", found, "ascending radii")
+    if not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
+        yield Mistake(f"{name}.height", "a flat face alone", f"at least {FEWEST - 2} points beside it")
+    if not 0.0 <= plain_number(smoothing) < np.inf:
+        yield Mistake(f"{name}.smoothing", literal(smoothing), "a number ≥ 0")
