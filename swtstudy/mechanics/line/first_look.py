@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.events.stretches import NO_STRETCH
-from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
+from swtstudy.mechanics.line.look import Look, Resolution, near_extremes, reach
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.planes.through_y import coarse_swt
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
@@ -41,8 +42,9 @@ class FirstLook:
 
     Attributes
     ----------
-    swt, double_angle
-        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad.
+    swt, double_angle, highest
+        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad; and how high swt
+        may really be between the instants.
     interval
         Shape (n, X, T): interval of the cycle in which each instant of `history` is, or whose mirror image.
     first, last
@@ -53,10 +55,21 @@ class FirstLook:
 
     swt: FloatArray
     double_angle: FloatArray
+    highest: FloatArray
     interval: NDArray[np.intp]
     first: NDArray[np.intp]
     last: NDArray[np.intp]
     history: History
+
+    def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """The `local_maxima`, and where swt may be highest between the instants."""
+        point, side, column = local_maxima(self.swt, self.double_angle, r)
+        chosen = np.zeros(self.swt.shape, dtype=bool)
+        chosen[point, side, column] = True
+        rows = np.arange(len(chosen))
+        chosen.reshape(len(chosen), -1)[rows, self.highest.reshape(len(chosen), -1).argmax(axis=1)] = True
+        point, side, column = np.nonzero(chosen)
+        return point, side, column
 
     def closer(
         self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
@@ -113,12 +126,25 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     if mirrored:
         # The same instants with the tangential load reversed.
         history = history.joined(history.with_tangential_sign(-1.0))
+    inside = np.concatenate([look.inside] * (2 if mirrored else 1), axis=-1)
     sides = [
-        coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
+        _seen(scene.planes(history, side), inside, planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
     ]
-    swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
+    swt, angle, highest = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
     interval = look.nodes.spread(look.nodes.interval)
-    return FirstLook(swt, angle, interval, *_parts_of_whole(cycle, scene.cycle), history)
+    return FirstLook(swt, angle, highest, interval, *_parts_of_whole(cycle, scene.cycle), history)
+
+
+def _seen(
+    planes: PlaneHistory, inside: NDArray[np.bool_], count: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """swt, 2θ and how high swt may really be on these of ``count`` planes, each (n, X)."""
+    swt, angle = coarse_swt(planes, count)
+    highest = swt.copy()
+    at = np.nonzero(swt >= CANDIDATE_SHARE * swt.max(axis=1, keepdims=True))
+    of_swt = curves(*planes.take(*at).on_plane(angle[at]))
+    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
+    return swt, angle, highest
 
 
 def _parts_of_whole(cycle: Cycle, whole: Cycle) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

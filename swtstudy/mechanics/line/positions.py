@@ -87,7 +87,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate) -> FloatArray:
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 
-def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
+def spread_positions(ends: FloatArray, spread: FloatArray, flat_radius: FloatArray) -> Positions:
     """Cosine-spaced positions between the cusps, about ``spread`` of them and two for each cusp at most.
 
     Parameters
@@ -96,8 +96,10 @@ def spread_positions(ends: FloatArray, spread: FloatArray) -> Positions:
         Shape (n, k), see `cusps`.
     spread
         Shape (n,): number of positions over the whole range, were there no cusps.
+    flat_radius
+        Shape (n,): b. Beside a face depth is like w = √(r² − b²): by that, too, the positions are shared.
     """
-    parts = _StretchesOfRange.of(ends, spread)
+    parts = _StretchesOfRange.of(ends, spread, flat_radius)
     stretch, place, count = parts.places()
     step = gather(np.pi / parts.steps, stretch)
     alpha = place * step
@@ -140,11 +142,13 @@ class _StretchesOfRange:
     last: NDArray[np.intp]
 
     @classmethod
-    def of(cls, ends: FloatArray, spread: FloatArray) -> _StretchesOfRange:
+    def of(cls, ends: FloatArray, spread: FloatArray, flat: FloatArray) -> _StretchesOfRange:
         """See `spread_positions`."""
         low, high = ends[:, :-1], ends[:, 1:].copy()
         length, total = high - low, ends[:, -1:] - ends[:, :1]
-        steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
+        rise = np.sqrt((ends - flat[:, None]) * (ends + flat[:, None]))
+        share = np.maximum(length / total, np.diff(rise) / (rise[:, -1:] - rise[:, :1]))
+        steps = np.clip(np.ceil(share * spread[:, None]), 1, None).astype(np.intp)
         # Next to a sharp tip stretches are short, but not as they lie there.
         real = length > np.minimum(NO_LENGTH * total, 0.5 * high)
         last = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
@@ -181,7 +185,8 @@ def positions_of_first_look(cycle: Cycle, coordinate: Coordinate) -> Positions:
     waves = (ends[:, -1] - ends[:, 0]) / coordinate.profile.feature_length
     normal, tangential = cycle.load.oscillations
     oscillations = max(tangential / normal - 1.0, 0.0)
-    return spread_positions(ends, SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations)
+    spread = SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations
+    return spread_positions(ends, spread, coordinate.profile.flat_radius)
 
 
 @dataclass(frozen=True)
