@@ -62,13 +62,16 @@ class FirstLook:
     history: History
 
     def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """The `local_maxima`, and where swt may be highest between the instants."""
-        point, side, column = local_maxima(self.swt, self.double_angle, r)
-        chosen = np.zeros(self.swt.shape, dtype=bool)
-        chosen[point, side, column] = True
-        rows = np.arange(len(chosen))
-        chosen.reshape(len(chosen), -1)[rows, self.highest.reshape(len(chosen), -1).argmax(axis=1)] = True
-        point, side, column = np.nonzero(chosen)
+        """The `local_maxima`, and where swt may be highest between the instants, unless beside one of these."""
+        peaks = local_maxima(self.swt, self.double_angle, r)
+        n, sides, columns = self.swt.shape
+        chosen = np.zeros((n, sides, columns + 2), dtype=bool)
+        for step in range(3):
+            chosen[peaks[0], peaks[1], peaks[2] + step] = True
+        side, column = np.divmod(self.highest.reshape(n, -1).argmax(axis=1), columns)
+        more = np.flatnonzero(~chosen[np.arange(n), side, column + 1])
+        besides = more, side[more], column[more]
+        point, side, column = (np.concatenate(both) for both in zip(peaks, besides, strict=True))
         return point, side, column
 
     def closer(
