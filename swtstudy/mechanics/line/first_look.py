@@ -62,7 +62,7 @@ class FirstLook:
     history: History
 
     def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """The `local_maxima`, and where swt may be highest between the instants, unless beside one of these."""
+        """The `local_maxima`, and where swt may be highest between instants, unless beside one of these."""
         peaks = local_maxima(self.swt, self.double_angle, r)
         n, sides, columns = self.swt.shape
         chosen = np.zeros((n, sides, columns + 2), dtype=bool)
