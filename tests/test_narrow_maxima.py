@@ -239,3 +239,18 @@ def test_edges_that_arrive_at_a_position_after_many_roundings_of_the_instant():
     expected = np.max(0.5 * pull * (pull - stress(r, radius)))
     found = solve_points(points("paraboloid", 0.0, 0.1, amplitude, 0.0, 0.25 * math.pi, 1, 8), 1e-6)
     assert found.s[0] == pytest.approx(expected, rel=2e-8)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+def test_five_values_on_two_planes_are_no_polynomial(rtol):
+    # The third one is beside a maximum at which the second plane takes over. The value is that of a search at
+    # 1e-8, which takes no polynomial for granted.
+    load = (
+        0.002353892337961405,
+        0.26790450958947226,
+        0.23448422026668145,
+        1.184250650493232,
+        3.6378434206077497,
+    )
+    found = solve_points(points("paraboloid", *load, 3, 2), rtol)
+    assert found.s[0] == pytest.approx(0.1855460438, rel=max(0.3 * rtol, 1e-8))

@@ -205,6 +205,11 @@ def _over_neighbours(swt: FloatArray, r: FloatArray) -> tuple[NDArray[np.bool_],
     return over_left, over_right
 
 
+def plane_jumps(double_angle: FloatArray) -> NDArray[np.bool_]:
+    """Whether another plane takes over between neighbouring positions (…, X), shape (…, X − 1)."""
+    return np.asarray(np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP)
+
+
 def _hidden(
     swt: FloatArray,
     double_angle: FloatArray,
@@ -213,7 +218,7 @@ def _hidden(
     least: FloatArray,
 ) -> NDArray[np.bool_]:
     """Where another plane takes over, its maximum may hide beside the flank of the former one's."""
-    turn = np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP
+    turn = plane_jumps(double_angle)
     turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= least
     hidden = np.zeros(swt.shape, dtype=bool)
     hidden[..., 1:] |= turn & over_right[..., 1:]
