@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.first_look import FirstLook, local_maxima
+from swtstudy.mechanics.line.first_look import FirstLook
 from swtstudy.mechanics.line.look import LEVEL, Resolution
 from swtstudy.mechanics.line.positions import PositionBrackets, Positions
 from swtstudy.mechanics.line.value import hot_intervals
@@ -69,7 +69,7 @@ class Climb:
         resolution: Resolution,
     ) -> Climb:
         """From the first look at a scene, for its finer division, see `split_at_breakpoints`."""
-        peak = local_maxima(look.swt, look.double_angle, positions.r)
+        peak = look.candidates(positions.r)
         point, side, column = peak
         angle, hot = look.closer(scene, *peak)
         hot = gather(hot, part_of[point])

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.events.stretches import NO_STRETCH
-from swtstudy.mechanics.line.look import Look, Resolution, near_extremes
+from swtstudy.mechanics.line.look import Look, Resolution, near_extremes, reach
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.planes.through_y import coarse_swt
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
@@ -41,8 +42,9 @@ class FirstLook:
 
     Attributes
     ----------
-    swt, double_angle
-        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad.
+    swt, double_angle, highest
+        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad; and how high swt
+        may really be between the instants.
     interval
         Shape (n, X, T): interval of the cycle in which each instant of `history` is, or whose mirror image.
     first, last
@@ -53,10 +55,24 @@ class FirstLook:
 
     swt: FloatArray
     double_angle: FloatArray
+    highest: FloatArray
     interval: NDArray[np.intp]
     first: NDArray[np.intp]
     last: NDArray[np.intp]
     history: History
+
+    def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """The `local_maxima`, and where swt may be highest between instants, unless beside one of these."""
+        peaks = local_maxima(self.swt, self.double_angle, r)
+        n, sides, columns = self.swt.shape
+        chosen = np.zeros((n, sides, columns + 2), dtype=bool)
+        for step in range(3):
+            chosen[peaks[0], peaks[1], peaks[2] + step] = True
+        side, column = np.divmod(self.highest.reshape(n, -1).argmax(axis=1), columns)
+        more = np.flatnonzero(~chosen[np.arange(n), side, column + 1])
+        besides = more, side[more], column[more]
+        point, side, column = (np.concatenate(both) for both in zip(peaks, besides, strict=True))
+        return point, side, column
 
     def closer(
         self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
@@ -113,12 +129,25 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     if mirrored:
         # The same instants with the tangential load reversed.
         history = history.joined(history.with_tangential_sign(-1.0))
+    inside = np.concatenate([look.inside] * (2 if mirrored else 1), axis=-1)
     sides = [
-        coarse_swt(scene.planes(history, side), planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
+        _seen(scene.planes(history, side), inside, planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
     ]
-    swt, angle = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
+    swt, angle, highest = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
     interval = look.nodes.spread(look.nodes.interval)
-    return FirstLook(swt, angle, interval, *_parts_of_whole(cycle, scene.cycle), history)
+    return FirstLook(swt, angle, highest, interval, *_parts_of_whole(cycle, scene.cycle), history)
+
+
+def _seen(
+    planes: PlaneHistory, inside: NDArray[np.bool_], count: int
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """swt, 2θ and how high swt may really be on these of ``count`` planes, each (n, X)."""
+    swt, angle = coarse_swt(planes, count)
+    highest = swt.copy()
+    at = np.nonzero(swt >= CANDIDATE_SHARE * swt.max(axis=1, keepdims=True))
+    of_swt = curves(*planes.take(*at).on_plane(angle[at]))
+    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
+    return swt, angle, highest
 
 
 def _parts_of_whole(cycle: Cycle, whole: Cycle) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -176,6 +205,11 @@ def _over_neighbours(swt: FloatArray, r: FloatArray) -> tuple[NDArray[np.bool_],
     return over_left, over_right
 
 
+def plane_jumps(double_angle: FloatArray) -> NDArray[np.bool_]:
+    """Whether another plane takes over between neighbouring positions (…, X), shape (…, X − 1)."""
+    return np.asarray(np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP)
+
+
 def _hidden(
     swt: FloatArray,
     double_angle: FloatArray,
@@ -184,7 +218,7 @@ def _hidden(
     least: FloatArray,
 ) -> NDArray[np.bool_]:
     """Where another plane takes over, its maximum may hide beside the flank of the former one's."""
-    turn = np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP
+    turn = plane_jumps(double_angle)
     turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= least
     hidden = np.zeros(swt.shape, dtype=bool)
     hidden[..., 1:] |= turn & over_right[..., 1:]

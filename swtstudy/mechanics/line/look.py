@@ -116,7 +116,7 @@ def extremes_and_rivals(
     for curve in curves(*planes.on_plane(angle)):
         crests = _crests(curve, inside)
         heights = curve.copy()
-        heights[..., 1:-1][crests.at] = crests.lifted
+        heights.ravel()[crests.at] = crests.lifted
         best = heights.argmax(axis=-1)
         _reaching(heights, crests)
         # The rival is none of the neighbours.
@@ -144,7 +144,7 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
         Shape (…, T) or broadcast to it: which instants are not at the end of a smooth stretch.
     """
     crests, result = _crests(curve, inside), curve.copy()
-    result[..., 1:-1][crests.at] = crests.lifted
+    result.ravel()[crests.at] = crests.lifted
     return result
 
 
@@ -162,12 +162,12 @@ class _Crests(NamedTuple):
     Attributes
     ----------
     at
-        Where they are in the curves without first and last values.
+        Where they are in the flattened curves.
     left, centre, right
         Shape (c,): the values before, at and after them.
     """
 
-    at: tuple[NDArray[np.intp], ...]
+    at: NDArray[np.intp]
     left: FloatArray
     centre: FloatArray
     right: FloatArray
@@ -179,8 +179,10 @@ class _Crests(NamedTuple):
 
 
 def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> _Crests:
-    at = np.nonzero(_peaks(curve) & inside[..., 1:-1])
-    return _Crests(at, *(curve[..., k : curve.shape[-1] - 2 + k][at] for k in range(3)))
+    is_crest = np.zeros(curve.shape, dtype=bool)
+    np.logical_and(_peaks(curve), inside[..., 1:-1], out=is_crest[..., 1:-1])
+    at, flat = np.flatnonzero(is_crest), curve.ravel()
+    return _Crests(at, flat[at - 1], flat[at], flat[at + 1])
 
 
 def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
@@ -191,7 +193,7 @@ def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
 def _reaching(heights: FloatArray, crests: _Crests) -> FloatArray:
     """Heights with the smooth local maxima of the curves as high as they may really be, in place."""
     bend = 2.0 * crests.centre - crests.left - crests.right
-    heights[..., 1:-1][crests.at] = crests.centre + REACH * bend
+    heights.ravel()[crests.at] = crests.centre + REACH * bend
     return heights
 
 

@@ -112,7 +112,10 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
 
 
 def spread_positions(
-    ends: FloatArray, spread: FloatArray, within: tuple[FloatArray, FloatArray] | None = None
+    ends: FloatArray,
+    spread: FloatArray,
+    flat_radius: FloatArray,
+    within: tuple[FloatArray, FloatArray] | None = None,
 ) -> Positions:
     """Cosine-spaced positions between the cusps, about ``spread`` of them and two for each cusp at most.
 
@@ -122,11 +125,13 @@ def spread_positions(
         Shape (n, k), see `cusps`.
     spread
         Shape (n,): number of positions over the whole range, were there no cusps.
+    flat_radius
+        Shape (n,): b. Beside a face depth is like w = √(r² − b²): by that, too, the positions are shared.
     within
         Shape (n, 1): ends of the range that is meant, if not the whole; stretches outside of it have
         `OUTSIDE_STEPS`.
     """
-    parts = _StretchesOfRange.of(ends, spread, within)
+    parts = _StretchesOfRange.of(ends, spread, flat_radius, within)
     stretch, place, count = parts.places()
     step = gather(np.pi / parts.steps, stretch)
     alpha = place * step
@@ -170,13 +175,22 @@ class _StretchesOfRange:
 
     @classmethod
     def of(
-        cls, ends: FloatArray, spread: FloatArray, within: tuple[FloatArray, FloatArray] | None
+        cls,
+        ends: FloatArray,
+        spread: FloatArray,
+        flat: FloatArray,
+        within: tuple[FloatArray, FloatArray] | None,
     ) -> _StretchesOfRange:
         """See `spread_positions`."""
         low, high = ends[:, :-1], ends[:, 1:].copy()
         first, last = within or (ends[:, :1], ends[:, -1:])
         length, total = high - low, last - first
-        steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
+
+        def rise(radius: FloatArray) -> FloatArray:
+            return np.sqrt(np.maximum((radius - flat[:, None]) * (radius + flat[:, None]), 0.0))
+
+        share = np.maximum(length / total, np.diff(rise(ends)) / (rise(last) - rise(first)))
+        steps = np.clip(np.ceil(share * spread[:, None]), 1, None).astype(np.intp)
         if within:
             steps[(low >= last) | (high <= first)] = OUTSIDE_STEPS
         # Next to a sharp tip stretches are short, but not as they lie there.
@@ -220,7 +234,8 @@ def positions_of_first_look(cycle: Cycle, coordinate: Coordinate, everywhere: bo
     normal, tangential = cycle.load.oscillations
     oscillations = max(tangential / normal - 1.0, 0.0)
     spread = SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations
-    return spread_positions(ends, spread, (low, high) if everywhere else None)
+    flat = coordinate.profile.flat_radius
+    return spread_positions(ends, spread, flat, (low, high) if everywhere else None)
 
 
 @dataclass(frozen=True)

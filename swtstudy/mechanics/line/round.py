@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
-from swtstudy.mechanics.line.first_look import TWIN
+from swtstudy.mechanics.line.first_look import TWIN, plane_jumps
 from swtstudy.mechanics.line.positions import PositionBrackets, Positions
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.numerics.arrays import pick
@@ -138,6 +138,8 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     centre[smooth], top[smooth] = _polynomial_maximum(seen.values[smooth], centre[smooth])
     remaining[smooth] = POLYNOMIAL_SHARE * np.abs(top[smooth] - parabola)
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
+    # Values on different planes are no polynomial.
+    clear &= ~plane_jumps(seen.angles).any(axis=1)
     return _Vertex(centre, top, remaining, clear)
 
 
