@@ -30,7 +30,7 @@ from swtstudy.mechanics import quantities
 from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.of_points import load_of
-from swtstudy.mechanics.stress import work
+from swtstudy.mechanics.stress import conjugate, work
 from swtstudy.quantities import NAMED, NONLOCAL, QUANTITIES, Request, attributes_of
 from swtstudy.records.solutions import blank
 from swtstudy.runner import chunk
@@ -166,7 +166,7 @@ def test_the_work_of_a_long_growth_is_refined_and_its_error_told(monkeypatch: py
 def test_they_do_not_depend_on_what_is_computed_together(monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(43, 30, "rounded_punch")
     whole = computed(points, EVERY)
-    monkeypatch.setattr(work, "LARGEST_SIZE", 5_000)
+    monkeypatch.setattr(conjugate, "LARGEST_SIZE", 5_000)
     for part in (np.arange(7), np.array([29, 3])):
         for name, values in computed(points.take(part), EVERY).items():
             np.testing.assert_allclose(values, whole[name][part], rtol=1e-9, atol=1e-14)
