@@ -245,9 +245,11 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
 
 
 def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
-    path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 60}"
+    path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
     # Long cycles, so that a block has some thirty points.
     long = '[fixed]\nfrequency_ratio = "1/15"\n'
+    # Points of two runs, so that two more are told.
+    run(study(long, axes.replace(", 0.3", "")), path, workers=1, solver=stand_in.smooth)
     plain = run(study(long, axes), path, workers=1, solver=stand_in.smooth)
     whole = quantities.quantities_of
     counted = [0]
