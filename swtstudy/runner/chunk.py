@@ -150,10 +150,9 @@ def solve_points(points: Points, rtol: float) -> Solution:
 
 
 def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
-    """What is known of points that failed: no quantity, and s if it was known before."""
-    size, known = len(chunk), chunk.asked.known
-    values = {name: np.full(size, np.nan) for name in columns_of(chunk.asked.quantities)}
-    return blank(size) if known is None else known, values
+    """What points that failed have."""
+    values = {name: np.full(len(chunk), np.nan) for name in columns_of(chunk.asked.quantities)}
+    return blank(len(chunk)), values
 
 
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:

@@ -7,6 +7,7 @@ nothing is singular.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,8 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Digits for which growths on a wavy profile have more nodes. Other digits: 3e-11 of the work.
 DIGITS = 16.0
+#: Cycles times intervals times instants times pieces or nodes that are looked at together: some 100 MB.
+LARGEST_SIZE = 2_000_000
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,19 @@ class Conjugate:
         """Those at ``index`` over one interval each, arrays of shape (m,)."""
         cycle = self.cycle.take_intervals(index, interval[:, None])
         return replace(self.take(index, self.nodes), cycle=cycle)
+
+    def parts(self, count: int) -> Iterator[Conjugate]:
+        """These over some intervals at a time, in order, so many that ``count`` instants in each fit."""
+        n, intervals, pieces = self.cycle.memory.start.shape
+        # A front in a growth is integrated to with as many nodes.
+        size = n * intervals * count * max(pieces, self.nodes)
+        if size <= LARGEST_SIZE:
+            yield self
+            return
+        every = np.arange(n)
+        for some in np.array_split(np.arange(intervals), min(-(-size // LARGEST_SIZE), intervals)):
+            chosen = np.broadcast_to(some, (n, some.size))
+            yield replace(self, cycle=self.cycle.take_intervals(every, chosen))
 
     def at(self, instant: FloatArray) -> FloatArray:
         """The component at instants of shape (n, i, k), over μ F_0 or μ E* δ0/G*."""

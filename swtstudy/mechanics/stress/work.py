@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.numerics.cosine import between
@@ -20,8 +19,6 @@ OF_CHANGE = 6.0
 #: Least relative error of the work: tables of wavy profiles (1.6e-7 at 1 of 80 points); and rounding's share
 #: of the way, along which works of either sign cancel.
 LEAST_ERROR, ROUNDING = 2e-7, 1e-15
-#: Cycles times intervals times pieces times nodes that are integrated together: some 100 MB.
-LARGEST_SIZE = 2_000_000
 #: Steps of each interval between which the largest force ratio is looked for, and into which those beside its
 #: maximum are divided. Half of the former: 4e-5 at 300 points, 30 % faster; both as they are: 3e-6.
 SAMPLES, CLOSE_SAMPLES = 32, 8
@@ -52,31 +49,27 @@ def dissipated_work(scene: Scene, unit: FloatArray) -> tuple[FloatArray, FloatAr
     rows, nodes = np.arange(len(work)), NODES
     while rows.size and nodes < MOST_NODES:
         nodes *= 2
-        for some in _bounded(conjugate, rows, nodes):
-            finer, _ = _work(conjugate.take(some, nodes))
-            error[some], work[some] = OF_CHANGE * np.abs(finer - work[some]), finer
+        finer, _ = _work(conjugate.take(rows, nodes))
+        error[rows], work[rows] = OF_CHANGE * np.abs(finer - work[rows]), finer
         rows = rows[(error > TOLERANCE * work + ROUNDING * moved)[rows]]
     return np.maximum(work, 0.0), error + LEAST_ERROR * np.abs(work) + ROUNDING * moved
 
 
-def _bounded(conjugate: Conjugate, rows: NDArray[np.intp], nodes: int) -> list[NDArray[np.intp]]:
-    """The rows in groups of `LARGEST_SIZE`."""
-    _, intervals, pieces = conjugate.cycle.memory.start.shape
-    return np.array_split(rows, -(-len(rows) * intervals * pieces * nodes // LARGEST_SIZE))
-
-
 def _work(conjugate: Conjugate) -> tuple[FloatArray, FloatArray]:
     """∮ F_x du_x, and the way of what is prescribed, each of shape (n,)."""
-    cycle = conjugate.cycle
     # Dense at both ends of the intervals, where the front starts or arrives.
     node, weight = conjugate.rule()
     angle = 0.5 * np.pi * (1.0 + node)
-    instant = between(cycle.begin[..., None], cycle.end[..., None], angle)
-    weight = 0.25 * np.pi * np.sin(angle) * weight * (cycle.end - cycle.begin)[..., None]
-    moved = cycle.load.tangential_rate(instant) * weight
-    share = 0.5 if cycle.load.mirrored_half else 1.0
-    work = (conjugate.at(instant) * moved).sum(axis=(1, 2)) / share
-    return (-work if conjugate.by_force else work), np.abs(moved).sum(axis=(1, 2)) / share
+    weight = 0.25 * np.pi * np.sin(angle) * weight
+    work, way = np.zeros((2, len(conjugate.unit)))
+    for part in conjugate.parts(len(node)):
+        cycle = part.cycle
+        instant = between(cycle.begin[..., None], cycle.end[..., None], angle)
+        moved = cycle.load.tangential_rate(instant) * weight * (cycle.end - cycle.begin)[..., None]
+        work += (part.at(instant) * moved).sum(axis=(1, 2))
+        way += np.abs(moved).sum(axis=(1, 2))
+    share = 0.5 if conjugate.cycle.load.mirrored_half else 1.0
+    return (-work if conjugate.by_force else work) / share, way / share
 
 
 def largest_force_ratio(scene: Scene, unit: FloatArray) -> FloatArray:
@@ -99,11 +92,14 @@ def largest_force_ratio(scene: Scene, unit: FloatArray) -> FloatArray:
 
 def _ratio(conjugate: Conjugate, angle: FloatArray, least: FloatArray) -> FloatArray:
     """|F_x|/(μ F_N) at angles of shape (…, k) in each interval, 0 without contact, shape (n, i, k)."""
-    cycle = conjugate.cycle
-    instant = between(cycle.begin[..., None], cycle.end[..., None], angle)
-    normal = conjugate.normal_force(np.maximum(cycle.load.normal(instant), 0.0))
-    size = np.abs(cycle.load.tangential(instant) if conjugate.by_force else conjugate.at(instant))
-    return np.divide(size, normal, out=np.zeros_like(size), where=normal > least[:, None, None])
+    found = []
+    for part in conjugate.parts(angle.shape[-1]):
+        cycle = part.cycle
+        instant = between(cycle.begin[..., None], cycle.end[..., None], angle)
+        normal = part.normal_force(np.maximum(cycle.load.normal(instant), 0.0))
+        size = np.abs(cycle.load.tangential(instant) if part.by_force else part.at(instant))
+        found.append(np.divide(size, normal, out=np.zeros_like(size), where=normal > least[:, None, None]))
+    return np.concatenate(found, axis=1)
 
 
 def _peaks(ratio: FloatArray) -> tuple[FloatArray, FloatArray]:
