@@ -13,7 +13,7 @@ from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.grid.codes import code_of, value_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
-from swtstudy.parameters import BUILT_IN
+from swtstudy.parameters import BUILT_IN, PARAMETERS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,7 +51,7 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Datase
     import xarray as xr
 
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
-    for name in BUILT_IN:
+    for name in BUILT_IN.keys() & {*COLUMNS}:
         names = [str(value_of(code, {}, name)) for code in rows[:, COLUMNS.index(name)]]
         coordinates[name] = ("sample", np.array(names, dtype=object))
     columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
@@ -94,10 +94,12 @@ def canonical_rows(dataset: xr.Dataset) -> FloatArray:
     """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
     rows = np.zeros((dataset.sizes["sample"], len(COLUMNS)))
     for i, name in enumerate(COLUMNS):
-        # What an older audit lacks is what it did not have: forces, and loops.
+        # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria.
         if name in dataset.coords:
             values = dataset[name].values
             rows[:, i] = [code_of(value, name) for value in values] if name in BUILT_IN else values
+        elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
+            rows[:, i] = PARAMETERS[name].default
     return rows
 
 
