@@ -12,6 +12,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES, made_by
+from swtstudy.records.requested import request_of
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -31,9 +32,11 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
         if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
     yield f"  prescribed     {grid_of(dataset).control.name}"
-    asked = made_by(read_runs(attributes["runs"]))
-    if asked:
-        yield f"  quantities     {', '.join(asked)}"
+    asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
+    if asked.names:
+        yield f"  quantities     {', '.join(asked.names)}"
+    if asked.distances:
+        yield f"  distances      {', '.join(f'{value:.4g}' for value in asked.distances)}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"

@@ -12,7 +12,7 @@ from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.results.quantity import quantity
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import FigureLayout
@@ -91,7 +91,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
             found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
             continue
         sizes = {str(name): size for name, size in values.sizes.items()}
-        strange = [name for name in sizes if name not in PARAMETERS]
+        strange = [name for name in sizes if name not in AXES]
         if strange or values.dtype.kind not in "fiub":
             what = f"values over {', '.join(strange)}" if strange else f"values of type {values.dtype}"
             found.append(Mistake("figure.y", f"{y!r} with {what}", "numbers over parameters"))

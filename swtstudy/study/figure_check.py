@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES, variables_of
+from swtstudy.parameters import AXES, DIRECTIONS, QUANTITY_AXES
+from swtstudy.quantities import DISTANCE, Request, every_variable
 from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, FigureLayout, reference
 
 
@@ -31,8 +31,9 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         if layout.hue is not None:
             yield "figure.hue", literal(layout.hue), f'none for kind = "{layout.kind}"'
     for role in ("x", "vertical"):
-        if getattr(layout, role) == "profile" and layout.kind != "heatmap":
-            yield f"figure.{role}", "'profile'", "an axis of numbers"
+        name = getattr(layout, role)
+        if name in AXES and AXES[name].kind == "name" and layout.kind != "heatmap":
+            yield f"figure.{role}", literal(name), "an axis of numbers"
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
     problem = _wrong_formula(layout.title or "")
@@ -61,7 +62,7 @@ def wrong_axes(
             yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
     roles = dict(layout.roles())
     for name in sizes:
-        if name not in roles.values() and name in PARAMETERS:
+        if name not in roles.values() and name in AXES:
             yield (
                 "figure",
                 f"no place for the axis {name}",
@@ -70,7 +71,7 @@ def wrong_axes(
 
 
 def check_figure(
-    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report
+    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request, report: Report
 ) -> None:
     """Report everything in a figure that does not fit its study.
 
@@ -83,15 +84,33 @@ def check_figure(
     grid
         The grid, to look up the places used for normalisation; None if it has mistakes itself.
     asked
-        Data variables that the study asks for beside those of every study.
+        What the study asks for beside s.
     report
         Called with key, found and allowed of each mistake.
     """
-    sizes = {name: None if grid is None else len(grid.values(name)) for name in dims}
-    for key, found, allowed in (*wrong_layout(layout), *wrong_axes(layout, sizes, "this study")):
-        report(key, found, allowed)
+    of = "{} in this study" if asked.distances else "this study"
+    found = [*wrong_layout(layout)]
+    for y in layout.y or ("s",):
+        found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
+    if layout.regimes and layout.x in QUANTITY_AXES:
+        found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
+    for mistake in dict.fromkeys(found):
+        report(*mistake)
     for y in layout.y:
         _check_quantity(y, dims, grid, asked, report)
+
+
+def _sizes(
+    y: str, layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request
+) -> dict[str, int | None]:
+    """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
+    sizes = {
+        name: None if grid is None else len(grid.values(name)) for name in dims if name not in QUANTITY_AXES
+    }
+    known = y.strip() in VARIABLES or not y.strip().isidentifier()
+    used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
+    return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
 
 
 def _wrong_formula(text: str) -> str | None:
@@ -113,8 +132,8 @@ def _wrong_formula(text: str) -> str | None:
     return None
 
 
-def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report) -> None:
-    known = (*VARIABLES, *asked)
+def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
+    known = (*VARIABLES, *asked.variables)
     try:
         place = reference(y)
     except ValueError as error:
@@ -122,9 +141,9 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Sequence[
         return
     if place is None:
         name = y.strip()
-        if name in variables_of(QUANTITIES) and name not in asked:
+        if name in every_variable() and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
-            report("figure.y", found, f"what is among its quantities, {', '.join(known)}, or {QUANTITY}")
+            report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
         elif name not in known:
             report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
         return

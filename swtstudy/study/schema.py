@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
-from swtstudy.quantities import QUANTITIES
+from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
@@ -75,23 +75,24 @@ def study_schema() -> dict[str, Any]:
     keys["quantities"] = {
         "description": keys["quantities"]["description"],
         "type": "array",
-        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in QUANTITIES.values()]},
+        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in NAMED.values()]},
         "uniqueItems": True,
         "default": [],
     }
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
+    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]}
     for part, entry_of in (("fixed", _value), ("axes", _axis)):
         # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
         keys[part] = {
             "description": keys[part]["description"],
             "type": "object",
-            "properties": {name: entry_of(row) for name, row in PARAMETERS.items()},
+            "properties": {name: entry_of(row) for name, row in given.items()},
             "additionalProperties": False,
         }
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
-        roles[role] = {"enum": list(PARAMETERS), "description": roles[role]["description"]}
+        roles[role] = {"enum": [*PARAMETERS, *QUANTITY_AXES], "description": roles[role]["description"]}
     return schema
 
 
