@@ -1,7 +1,7 @@
 """How s of a table comes near that of the closed form, over the number of its points and over its noise.
 
-A rounded punch and a wavy paraboloid as tables of 25 to 2,000 points, and a paraboloid with noisy heights that
-are smoothed by as much, each at points all over the box of parameters. Run from the project's folder:
+A rounded punch and a wavy paraboloid as tables of 25 to 2,000 points, and a paraboloid with noisy heights
+that are smoothed by as much, each at points all over the box of parameters. Run from the project's folder:
 ``python studies/table_convergence.py``; writes results/table_convergence.png.
 """
 
@@ -73,7 +73,7 @@ def main() -> None:
     errors = [np.abs(of_profile(box, noisy(amount), {}) / exact - 1.0) for amount in amounts]
     draw(right, amounts, errors, f"paraboloid of {NOISY} points")
     left.set(xlabel="points of the table", ylabel="relative error of s: median and largest")
-    right.set(xlabel="noise and smoothing, root mean square over δ0")
+    right.set(xlabel="noise over δ0, smoothed as much")
     figure.savefig(given.results / "table_convergence.png", dpi=150)
 
 

@@ -1,7 +1,7 @@
 """How SWT changes as a pad wears: a paraboloid whose tip has worn flat, with a sharp or a round blend.
 
 The pad of ``studies/physical.py`` (R = 50 mm, aluminium on aluminium) under a constant normal force of 200 N
-and an oscillating tangential force, from new to a wear of 5 µm, which makes a face wider than the contact was.
+and an oscillating tangential force, from new to a wear of 5 µm: its face is then wider than the contact was.
 Each worn pad is a table, studies/worn/*.csv (radius and height in mm); ``--tables`` writes them anew. The
 shape that wear tends to at a constant radius of stick has a singular pressure and is not among them.
 
