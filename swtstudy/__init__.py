@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.profile import draw_profile
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
@@ -36,6 +37,7 @@ __all__ = [
     "TabulatedProfile",
     "__version__",
     "audit_study",
+    "draw_profile",
     "inspect",
     "inspect_point",
     "open_results",
@@ -58,6 +60,7 @@ _HOMES = {
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
+    "draw_profile": "swtstudy.figures.profile",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",

@@ -211,6 +211,26 @@ def test_show_draws_one_point(tmp_path):
     assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
 
 
+def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    drawn = []
+    own = swtstudy.draw_profile
+    monkeypatch.setattr(
+        "swtstudy.figures.profile.draw_profile", lambda **given: drawn.append(given) or own(**given)
+    )
+    rows = "".join(f"{r / 10},{(r / 10) ** 2 / 2}\n" for r in range(20))
+    Path("worn.csv").write_text(f"radius,height\n{rows}")
+    for words in (["rounded_punch", "--flat-radius", "0.5"], ["worn.csv"]):
+        result = call("show", "--profile", *words, "-o", "profile.svg")
+        assert result.exit_code == 0, result.output
+        assert "<svg" in Path("profile.svg").read_text()
+    assert drawn[0]["flat_radius"] == "0.5"
+    assert drawn[1]["profile"].name == "worn"
+    assert call("show", "--profile", "rounded_punch", "--flat-radius", "0.5", "--phase", "1").exit_code == 0
+    assert len(drawn) == 2
+    assert "flat_radius: found nothing" in call("show", "--profile", "rounded_punch").stderr
+
+
 def test_plan_counts_and_writes_nothing(study, tmp_path):
     result = call("plan", study, "--results", tmp_path / "results")
     assert result.exit_code == 0, result.output

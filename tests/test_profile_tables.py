@@ -143,3 +143,47 @@ def test_a_table_under_prescribed_forces() -> None:
         swtstudy.solve(profile=profile, rtol=1e-6, **load).s.item() for profile in (square, "paraboloid")
     )
     assert found == pytest.approx(expected, rel=1e-9)
+
+
+PAD = {
+    "young_modulus": 73.1e3,
+    "poisson_ratio": 0.33,
+    "friction": 0.5,
+    "tangential_amplitude": 0.002,
+    "normal_amplitude": 1e-4,
+}
+
+
+def test_a_real_contact_of_a_table() -> None:
+    """A paraboloid of R = 50, once in closed form and once as a table of lengths."""
+    r = np.linspace(0.0, 1.5, 40)
+    pad = swtstudy.TabulatedProfile("pad", r, r**2 / 100.0)
+    for load in ({"normal_force": 200.0}, {"depth": 0.006}):
+        table = swtstudy.physical(profile=pad, **load, **PAD)
+        closed = swtstudy.physical(radius=50.0, **load, **PAD)
+        for name in ("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure"):
+            assert getattr(table, name) == pytest.approx(getattr(closed, name), rel=1e-8)
+        assert table.length_scale == pytest.approx(closed.length_scale, rel=1e-8)
+        np.testing.assert_allclose(table.solve().SWT, closed.solve().SWT, rtol=1e-6)
+    harder = table.with_parameters(friction=0.7)
+    assert harder.profile is pad
+    assert harder.friction == 0.7
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (
+            {"depth": 0.1},
+            "profile: found pad; allowed: the depth 0.1001 is beyond the table of pad, which ends at",
+        ),
+        ({"normal_force": 1e5}, "is beyond the table of pad, which ends at the radius 1.5"),
+        ({"depth": 0.006, "radius": 50.0}, "radius: found 50.0; allowed: nothing: the table"),
+        ({"depth": 0.006, "exponent": 3}, "exponent: found 3, which the profile does not have (pad)"),
+    ],
+)
+def test_mistakes_about_a_real_contact_of_a_table(given: dict[str, float], message: str) -> None:
+    r = np.linspace(0.0, 1.5, 40)
+    with pytest.raises(StudyError) as caught:
+        swtstudy.physical(profile=swtstudy.TabulatedProfile("pad", r, r**2 / 100.0), **given, **PAD)
+    assert message in str(caught.value)

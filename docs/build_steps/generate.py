@@ -8,6 +8,7 @@ from build_steps.commands import commands
 from build_steps.gallery import gallery
 from build_steps.house import draw_house
 from build_steps.parameters import parameters
+from build_steps.profiles import draw_profiles
 from build_steps.rooms import MECHANICS, WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
@@ -60,6 +61,7 @@ def generate(folder: Path) -> None:
         write_if_new(folder / f"{name}.md", text)
     draw_house(WHOLE, folder / "house.svg")
     draw_house(MECHANICS, folder / "mechanics.svg")
+    draw_profiles(folder)
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
 
 

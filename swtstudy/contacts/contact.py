@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from swtstudy.contacts.bodies import (
 )
 from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.indenter import Profile, length_law, make_profile
+from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
 from swtstudy.parameters import HARMONIC, PAIRS, PARAMETERS, family_of, is_profile
@@ -37,6 +38,17 @@ if TYPE_CHECKING:
 _RADII, _DIGITS = 4001, 9.0
 
 
+@lru_cache(maxsize=8)
+def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
+    """`TabulatedProfile.scaled`, whose fit takes time."""
+    return table.scaled(length, depth)
+
+
+def _contact_radius(table: TabulatedProfile, depth: float) -> float:
+    """Contact radius of a table in lengths."""
+    return float(make_profile(table, {}, np.array([depth])).radius(np.array([[depth]]))[0, 0])
+
+
 @dataclass(frozen=True)
 class PhysicalContact:
     """A real contact, in any consistent set of units, such as N, mm and MPa.
@@ -46,11 +58,11 @@ class PhysicalContact:
     moduli
         Of the two bodies.
     radius
-        R; of a power law f = rⁿ/(n Rⁿ⁻¹).
+        R; of a power law f = rⁿ/(n Rⁿ⁻¹); None for a table.
     depth
         Mean indentation depth δ0.
     friction, frequency_ratio, phase, profile, load, walker_exponent, bulk_stress_phase
-        As in `swtstudy.parameters.PARAMETERS`.
+        As in `swtstudy.parameters.PARAMETERS`; the radii and heights of a table are lengths.
     normal_amplitude, tangential_amplitude
         δA and uA, lengths; None where a force is prescribed.
     shape
@@ -64,14 +76,14 @@ class PhysicalContact:
     """
 
     moduli: Moduli
-    radius: float
+    radius: float | None
     depth: float
     friction: float
     normal_amplitude: float | None
     tangential_amplitude: float | None
     frequency_ratio: Fraction
     phase: float
-    profile: str
+    profile: str | TabulatedProfile
     shape: Mapping[str, float] = field(default_factory=dict)
     normal_force_amplitude: float | None = None
     tangential_force_amplitude: float | None = None
@@ -84,7 +96,10 @@ class PhysicalContact:
 
     @property
     def length_scale(self) -> float:
-        """a_H: √(R δ0), and of a power law its contact radius at δ0."""
+        """a_H: √(R δ0), and of a power law or a table its contact radius at δ0."""
+        if isinstance(self.profile, TabulatedProfile):
+            return _contact_radius(self.profile, self.depth)
+        assert self.radius is not None
         coefficient, power = length_law(self.profile, self.shape)
         return self.radius * (self.depth / (coefficient * self.radius)) ** power
 
@@ -100,7 +115,7 @@ class PhysicalContact:
 
     @property
     def swt_scale(self) -> float:
-        """SWT0 = E* (δ0/a_H)² of the half-space with E*: E* δ0/R (eq. 19) but for a power law."""
+        """SWT0 = E* (δ0/a_H)² of the half-space with E*: E* δ0/R (eq. 19) where a_H = √(R δ0)."""
         return self.moduli.normal * (self.depth / self.length_scale) ** 2
 
     @property
@@ -138,7 +153,13 @@ class PhysicalContact:
 
     def _profile(self) -> Profile:
         shape = {name: np.array([value]) for name, value in self.shape_parameters.items()}
-        return make_profile(self.profile, shape, np.ones(1))
+        return make_profile(self._pure_profile(), shape, np.ones(1))
+
+    def _pure_profile(self) -> str | TabulatedProfile:
+        """The non-dimensional profile: a table in a_H and δ0."""
+        if isinstance(self.profile, str):
+            return self.profile
+        return _scaled(self.profile, self.length_scale, self.depth)
 
     @property
     def shape_parameters(self) -> dict[str, float]:
@@ -155,6 +176,7 @@ class PhysicalContact:
             do not depend on these, and the stress beneath them on those of the body itself alone.
         """
         own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
+        own["profile"] = self._pure_profile()
         if body != self.bulk_stress_body:
             own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
         return {n: number_of(n, own[n], self) for n in PARAMETERS if own.get(n) is not None}
@@ -170,7 +192,7 @@ class PhysicalContact:
         if "poisson_ratio" in parameters:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         profile = parameters.get("profile", self.profile)
-        kept = family_of(profile).shape if is_profile(profile) else ()
+        kept = family_of(profile).shape if isinstance(profile, Named) or is_profile(profile) else ()
         every = self.parameters(self.bulk_stress_body)
         own = {n: v for n, v in every.items() if n not in self.shape or n in kept}
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
@@ -181,6 +203,12 @@ class PhysicalContact:
         own = {name: value for name, value in grid.fixed.items() if name in vars(self)}
         pure: dict[str, Any] = {name: value for name, value in own.items() if not PARAMETERS[name].scale}
         pure |= dict.fromkeys(replaced)
+        if isinstance(pure.get("profile"), TabulatedProfile):
+            pure["profile"] = (
+                _scaled(pure["profile"], 1.0 / self.length_scale, 1.0 / self.depth)
+                if "profile" in parameters
+                else self.profile
+            )
         contact = replace(self, **pure, shape={})
         # In the order of the table: a length may be measured in the one before it.
         for name, value in grid.fixed.items():

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.given import (
     SIMILAR,
@@ -22,7 +24,7 @@ from swtstudy.contacts.given import (
 from swtstudy.contacts.scales import least_depths, length_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import read_value
-from swtstudy.mechanics.indenter import length_law, too_small
+from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
@@ -57,7 +59,8 @@ def physical(
         Of both bodies: one value for two equal bodies, or a pair. These and radius must be given.
     radius
         R of the relative curvature, 1/R = 1/R1 + 1/R2. The power law is f = rⁿ/(n Rⁿ⁻¹), with the slope 1 at
-        r = R.
+        r = R. Not for a profile that is a `TabulatedProfile`: its radii and heights are lengths, the heights
+        those of both bodies together.
     depth, normal_force
         One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
@@ -94,7 +97,9 @@ def physical(
     >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
     (296, 0.568)
     """
-    own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio, "radius": radius}
+    own = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
+    if radius is not None or not isinstance(parameters.get("profile"), TabulatedProfile):
+        own["radius"] = radius
     given: dict[str, Any] = {
         **own,
         **_defaults_beside(parameters),
@@ -114,6 +119,8 @@ def physical(
     contact = replace(_contact(given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
+    if isinstance(contact.profile, TabulatedProfile):
+        _refuse_beyond(contact.profile, contact.depth + (contact.normal_amplitude or 0.0))
     _, mistakes = read_grid(contact.parameters(), {})
     if mistakes:
         raise StudyError(in_own_values(mistake, _sizes(given)) for mistake in mistakes)
@@ -129,18 +136,22 @@ def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:
     """The lengths and forces, and the shape of any profile."""
     names = [name for name in given if name in (*_DEFAULTS, *PAIRS) and name not in (*_PURE, "profile")]
-    return {name: given[name] for name in ("radius", *names)}
+    return {name: given[name] for name in ("radius", *names) if name in given}
 
 
 def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
     """What is wrong with each of the keywords."""
-    profile = given["profile"] if is_profile(given["profile"]) else None
+    is_table = isinstance(given["profile"], TabulatedProfile)
+    profile = given["profile"] if is_table or is_profile(given["profile"]) else None
     pure = {name: given[name] for name in _PURE}
     _, mistakes = read_grid(pure if profile else {**pure, "profile": given["profile"]}, {})
     young, poisson = pair(given["young_modulus"]), pair(given["poisson_ratio"])
     mistakes += wrong_bodies(young, poisson, given["similar"])
     mistakes += wrong_load(given["depth"], given["normal_force"])
-    mistakes += wrong_sizes(_sizes(given), profile)
+    mistakes += wrong_sizes(_sizes(given), None if profile is None else str(profile))
+    if is_table and "radius" in given:
+        found, allowed = literal(given["radius"]), "nothing: the table of the profile has lengths"
+        mistakes.append(Mistake("radius", found, allowed))
     for force, other in PAIRS.items():
         if force in given and other in given:
             mistakes.append(
@@ -155,7 +166,7 @@ def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
 
 def _contact(given: Mapping[str, Any]) -> PhysicalContact:
     """The contact from what has no mistakes, at the depth 1 if that is not given."""
-    values: dict[str, Any] = dict.fromkeys(PAIRS.values())
+    values: dict[str, Any] = dict.fromkeys((*PAIRS.values(), "radius"))
     values |= {name: plain_number(value) for name, value in _sizes(given).items()}
     values |= {name: read_value(PARAMETERS[name], given[name]) for name in _PURE}
     young, poisson = (pair_of_numbers(pair(given[name])) for name in ("young_modulus", "poisson_ratio"))
@@ -172,7 +183,12 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
     """Indentation depth at a normal force, which rises with it."""
     from scipy.optimize import brentq
 
+    if isinstance(contact.profile, TabulatedProfile):
+        profile = make_profile(contact.profile, {}, np.ones(1))
+        half = np.array([[0.5 * force / contact.moduli.normal]])
+        return float(profile.depth(profile.radius_of_half_load(half))[0, 0])
     _refuse_at_any_depth(contact)
+    assert contact.radius is not None
     (coefficient, power), log_radius = length_law(contact.profile, contact.shape), math.log(contact.radius)
 
     def excess(logarithm: float) -> float:
@@ -194,6 +210,13 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
     while excess(high) < 0.0:
         high += 1.0
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
+
+
+def _refuse_beyond(table: TabulatedProfile, depth: float) -> None:
+    """Raise if the contact of a table in lengths is no full disc up to a depth, or larger than the table."""
+    wrong = table.refused_at(depth)
+    if wrong is not None:
+        raise StudyError([Mistake("profile", str(table), wrong)])
 
 
 def _refuse_at_any_depth(contact: PhysicalContact) -> None:

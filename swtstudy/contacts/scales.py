@@ -44,7 +44,7 @@ SCALES: dict[str, Scale] = {
     "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
     "μ F0": Scale(lambda contact: contact.friction * contact.normal_force, None, kind="force"),
     "√(hR)": Scale(
-        lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * contact.radius),
+        lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * (contact.radius or math.nan)),
         0.0,
         made_of="waviness_amplitude",
     ),

@@ -21,6 +21,11 @@ _RADII = np.linspace(0.0, 1e3, 9)
 _ANY = TabulatedProfile("any", _RADII, _RADII**2)
 
 
+def table_from(path: Path) -> TabulatedProfile:
+    """The profile in a CSV file, of the name of the file."""
+    return TabulatedProfile(path.stem, *read_columns(path, COLUMNS).T)
+
+
 def read_profiles(
     tables: Mapping[str, Any], folder: Path, source: str
 ) -> tuple[dict[str, Named], list[Mistake]]:

@@ -21,7 +21,11 @@ from swtstudy.mechanics.points import FloatArray
 DEGREE = 4
 #: What the pieces miss of g′, over its largest value, and over what a table of every other point misses.
 TOLERANCE, SHARE_OF_COARSE = 1e-8, 0.1
-#: Pieces are halved until they fit, but are no shorter than a quarter of the steps of the table.
+#: Radii at which the two tables are compared.
+COMPARED = 400
+#: Pieces are halved until they fit, but not further than this share of the whole: a corner of 20,000 points
+#: would take 54,000; nor than a quarter of the steps of the table.
+SHORTEST = 1e-3
 FIRST_PIECES = 8
 #: Pieces shorter than this share of the whole are of two degrees less: in powers of w high ones lose digits.
 NARROW = 0.015
@@ -158,7 +162,7 @@ class SlopePieces:
 
 def resolved(f: PPoly, coarse: PPoly) -> float:
     """What may be missed of g′, from the splines through all points and through every other one."""
-    radius = np.linspace(max(f.x[0], coarse.x[0]), min(f.x[-1], coarse.x[-1]), 2 * len(f.x))
+    radius = np.linspace(max(f.x[0], coarse.x[0]), min(f.x[-1], coarse.x[-1]), COMPARED)
     fine = exact_slope(f, radius)
     differs = np.abs(exact_slope(coarse, radius) - fine)
     return float(max(TOLERANCE * np.abs(fine).max(), SHARE_OF_COARSE * np.quantile(differs, 0.9)))
@@ -167,7 +171,7 @@ def resolved(f: PPoly, coarse: PPoly) -> float:
 def _edges(f: PPoly, b: float, last: float, allowed: float) -> FloatArray:
     """Ends of the pieces, in w."""
     edges = np.linspace(0.0, last, FIRST_PIECES + 1)
-    narrowest = np.diff(f.x).min()
+    narrowest = max(0.5 * float(np.diff(f.x).min()), SHORTEST * last)
     settled: list[FloatArray] = []
     start, width = edges[:-1], np.diff(edges)
     between = (np.arange(DEGREE + 3) + 0.5) / (DEGREE + 3)
@@ -178,7 +182,7 @@ def _edges(f: PPoly, b: float, last: float, allowed: float) -> FloatArray:
         exact = _slope_at(f, b, w)
         found = np.stack([_horner(fit[:, :, None], w - start[:, None]) for fit in (over_radius, slope)])
         missed = np.abs(found * np.stack([np.hypot(w, b), np.ones_like(w)]) - exact).max(axis=0)
-        bad = (missed.max(axis=1) > allowed) & (width > 0.5 * narrowest)
+        bad = (missed.max(axis=1) > allowed) & (width > narrowest)
         settled.append(start[~bad])
         start, width = start[bad], 0.5 * width[bad]
         start, width = np.concatenate([start, start + width]), np.tile(width, 2)

@@ -1,0 +1,91 @@
+"""How s of a table comes near that of the closed form, over the number of its points and over its noise.
+
+A rounded punch and a wavy paraboloid as tables of 25 to 2,000 points, and a paraboloid with noisy heights
+that are smoothed by as much, each at points all over the box of parameters. Run from the project's folder:
+``python studies/table_convergence.py``; writes results/table_convergence.png.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from accuracy import random_points
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from numpy.typing import NDArray
+
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.indenter import TabulatedProfile
+
+COUNTS = (25, 50, 100, 200, 500, 1000, 2000)
+NOISE = (1e-5, 1e-4, 1e-3, 1e-2)
+#: Points of a noisy table, largest radius of all, points of the box and relative tolerance.
+NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 40, 1e-7
+H, WAVELENGTH, FACE = 0.05, 5.0, 0.5
+SHAPES = {
+    "rounded_punch": {"flat_radius": FACE},
+    "wavy_paraboloid": {"waviness_amplitude": H, "wavelength": WAVELENGTH},
+}
+
+Array = NDArray[np.float64]
+
+
+def height(name: str, r: Array) -> Array:
+    """f over δ0 (eqs. 3, 4, 6)."""
+    if name == "rounded_punch":
+        return np.where(r > FACE, 0.5 * (r - FACE) ** 2, 0.0)
+    waves = H * (1.0 - np.cos(2.0 * np.pi / (WAVELENGTH * np.sqrt(H)) * r))
+    return 0.5 * r * r + (waves if name == "wavy_paraboloid" else 0.0)
+
+
+def of_profile(box: Points, profile: str | TabulatedProfile, shape: dict[str, float]) -> Array:
+    """s at the points of the box on another profile."""
+    columns = vars(box) | {"profile": profile, "shape": {n: np.full(len(box), v) for n, v in shape.items()}}
+    return solve_points(Points(**columns), RTOL).s
+
+
+def noisy(amount: float) -> TabulatedProfile:
+    """A paraboloid with noise of this root mean square, smoothed by that."""
+    r = np.linspace(0.0, LARGEST, NOISY)
+    noise = np.random.default_rng(0).standard_normal(NOISY) * (r > 0.0)
+    return TabulatedProfile("noisy", r, 0.5 * r * r + amount * noise, amount)
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the chart")
+    arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
+    given = arguments.parse_args()
+    box = random_points("paraboloid", 3 if given.quick else POINTS, seed=1)
+    counts, amounts = (COUNTS[:2], NOISE[:2]) if given.quick else (COUNTS, NOISE)
+    figure = Figure((7.0, 3.4), layout=ConstrainedLayoutEngine())
+    left, right = figure.subplots(1, 2, sharey=True)
+    for name, shape in SHAPES.items():
+        exact, errors = of_profile(box, name, shape), []
+        for count in counts:
+            r = np.linspace(0.0, LARGEST, count)
+            table = TabulatedProfile(f"{name} of {count}", r, height(name, r))
+            errors.append(np.abs(of_profile(box, table, {}) / exact - 1.0))
+        draw(left, counts, errors, name.replace("_", " "))
+    exact = of_profile(box, "paraboloid", {})
+    errors = [np.abs(of_profile(box, noisy(amount), {}) / exact - 1.0) for amount in amounts]
+    draw(right, amounts, errors, f"paraboloid of {NOISY} points")
+    left.set(xlabel="points of the table", ylabel="relative error of s: median and largest")
+    right.set(xlabel="noise over δ0, smoothed as much")
+    figure.savefig(given.results / "table_convergence.png", dpi=150)
+
+
+def draw(axes, at, errors, label) -> None:  # type: ignore[no-untyped-def]
+    """Median and largest errors, and print them."""
+    median, largest = (np.array([of(error) for error in errors]) for of in (np.median, np.max))
+    (line,) = axes.loglog(at, median, "o-", label=label)
+    axes.loglog(at, largest, "o:", color=line.get_color())
+    axes.legend(frameon=False, fontsize=8)
+    for where, middle, most in zip(at, median, largest, strict=True):
+        print(f"{label}, {where:g}: median {middle:.1e}, largest {most:.1e}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,123 @@
+"""A profile by itself: what it looks like, how deep its springs are, and its pressure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.figures.style import Style, styled
+from swtstudy.grid.reading import read_grid
+from swtstudy.grid.values import as_number
+from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.parameters import PARAMETERS, family_of
+from swtstudy.wording import place_words, value_words
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from swtstudy.mechanics.indenter import Profile
+    from swtstudy.mechanics.points import FloatArray
+
+#: Size of the figure, inches; radii of the curves, over the contact radius at δ0; digits of the pressure.
+_WIDTH, _HEIGHT = 9.6, 4.0
+_RADII, _REACH, _DIGITS = 1201, 1.45, 9.0
+
+
+def draw_profile(*, style: Style | None = None, **parameters: object) -> Figure:
+    """A picture of a profile: its shape f with the coordinates and the two loads, g, and the pressure at δ0.
+
+    Parameters
+    ----------
+    style
+        A matplotlib style: a name, a file or rcParams.
+    **parameters
+        profile, a name or a `TabulatedProfile`, and its shape parameters, as for `swtstudy.solve`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Two panels: f in δ0 over x in a_H, pressed by δ0, with the half-space beneath; g and the pressure. A
+        table has its points, and its title the largest deviation of the fit from them.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters.
+    """
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    from swtstudy.figures.figure import Figure
+
+    wrong = [name for name in parameters if name in PARAMETERS and PARAMETERS[name].part != "shape"]
+    if wrong:
+        raise StudyError(Mistake(name, "a parameter of the load or the bodies", "a shape") for name in wrong)
+    grid, mistakes = read_grid({"normal_amplitude": 0.0, **parameters}, {})
+    if grid is None:
+        raise StudyError(mistakes)
+    given = grid.fixed["profile"]
+    shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(given).shape}
+    profile = make_profile(given, shape, np.ones(1))  # type: ignore[arg-type]
+    edge = float(profile.radius(np.ones((1, 1)))[0, 0])
+    with styled(style):
+        figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))
+        sketch, springs = figure.subplots(1, 2)
+        _draw_sketch(sketch, profile, edge)
+        _draw_springs(springs, profile, edge)
+        if isinstance(given, TabulatedProfile):
+            sketch.plot(given.radius, given.height - 1.0, ".", ms=3, color="C1", label="table")
+        words = [value_words("profile", str(given)), *(place_words(n, float(v[0])) for n, v in shape.items())]
+        if isinstance(given, TabulatedProfile):
+            words.append(f"{given.radius.size} points, missed by {given.deviation:.1e} δ0 at most")
+        figure.suptitle(",  ".join(words))
+    return figure
+
+
+def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
+    """The indenter at δ0 over the undeformed half-space, the coordinates and the loads."""
+    r = np.linspace(0.0, _REACH * edge, _RADII)
+    height = _height(profile, r) - 1.0
+    x = np.concatenate([-r[::-1], r])
+    lower = np.concatenate([height[::-1], height])
+    top = max(0.9, float(height.max()))
+    axes.fill_between(x, lower, top, color="0.8", lw=0.0)
+    axes.plot(x, lower, color="0.2")
+    axes.axhline(0.0, color="C0", lw=1.0)
+    axes.fill_between(x, -1.35, 0.0, color="C0", alpha=0.12, lw=0.0)
+    arrow = {"arrowstyle": "-|>", "color": "k", "lw": 1.4, "shrinkA": 0.0, "shrinkB": 0.0}
+    reach = _REACH * edge
+    for end, word, offset in (((0.45 * reach, 0.0), "$x$", (3, 4)), ((0.0, -1.3), "$z$", (5, 0))):
+        axes.annotate("", end, (0.0, 0.0), arrowprops=arrow)
+        axes.annotate(word, end, offset, textcoords="offset points")
+    load = {**arrow, "color": "C3", "lw": 2.0}
+    axes.annotate("", (0.0, 0.5 * top), (0.0, top), arrowprops=load)
+    axes.annotate("normal load: depth $\\delta$, force", (0.04 * reach, 0.8 * top), color="C3", fontsize=9)
+    axes.annotate("", (-0.45 * reach, 0.3 * top), (-0.85 * reach, 0.3 * top), arrowprops=load)
+    axes.annotate("tangential: $u$, force", (-0.97 * reach, 0.38 * top), color="C3", fontsize=9)
+    axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
+    axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
+    axes.set_title("f, undeformed, at the depth δ0", loc="left")
+
+
+def _draw_springs(axes: Axes, profile: Profile, edge: float) -> None:
+    """g and the pressure."""
+    r = np.linspace(1e-6, _REACH * edge, _RADII)[None]
+    axes.plot(r[0], profile.depth(r)[0], color="C0", label="$g/\\delta_0$")
+    axes.axvline(edge, color="0.6", lw=0.8, ls=":")
+    axes.axhline(1.0, color="0.6", lw=0.8, ls=":")
+    inside = r[:, r[0] < edge]
+    pressure = profile.primitives(inside, _DIGITS).outer(np.full(inside.shape, edge))[0, 0] / np.pi
+    axes.plot(inside[0], pressure, color="C3", label="$p\\,a_H/(E^*\\delta_0)$")
+    axes.set(xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="radius$/a_H$")
+    axes.set_title("springs, and pressure at δ0", loc="left")
+    axes.legend(frameon=False, loc="upper left")
+
+
+def _height(profile: Profile, radius: FloatArray) -> FloatArray:
+    """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ."""
+    node, weight = np.polynomial.legendre.leggauss(200)
+    θ = 0.25 * np.pi * (1.0 + node)
+    g = profile.depth((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)
+    return np.asarray((g @ weight) * 0.5)
