@@ -4,7 +4,7 @@ import stand_in
 
 import swtstudy
 from swtstudy import StudyError, optimise
-from swtstudy.optimum.box import SEARCHABLE
+from swtstudy.grid.values import NUMERIC
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
 from swtstudy.parameters import PARAMETERS
@@ -91,7 +91,7 @@ def test_another_quantity():
 
 
 def test_every_number_may_be_searched_over():
-    assert {*SEARCHABLE} == {name for name, row in PARAMETERS.items() if row.kind == "number"}
+    assert {*NUMERIC} == {name for name, row in PARAMETERS.items() if row.kind == "number"}
 
 
 def test_points_without_a_finite_value_are_left_out_and_counted():

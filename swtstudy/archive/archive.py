@@ -56,6 +56,8 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
+    if study.sample is not None and study.sample.design is not None:
+        dataset.sample.attrs |= study.sample.design.attributes()
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
     dataset.status.attrs["failures"] = json.dumps(failures(records))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))

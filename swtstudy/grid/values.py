@@ -8,10 +8,13 @@ from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
-from swtstudy.parameters import Parameter, is_profile
+from swtstudy.parameters import PARAMETERS, Parameter, is_profile
 
 #: A checked value: a float, an exact frequency ratio, or the name of a profile.
 Value = float | Fraction | str
+
+#: Names of the parameters that are numbers: those that can have any value between two others.
+NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
 
 #: How far, relatively, a float may be from the small fraction that it stands for.
 _FRACTION_TOLERANCE = 1e-9

@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
 
@@ -27,6 +28,10 @@ def as_html(study: Study) -> str:
         ("axis", name, _values(values), _meaning(name, roles.get(name)))
         for name, values in study.grid.axes.items()
     ]
+    rows += [
+        ("sampled", name, _values(values), _meaning(name, roles.get(SAMPLE)))
+        for name, values in study.grid.samples.items()
+    ]
     rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
@@ -40,7 +45,7 @@ def as_html(study: Study) -> str:
 
 
 def _size(study: Study) -> str:
-    axes = " × ".join(f"{len(values)} {name}" for name, values in study.grid.axes.items())
+    axes = " × ".join(f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True))
     points = f"{study.grid.size} point{'s' * (study.grid.size != 1)}"
     return f"{points} = {axes}" if axes else points
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.grid.values import NUMERIC
 from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter, families_with
+from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
@@ -18,6 +21,7 @@ _DESCRIPTIONS = {
     "rtol": "Relative accuracy asked of s.",
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
+    "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -26,9 +30,17 @@ _RANGE_DESCRIPTIONS = {
     "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
 }
+_SAMPLE_DESCRIPTIONS = {
+    "design": "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).",
+    "size": "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).",
+    "seed": "Seed of the random numbers.",
+    "ranges": "Sampled parameters: both ends, [low, high], or a distribution.",
+    "file": "CSV file of points: a row with names of parameters, then a row for each point.",
+    "points": "Points given here: a list of values for each parameter, all of one length.",
+}
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, or contours or a heat map over x and vertical.",
-    "x": "Axis along the horizontal axis.",
+    "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
+    "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",
     "panels": "Axis whose values are the panels side by side.",
@@ -41,6 +53,8 @@ _FIGURE_DESCRIPTIONS = {
 }
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
+#: Where a sample may be beside axes.
+_SAMPLED = {"x": (SAMPLE,)}
 
 
 def study_schema() -> dict[str, Any]:
@@ -51,23 +65,33 @@ def study_schema() -> dict[str, Any]:
     for table, descriptions in (
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
+        (parts["SampleTable"]["properties"], _SAMPLE_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):
         for name, entry in table.items():
             entry["description"] = descriptions[name]
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
-    for part, entry_of in (("fixed", _value), ("axes", _axis)):
+    sample = parts["SampleTable"]["properties"]
+    for table, part, entry_of, names in (
+        (keys, "fixed", _value, PARAMETERS),
+        (keys, "axes", _axis, PARAMETERS),
+        (sample, "ranges", _range, NUMERIC),
+        (sample, "points", _values, PARAMETERS),
+    ):
         # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
-        keys[part] = {
-            "description": keys[part]["description"],
+        table[part] = {
+            "description": table[part]["description"],
             "type": "object",
-            "properties": {name: entry_of(row) for name, row in PARAMETERS.items()},
+            "properties": {name: entry_of(PARAMETERS[name]) for name in names},
             "additionalProperties": False,
         }
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
-        roles[role] = {"enum": list(PARAMETERS), "description": roles[role]["description"]}
+        roles[role] = {
+            "enum": [*PARAMETERS, *_SAMPLED.get(role, ())],
+            "description": roles[role]["description"],
+        }
     return schema
 
 
@@ -87,15 +111,41 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
 
-def _axis(parameter: Parameter) -> dict[str, Any]:
-    """Schema of several values: a list, or a range of numbers."""
+def _values(parameter: Parameter) -> dict[str, Any]:
+    """Schema of a list of values."""
     value = _value(parameter)
     description = value.pop("description")
     value.pop("default", None)
-    values = {"type": "array", "items": value, "minItems": 1}
+    return {"description": description, "type": "array", "items": value, "minItems": 1}
+
+
+def _axis(parameter: Parameter) -> dict[str, Any]:
+    """Schema of several values: a list, or a range of numbers."""
+    values = _values(parameter)
+    description = values.pop("description")
     if parameter.kind == "profile":
         return {"description": description, **values}
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+
+
+def _range(parameter: Parameter) -> dict[str, Any]:
+    """Schema of the range of a sampled parameter: both ends, or a distribution."""
+    ends = _values(parameter)
+    description = ends.pop("description")
+    number = {"type": ["number", "string"]}
+    numbers = {name: number for names in KINDS.values() for name in names}
+    distribution = {
+        "type": "object",
+        "properties": {
+            "distribution": {"enum": list(KINDS)},
+            "low": ends["items"],
+            "high": ends["items"],
+            **numbers,
+        },
+        "required": ["distribution"],
+        "additionalProperties": False,
+    }
+    return {"description": description, "anyOf": [ends | {"minItems": 2, "maxItems": 2}, distribution]}
 
 
 def _description(parameter: Parameter) -> str:

@@ -30,6 +30,9 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
+    if grid.samples:
+        lines += ["", "[sample.points]"]
+        lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
     if figure is not None:
         lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
         lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())
