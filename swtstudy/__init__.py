@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
     from swtstudy.optimum.optimise import optimise
     from swtstudy.runner.run import run
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FatigueConstants",
+    "LoadPath",
     "Study",
     "StudyError",
     "__version__",
@@ -51,6 +53,7 @@ __all__ = [
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
     "FatigueConstants": "swtstudy.contacts.life",
+    "LoadPath": "swtstudy.mechanics.load.load_path",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "audit_study": "swtstudy.audit.audit",

@@ -33,7 +33,7 @@ class Parameter:
     open_lower
         True if ``lower`` itself is not allowed.
     kind
-        "number", "ratio" (a rational number p/q) or "profile".
+        "number", "ratio" (a rational number p/q), or "name": built in, or of what the user has defined.
     part
         What it is a part of: "load", "shape" (of the indenter), or "body" (what the two bodies are made of).
     units
@@ -65,8 +65,8 @@ class Parameter:
     @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
-        if self.kind == "profile":
-            return "one of " + ", ".join(FAMILIES)
+        if self.kind == "name":
+            return "one of " + ", ".join(BUILT_IN[self.name])
         interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"
         if self.kind == "ratio":
             return f"a positive rational p/q with p, q ≤ {self.upper:g}"
@@ -74,6 +74,13 @@ class Parameter:
             return f"a finite angle in {interval} rad"
         return f"a number in {interval}"
 
+
+#: The load of the paper.
+HARMONIC = "harmonic"
+#: Amplitudes of a loop that are not given: its vertices are the loads themselves.
+LOOP_AMPLITUDE = 1.0
+#: The parameters that scale the columns of a loop.
+AMPLITUDES = ("normal_amplitude", "tangential_amplitude")
 
 #: Largest numerator and denominator of a frequency ratio: the common period grows with them.
 LARGEST_FREQUENCY_TERM = 64
@@ -139,7 +146,16 @@ PARAMETERS: dict[str, Parameter] = {
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
         ),
-        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="profile", part="shape"),
+        Parameter(
+            "load",
+            r"\mathrm{load}",
+            "load",
+            "course of the load: two harmonic oscillations, or the name of a loop",
+            HARMONIC,
+            kind="name",
+            optional=True,
+        ),
+        Parameter("profile", "f", "f", "profile of the indenter", "paraboloid", kind="name", part="shape"),
         Parameter(
             "flat_radius",
             r"b/a_H",
@@ -267,6 +283,9 @@ FAMILIES: dict[str, Family] = {
 
 #: The family that others are at their plain shape.
 PLAIN = "paraboloid"
+
+#: The built-in names, by the parameter that has names.
+BUILT_IN: dict[str, tuple[str, ...]] = {"profile": tuple(FAMILIES), "load": (HARMONIC,)}
 
 
 def is_profile(raw: object) -> TypeGuard[str]:

@@ -82,7 +82,7 @@ def solve_grid(grid: Grid, rtol: float) -> xr.Dataset:
 
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block), rtol) for block in blocks])
+    solution = joined([solve_points(points_from(block, unique.definitions), rtol) for block in blocks])
     dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 

@@ -77,7 +77,7 @@ def place_words(name: str, value: float | str) -> str:
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
     """
-    symbol = "" if PARAMETERS[name].kind == "profile" else f"{parameter_words(name)} = "
+    symbol = "" if PARAMETERS[name].kind == "name" else f"{parameter_words(name)} = "
     return symbol + value_words(name, value)
 
 

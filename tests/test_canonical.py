@@ -18,7 +18,7 @@ from swtstudy.grid.canonical import (
     points_from,
     select,
 )
-from swtstudy.grid.codes import NAMES, code_of, name_of
+from swtstudy.grid.codes import NAMES, code_of, value_of
 from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
@@ -46,31 +46,38 @@ def test_values_are_told_apart_by_twelve_digits():
 
 
 def test_the_columns_are_the_rows_of_the_table_of_parameters():
-    assert LOAD_COLUMNS == ("control", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
+    assert LOAD_COLUMNS == ("control", "load", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
     shapes = ("flat_radius", "waviness_amplitude", "wavelength")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
     assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio") == COLUMNS
     assert {*COLUMNS} - {"control", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
-    assert describe_point(table[0]) == (
+    assert describe_point(table[0], {}) == (
         "profile=rounded_punch, flat_radius=0.5, frequency_ratio=3/2, normal_amplitude=0.75, "
         "tangential_amplitude=0.833333, phase=0, friction=0.3, poisson_ratio=0.3"
     )
 
 
 def test_a_point_of_the_solver_has_every_column_under_its_name():
-    assert {one.name for one in fields(Points)} == {"profile", "shape", "control", *RATIO_COLUMNS, *NUMBERS}
+    assert {one.name for one in fields(Points)} == {
+        "profile",
+        "shape",
+        "control",
+        "path",
+        *RATIO_COLUMNS,
+        *NUMBERS,
+    }
     for family in FAMILIES.values():
         row = np.arange(2.0, 2.0 + len(COLUMNS))
         row[COLUMNS.index("profile")] = code_of(family.name)
-        row[COLUMNS.index("control")] = 0.0
-        points = points_from(row[None])
+        row[[COLUMNS.index("control"), COLUMNS.index("load")]] = 0.0
+        points = points_from(row[None], {})
         assert points.profile == family.name
         assert (*points.shape,) == family.shape
         for name in (*RATIO_COLUMNS, *NUMBERS, *family.shape):
             values = points.shape[name] if name in points.shape else getattr(points, name)
             assert values == [COLUMNS.index(name) + 2]
-        words = dict(part.split("=") for part in describe_point(row).split(", "))
+        words = dict(part.split("=") for part in describe_point(row, {}).split(", "))
         assert {*words} == {"profile", "frequency_ratio", *NUMBERS, *family.shape}
 
 
@@ -79,7 +86,7 @@ def test_a_profile_keeps_its_number():
     first = ("paraboloid", "rounded_punch", "truncated_paraboloid", "wavy_paraboloid")
     assert first == NAMES[:4]
     assert [code_of(name) for name in first] == [0.0, 1.0, 2.0, 3.0]
-    assert {name_of(code_of(name)) for name in FAMILIES} == {*FAMILIES} == {*NAMES}
+    assert {value_of(code_of(name), {}) for name in FAMILIES} == {*FAMILIES} == {*NAMES}
 
 
 def test_columns_are_selected_by_name():
@@ -163,9 +170,10 @@ def test_slabs_of_a_grid_are_the_grid():
 def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]
     axes = {"profile": profiles, "flat_radius": [0.1, 0.5], "phase": [0, 1, 2], "friction": [0.1, 0.2, 0.3]}
-    table = unique_points(grid_of(**axes)).table
+    points = unique_points(grid_of(**axes))
+    table = points.table
     wanted = np.array([bool(bits >> i & 1) for i in range(len(table))])
-    cut = list(chunks(table, wanted, lambda: size))
+    cut = list(chunks(points, wanted, lambda: size))
     rows = np.concatenate([chunk.rows for chunk in cut]) if cut else []
     assert (rows == np.flatnonzero(wanted)).all()
     assert all((chunk.table == table[chunk.rows]).all() for chunk in cut)
@@ -197,8 +205,8 @@ def test_a_load_that_is_larger_than_a_block_is_cut():
 
 
 def test_a_split_chunk_is_the_same_points():
-    table = unique_points(grid_of(friction=[i / 10 for i in range(1, 71)])).table
-    (chunk,) = chunks(table, np.ones(70, bool), lambda: 1e9)
+    points = unique_points(grid_of(friction=[i / 10 for i in range(1, 71)]))
+    (chunk,) = chunks(points, np.ones(70, bool), lambda: 1e9)
     parts = list(chunk.split())
     assert [len(part) for part in parts] == [35, 35]
     assert [part.rows.tolist() for part in parts[1].split()] == [list(range(35, 52)), list(range(52, 70))]

@@ -1,3 +1,4 @@
+import json
 import subprocess
 import sys
 from io import BytesIO
@@ -461,7 +462,7 @@ def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path,
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
         assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
         for line in lines if name in names else ():
-            text = text.replace(line, f"{name} = {value}")
+            text = text.replace(line, f"{name} = {json.dumps(value)}")
     study = swtstudy.Study.from_text(text)
     assert set(study.grid.fixed) | set(study.grid.axes) == names
 

@@ -119,7 +119,7 @@ def test_records_come_back_from_an_archive(small, tmp_path):
     assert len(found) == 8
     from swtstudy.grid.canonical import points_from
 
-    alone = stand_in.smooth(points_from(found.table), small.rtol)
+    alone = stand_in.smooth(points_from(found.table, {}), small.rtol)
     np.testing.assert_allclose(found.solution.s, alone.s, rtol=1e-10)
     np.testing.assert_array_equal(found.solution.critical_x, alone.critical_x)
     np.testing.assert_array_equal(found.solution.critical_angle, alone.critical_angle)

@@ -71,7 +71,7 @@ def test_what_is_given_says_what_is_prescribed(control: Control) -> None:
     assert plain.control.item() == "displacements"
     assert (np.abs(dataset.s / plain.s - 1.0) > 1e-2).all()
     (row,), _ = canonical(**dict.fromkeys(names, 0.3))
-    assert all(f"{name}=0.3" in describe_point(row) for name in names)
+    assert all(f"{name}=0.3" in describe_point(row, {}) for name in names)
 
 
 def test_a_component_that_stands_still_is_prescribed_as_the_other_one_is() -> None:
@@ -224,6 +224,7 @@ def test_rounding_does_not_make_two_points_of_one() -> None:
     table, _ = canonical_points(
         {**{n: 0.5 for n in ("normal_amplitude", "tangential_amplitude", "friction", "poisson_ratio")},
          **{n: 0.0 for n in ("flat_radius", "waviness_amplitude", "wavelength", "profile")},
-         "control": 3.0, "p": 1.0, "q": 1.0, "phase": np.array([0.25, 0.25 + np.pi, 0.25 - np.pi])}
+         "control": 3.0, "load": 0.0, "p": 1.0, "q": 1.0,
+         "phase": np.array([0.25, 0.25 + np.pi, 0.25 - np.pi])}
     )  # fmt: skip
     assert (table == table[0]).all()

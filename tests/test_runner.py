@@ -74,14 +74,14 @@ def test_chunks_aim_at_a_fraction_of_a_second(small):
 
     for _ in range(30):
         n = len(table)
-        solved = solution(points_from(table), 1e-3)
+        solved = solution(points_from(table, {}), 1e-3)
         pace.update(Result(np.arange(n), solved, np.zeros(n, bool), {}, 0.02 * n, "1"), 2 * n)
     assert pace.chunk_weight() == pytest.approx(CHUNK_SECONDS / 0.01)
 
 
 def single_chunks(study):
-    table = unique_points(study.grid).table
-    return table, [Chunk.of(table, [np.array([i])]) for i in range(len(table))]
+    points = unique_points(study.grid)
+    return points.table, [Chunk.of(points, [np.array([i])]) for i in range(len(points.table))]
 
 
 def test_a_lost_worker_is_replaced(wide, tmp_path):
@@ -118,8 +118,7 @@ def test_a_solver_that_workers_cannot_import_is_said(wide, tmp_path, monkeypatch
 
 def test_a_point_that_kills_its_worker_is_alone_in_failing():
     study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
-    table = unique_points(study.grid).table
-    chunk = Chunk.of(table, [np.arange(5), np.arange(5, 10)])
+    chunk = Chunk.of(unique_points(study.grid), [np.arange(5), np.arange(5, 10)])
     results = []
     with LocalPool(1) as pool:
         solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append, pool)
@@ -132,9 +131,8 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing():
 @pytest.mark.parametrize("solver", [stand_in.fail_at, stand_in.lose_at])
 def test_one_failure_is_one_point(solver):
     study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
-    table = unique_points(study.grid).table
     results = []
-    solve([Chunk.of(table, [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
+    solve([Chunk.of(unique_points(study.grid), [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
     (result,) = results
     assert np.flatnonzero(result.failed).tolist() == [2]
     assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
@@ -276,17 +274,17 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
     text = (
         'title = "t"\n[axes]\nfrequency_ratio = [1, "1/2"]\nfriction = {start = 0.1, stop = 0.9, num = 5}\n'
     )
-    table = unique_points(Study.from_text(text).grid).table
-    timed = []
+    points = unique_points(Study.from_text(text).grid)
+    table, timed = points.table, []
     slow = partial(timed_by_ratio, timed)
     missing = np.ones(len(table), bool)
     with mock.patch("swtstudy.runner.estimate.solve_chunk", slow):
-        assert estimate(table, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
+        assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
         left = {1: 5, 2: 5}
         left[int(table[0, COLUMNS.index("q")])] -= 3
-        assert estimate(table, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
-        assert estimate(table, np.zeros(len(table), bool), 1e-3, None) == 0.0
+        assert estimate(points, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
+        assert estimate(points, np.zeros(len(table), bool), 1e-3, None) == 0.0
 
 
 def timed_by_ratio(timed, chunk, rtol, solver):

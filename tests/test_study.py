@@ -33,6 +33,7 @@ def test_defaults_are_table_1():
         "tangential_amplitude": 5 / 6,
         "phase": 0.0,
         "profile": "paraboloid",
+        "load": "harmonic",
     }
     assert study.grid.axes == {}
     assert study.grid.size == 1

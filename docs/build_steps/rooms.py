@@ -61,7 +61,7 @@ class House:
 
 WHOLE = House(
     "swtstudy",
-    ("parameters", "mistakes", "numbers", "accuracy", "version", "files", "wording"),
+    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording"),
     (
         *(
             "mechanics",

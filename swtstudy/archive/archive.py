@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.grid.canonical import describe_point
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
@@ -59,16 +60,16 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
-    dataset.status.attrs["failures"] = json.dumps(failures(records))
+    dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))
 
 
-def failures(records: Records) -> list[dict[str, Any]]:
+def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]:
     """The failed points: canonical row, description and message of each."""
     return [
         {
             "row": records.table[index].tolist(),
-            "point": describe_point(records.table[index]),
+            "point": describe_point(records.table[index], definitions),
             "message": records.messages.get(int(index), ""),
         }
         for index in np.flatnonzero(records.status == FAILED)
@@ -95,6 +96,12 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "study": study.text,
         "runs": json.dumps([asdict(run) for run in records.runs]),
     }
+    defined = [
+        {"parameter": each.parameter, "name": each.name, "content": each.content()}
+        for each in study.grid.definitions.values()
+    ]
+    if defined:
+        attributes["definitions"] = json.dumps(defined)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

@@ -7,7 +7,9 @@ import math
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
+from swtstudy.grid.defined import kinds
 from swtstudy.mistakes import literal, plain_number
+from swtstudy.named import Named
 from swtstudy.records.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
@@ -37,6 +39,18 @@ def read_failures(text: object) -> list[Failure]:
         if not good or not all(isinstance(word, str) for word in words):
             raise ValueError(f"not a failure: {literal(failure)}")
     return failures
+
+
+def read_definitions(text: object) -> dict[str, dict[str, Named]]:
+    """What the user had defined, by parameter and name."""
+    found: dict[str, dict[str, Named]] = {}
+    for raw in _json(text, list):
+        try:
+            defined = kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
+        found.setdefault(raw["parameter"], {})[raw["name"]] = defined
+    return found
 
 
 def read_figure(text: object) -> FigureLayout:

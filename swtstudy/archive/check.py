@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.accuracy import ALLOWED_RTOL, is_rtol
-from swtstudy.archive.attributes import read_failures, read_figure, read_runs
+from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
@@ -56,6 +56,8 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         yield "attribute wall_time_seconds", _words(attributes["wall_time_seconds"]), "a number of seconds"
     if isinstance(attributes["runs"], str):
         yield from _unread("runs", attributes["runs"], read_runs)
+    if "definitions" in attributes:
+        yield from _unread("definitions", attributes["definitions"], read_definitions)
     if "figure" in attributes:
         yield from _unread("figure", attributes["figure"], read_figure)
     yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)

@@ -15,9 +15,11 @@ from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
-from swtstudy.grid.values import Value
+from swtstudy.grid.values import Value, as_number
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, matching
 from swtstudy.study.definition import Study
@@ -59,17 +61,17 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
-    _refuse_conflicts(paths, records, sources)
     grids = [grid_of(dataset) for dataset in datasets]
     _refuse_other_controls(paths, grids)
     grid = _union(grids)
+    _refuse_conflicts(paths, records, sources, grid.definitions)
     points = unique_points(grid)
     made = f"merged from {', '.join(path.name for path in paths)}"
     absent = look_up(points.table, records, np.ones(len(records), bool)) < 0
     if absent.any():
         gaps = f"{int(absent[points.index].sum())} of {grid.size} points"
         if not sparse:
-            example = describe_point(points.table[np.flatnonzero(absent)[0]])
+            example = describe_point(points.table[np.flatnonzero(absent)[0]], points.definitions)
             raise GapsError(
                 f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
                 "--sparse (sparse=True in Python) leaves them missing"
@@ -103,7 +105,9 @@ def _refuse_other_controls(paths: Sequence[Path], grids: list[Grid]) -> None:
         raise ConflictError(f"results of different prescribed loads cannot be merged: {words}")
 
 
-def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray) -> None:
+def _refuse_conflicts(
+    paths: Sequence[Path], records: Records, sources: NDArray, definitions: Definitions
+) -> None:
     computed = np.flatnonzero(records.status == COMPUTED)
     first, group = group_rows(records.table[computed])
     one, other = computed[first[group]], computed
@@ -117,7 +121,7 @@ def _refuse_conflicts(paths: Sequence[Path], records: Records, sources: NDArray)
         index = int(np.flatnonzero(apart)[0])
         a, b = (f"{s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other))
         more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
-        point = describe_point(records.table[one[index]])
+        point = describe_point(records.table[one[index]], definitions)
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
 
 
@@ -146,10 +150,10 @@ def _union(grids: list[Grid]) -> Grid:
 
 def _distinct(values: list[Value]) -> tuple[Value, ...]:
     """Distinct values, numbers in increasing order."""
-    keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
-    if any(isinstance(value, str) for value in values):
+    if any(isinstance(value, str | Named) for value in values):
         return tuple(dict.fromkeys(values))
-    return tuple(sorted(keyed.values()))
+    keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
+    return tuple(sorted(keyed.values(), key=as_number))
 
 
 def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:

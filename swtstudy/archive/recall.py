@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_failures, read_runs
+from swtstudy.archive.attributes import read_definitions, read_failures, read_runs
 from swtstudy.archive.error import ArchiveError
 from swtstudy.grid.grid import SAMPLE, Grid, complete
 from swtstudy.grid.reading import given_twice
@@ -17,6 +17,7 @@ from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.named import Named
 from swtstudy.parameters import PAIRS, PARAMETERS, Control, Parameter
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.records import FAILED, Records
@@ -38,6 +39,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     for name in dims:
         if name != SAMPLE and (name not in PARAMETERS or name not in dataset.coords):
             mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
+    known = read_definitions(dataset.attrs.get("definitions", "[]"))
     for name, parameter in PARAMETERS.items():
         if name not in dataset.coords:
             continue
@@ -49,7 +51,8 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         elif name in dims or coordinate.dims:
             mistakes.append(Mistake(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value"))
             continue
-        values[name] = tuple(_values(parameter, np.atleast_1d(coordinate.values).tolist(), mistakes))
+        raw = np.atleast_1d(coordinate.values).tolist()
+        values[name] = tuple(_values(parameter, raw, known.get(name, {}), mistakes))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
     mistakes += _lacking({*values, *dims}, shapes_needed(profiles))
     mistakes += _wrong_control(dataset, {*values, *dims})
@@ -81,11 +84,13 @@ def _wrong_control(dataset: xr.Dataset, given: set[str]) -> Iterator[Mistake]:
         yield Mistake("control", literal(found), literal(own))
 
 
-def _values(parameter: Parameter, raw: list[object], mistakes: list[Mistake]) -> Iterator[Value]:
+def _values(
+    parameter: Parameter, raw: list[object], known: Mapping[str, Named], mistakes: list[Mistake]
+) -> Iterator[Value]:
     """Values of a coordinate, up to the first invalid one, which is a mistake."""
     for value in raw:
         try:
-            yield read_value(parameter, value)
+            yield read_value(parameter, value, known)
         except ValueError as error:
             mistakes.append(Mistake(parameter.name, f"{literal(value)} ({error})", parameter.allowed))
             return

@@ -76,7 +76,7 @@ class AuditedPoint:
 
 def audit_point(row: Sequence[float]) -> AuditedPoint:
     """Audit one canonical row (`swtstudy.grid.canonical`)."""
-    points = points_from(np.array([row]))
+    points = points_from(np.array([row]), {})
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]

@@ -89,7 +89,7 @@ def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator
     yield ""
     rows = canonical_rows(dataset)
     for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_LISTED]:
-        yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i])}"
+        yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i], {})}"
     away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)[finite]
     yield ""
     yield (

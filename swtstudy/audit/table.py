@@ -11,8 +11,9 @@ import numpy as np
 
 from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
-from swtstudy.grid.codes import code_of, name_of
+from swtstudy.grid.codes import code_of, value_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.parameters import BUILT_IN
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,8 +51,9 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Datase
     import xarray as xr
 
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
-    names = np.array([name_of(code) for code in rows[:, COLUMNS.index("profile")]], dtype=object)
-    coordinates["profile"] = ("sample", names)
+    for name in BUILT_IN:
+        names = [str(value_of(code, {}, name)) for code in rows[:, COLUMNS.index(name)]]
+        coordinates[name] = ("sample", np.array(names, dtype=object))
     columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
         values = np.array([getattr(each, group) for each in points], float).reshape(-1, 3)
@@ -81,16 +83,22 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     from swtstudy.archive.read import load_file
 
     dataset = load_file(Path(path))
-    if not {*COLUMNS} <= {*dataset.coords} or not {*_MEANINGS, "regime", "verdict"} <= {*dataset.data_vars}:
+    if not {"profile", "p", "q"} <= {*dataset.coords} or not {*_MEANINGS, "regime", "verdict"} <= {
+        *dataset.data_vars
+    }:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
     return dataset
 
 
 def canonical_rows(dataset: xr.Dataset) -> FloatArray:
     """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
-    codes = [code_of(name) for name in dataset["profile"].values]
-    columns = [codes if name == "profile" else dataset[name].values for name in COLUMNS]
-    return np.stack(columns, axis=-1).astype(float)
+    rows = np.zeros((dataset.sizes["sample"], len(COLUMNS)))
+    for i, name in enumerate(COLUMNS):
+        # What an older audit lacks is what it did not have: forces, and loops.
+        if name in dataset.coords:
+            values = dataset[name].values
+            rows[:, i] = [code_of(value, name) for value in values] if name in BUILT_IN else values
+    return rows
 
 
 def audited_points(dataset: xr.Dataset) -> dict[tuple[float, ...], AuditedPoint]:

@@ -64,7 +64,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     if todo:
         timed: list[int] = []
         seconds = estimate(
-            work.points.table, missing, study.rtol, solve_points, lambda result: timed.append(len(result))
+            work.points, missing, study.rtol, solve_points, lambda result: timed.append(len(result))
         )
         chunk_count = max(1, round(seconds / CHUNK_SECONDS))
         lines.append(f"  chunks             about {chunk_count}")

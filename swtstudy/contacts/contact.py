@@ -24,7 +24,8 @@ from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
+from swtstudy.named import Named
+from swtstudy.parameters import HARMONIC, PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ class PhysicalContact:
         R.
     depth
         Mean indentation depth δ0.
-    friction, frequency_ratio, phase, profile
+    friction, frequency_ratio, phase, profile, load
         As in `swtstudy.parameters.PARAMETERS`.
     normal_amplitude, tangential_amplitude
         δA and uA, lengths; None where a force is prescribed.
@@ -70,6 +71,7 @@ class PhysicalContact:
     shape: Mapping[str, float] = field(default_factory=dict)
     normal_force_amplitude: float | None = None
     tangential_force_amplitude: float | None = None
+    load: str | Named = HARMONIC
 
     @property
     def length_scale(self) -> float:

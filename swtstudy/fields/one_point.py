@@ -9,6 +9,8 @@ import numpy as np
 
 from swtstudy.grid.canonical import NUMBERS
 from swtstudy.grid.reading import read_grid
+from swtstudy.grid.values import as_number
+from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import StudyError
@@ -32,17 +34,19 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     if grid is None:
         raise StudyError(mistakes)
     profile = str(grid.fixed["profile"])
-    ratio = Fraction(grid.fixed["frequency_ratio"])
+    ratio = Fraction(str(grid.fixed["frequency_ratio"]))
 
     def number(name: str) -> np.ndarray:
-        return np.array([float(grid.fixed[grid.control.given_for(name)])])
+        return np.array([as_number(grid.fixed[grid.control.given_for(name)])])
 
+    course = grid.fixed["load"]
     return Points(
         profile=profile,
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in family_of(profile).shape},
         control=grid.control,
+        path=course if isinstance(course, LoadPath) else None,
         **{name: number(name) for name in NUMBERS},
     )
 

@@ -89,8 +89,8 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 
 def _headline(dataset: xr.Dataset) -> str:
     profile = str(dataset.profile.item())
-    names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.default is not None)]
-    values = [place_words(name, dataset[name].item()) for name in names if name != "profile"]
+    names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
+    values = [place_words(name, dataset[name].item()) for name in names if name in dataset.coords]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if not math.isfinite(float(dataset.s)):

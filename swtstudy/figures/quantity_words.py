@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from swtstudy.grid.values import as_number
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
 from swtstudy.wording import place_words
@@ -27,7 +28,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     place = reference(y)
     if place is not None:
         name, value = place
-        return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else float(value))})"
+        return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else as_number(value))})"
     if values.name == "s":
         return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))

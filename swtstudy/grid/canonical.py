@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.codes import code_of, control_code, control_of, name_of
-from swtstudy.parameters import PARAMETERS, PLAIN, family_of
+from swtstudy.grid.codes import Definitions, code_of, control_code, control_of, value_of
+from swtstudy.named import Named, cost_of
+from swtstudy.parameters import FAMILIES, HARMONIC, PARAMETERS, PLAIN, family_of
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
@@ -28,15 +29,15 @@ def _numbers(part: str) -> tuple[str, ...]:
 
 #: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
 RATIO_COLUMNS = ("p", "q")
-LOAD_COLUMNS = ("control", *RATIO_COLUMNS, *_numbers("load"))
+LOAD_COLUMNS = ("control", "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", "control", *RATIO_COLUMNS)
+SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS)
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
 #: which the tractions do not depend on.
 NUMBERS = (*_numbers("load"), *reversed(_numbers("body")))
-#: Columns of a table of canonical points, in the order in which they are sorted; for the profile and the
+#: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.grid.codes`.
 COLUMNS = ("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS, *reversed(_numbers("body")))
 _COLUMN = {name: index for index, name in enumerate(COLUMNS)}
@@ -77,13 +78,14 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
 
 def _make_profiles_canonical(table: FloatArray) -> None:
     profile = table[:, _COLUMN["profile"]]
+    for family in FAMILIES.values():
+        if family.plain is not None:
+            name, value = family.plain
+            same = (profile == code_of(family.name)) & (table[:, _COLUMN[name]] == value)
+            profile[same] = code_of(PLAIN)
     for code in np.unique(profile):
-        plain = family_of(name_of(code)).plain
-        if plain is not None:
-            name, value = plain
-            profile[(profile == code) & (table[:, _COLUMN[name]] == value)] = code_of(PLAIN)
-    for code in np.unique(profile):
-        shape = family_of(name_of(code)).shape
+        # What the user has defined has no shape parameters.
+        shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
         unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in shape]
         table[np.ix_(profile == code, unused)] = 0
 
@@ -96,7 +98,9 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     normal, tangential, phase = (
         table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
     )
-    phase, p, q = without_what_stands_still(normal, phase, p, q)
+    # A loop has neither phase nor frequencies.
+    rests = (normal == 0.0) | (table[:, _COLUMN["load"]] != code_of(HARMONIC, "load"))
+    phase, p, q = without_what_stands_still(rests, phase, p, q)
     _make_control_canonical(table, normal == 0.0, tangential == 0.0)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
@@ -143,27 +147,41 @@ def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
     return first, group
 
 
-def points_from(table: FloatArray) -> Points:
-    """A batch for the solver from canonical rows that share one profile and control."""
+def points_from(table: FloatArray, definitions: Definitions) -> Points:
+    """A batch for the solver from canonical rows that share one profile, control and course of the load.
+
+    Parameters
+    ----------
+    table
+        Shape (n, len(COLUMNS)).
+    definitions
+        What the user has defined, by its code.
+    """
+    from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mechanics.points import Points
 
-    profile = name_of(table[0, _COLUMN["profile"]])
+    profile = str(value_of(table[0, _COLUMN["profile"]], definitions))
+    course = value_of(table[0, _COLUMN["load"]], definitions, "load")
     return Points(
         profile=profile,
         p=table[:, _COLUMN["p"]].astype(np.int64),
         q=table[:, _COLUMN["q"]].astype(np.int64),
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
         control=control_of(table[0, _COLUMN["control"]]),
+        path=course if isinstance(course, LoadPath) else None,
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
 
-def describe_point(row: FloatArray) -> str:
-    """A canonical row in words, for messages: only what matters for its profile."""
-    profile = name_of(row[_COLUMN["profile"]])
-    parts = [f"profile={profile}"]
-    parts += [f"{name}={row[_COLUMN[name]]:.6g}" for name in family_of(profile).shape]
-    parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
+def describe_point(row: FloatArray, definitions: Definitions) -> str:
+    """A canonical row in words, for messages: only what matters for its profile and load."""
+    profile, course = (value_of(row[_COLUMN[name]], definitions, name) for name in ("profile", "load"))
+    shape = family_of(profile).shape if isinstance(profile, str) else ()
+    parts = [f"profile={profile}", *(f"{name}={row[_COLUMN[name]]:.6g}" for name in shape)]
+    if isinstance(course, Named):
+        parts.append(f"load={course}")
+    else:
+        parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
     control = control_of(row[_COLUMN["control"]])
-    parts += [f"{control.given_for(name)}={row[_COLUMN[name]]:.6g}" for name in NUMBERS]
-    return ", ".join(parts)
+    numbers = [name for name in NUMBERS if isinstance(course, str) or name != "phase"]
+    return ", ".join([*parts, *(f"{control.given_for(n)}={row[_COLUMN[n]]:.6g}" for n in numbers)])

@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.parameters import FAMILIES, Control
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
 
-#: The names by their code; archives' parts say which ones they count on.
-NAMES = tuple(FAMILIES)
+#: The built-in profiles by their code; archives' parts say which ones they count on.
+NAMES = BUILT_IN["profile"]
+
+#: What a user has defined, by its code.
+Definitions = Mapping[float, Named]
 
 
-def code_of(profile: str) -> float:
-    """The number that stands for a profile."""
-    return float(NAMES.index(profile))
+def code_of(value: str | Named, parameter: str = "profile") -> float:
+    """The number that stands for a value of a parameter that has names."""
+    return value.code if isinstance(value, Named) else float(BUILT_IN[parameter].index(value))
 
 
-def name_of(code: float) -> str:
-    """The profile that a number stands for."""
-    return NAMES[int(code)]
+def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Named:
+    """The value that a number stands for."""
+    names = BUILT_IN[parameter]
+    return names[int(code)] if code < len(names) else definitions[code]
 
 
 def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.bool_]) -> FloatArray:

@@ -6,6 +6,7 @@ import numpy as np
 
 from swtstudy.grid.canonical import RATIO_COLUMNS, select
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.named import CONTENT_BITS
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
@@ -13,7 +14,9 @@ SECONDS_PER_WEIGHT = 4e-3
 
 def weights(table: FloatArray) -> IntArray:
     """Rough relative cost of points: long cycles cost more."""
-    return select(table, RATIO_COLUMNS).sum(axis=1).astype(np.int64)
+    frequencies = select(table, RATIO_COLUMNS).sum(axis=1).astype(np.int64)
+    # The cost of a loop is part of its code.
+    return frequencies + select(table, ("load",))[:, 0].astype(np.int64) // 2**CONTENT_BITS
 
 
 def duration(seconds: float) -> str:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import PAIRS, PARAMETERS, Control
+from swtstudy.named import Named
+from swtstudy.parameters import AMPLITUDES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -65,6 +66,12 @@ class Grid:
         """What is prescribed."""
         return Control.given((*self.fixed, *self.axes, *self.samples))
 
+    @property
+    def definitions(self) -> dict[float, Named]:
+        """What the user has defined, by its code."""
+        values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
+        return {value.code: value for value in values if isinstance(value, Named)}
+
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid, or along its sample; empty if it has none."""
         along = self.axes.get(name) or self.samples.get(name)
@@ -112,8 +119,8 @@ class Grid:
 
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
-    if isinstance(value, str):
-        return code_of(value)
+    if isinstance(value, str | Named):
+        return code_of(value, name)
     if isinstance(value, Fraction):
         return float({"p": value.numerator, "q": value.denominator}.get(name, value))
     # A phase is rounded in units of π once it is folded, not here.
@@ -125,11 +132,17 @@ def complete(
     axes: dict[str, tuple[Value, ...]],
     samples: dict[str, tuple[Value, ...]] | None = None,
 ) -> Grid:
-    """A grid with the defaults of Table 1 for every parameter that is not given, nor one in its place."""
+    """A grid with defaults for every parameter that is not given, nor one in its place.
+
+    These are those of Table 1, but for the amplitudes of loops, which are 1.
+    """
     filled, samples = dict(fixed), samples or {}
     given = {*fixed, *axes, *samples}
     given |= {PAIRS[name] for name in given if name in PAIRS}
+    loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
+    loops = any(isinstance(value, Named) for value in loads)
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
-            filled[name] = read_value(parameter, parameter.default)
+            default = LOOP_AMPLITUDE if loops and name in AMPLITUDES else parameter.default
+            filled[name] = read_value(parameter, default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from swtstudy.grid.values import Value
+from swtstudy.named import Named
 
 #: Largest relative distance of a typed value from the value of an axis that it means: "3.141593" is π.
 TOLERANCE = 1e-6
@@ -31,7 +32,8 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = TOLERANCE) 
     >>> index_of(3.141593, (0.0, 3.141592653589793)), index_of(3.1416, (0.0, 3.141592653589793))
     (1, None)
     """
-    if isinstance(value, str):
+    if isinstance(value, str | Named):
+        value = str(value)
         return axis.index(value) if value in axis else None
     known, asked = np.array(axis, float), float(value)
     distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))

@@ -12,10 +12,16 @@ from typing import Literal
 from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
+from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
-from swtstudy.grid.values import Value, read_exact, read_value
+from swtstudy.grid.values import NOTHING, Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
-from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN, PAIRS, PARAMETERS
+
+#: What the user has defined, by parameter and name.
+Known = Mapping[str, Mapping[str, Named]]
+NOTHING_KNOWN: Known = {}
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -38,6 +44,7 @@ def read_grid(
     source: str = "",
     others: Sequence[str] = (),
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
+    known: Known = NOTHING_KNOWN,
 ) -> tuple[Grid | None, list[Mistake]]:
     """The grid spanned by fixed values and axes.
 
@@ -53,6 +60,8 @@ def read_grid(
         Names that are known beside the parameters, and may be meant by an unknown one.
     samples
         Checked values of the sampled parameters; None for those whose mistake is already reported.
+    known
+        What the user has defined, by parameter and name.
 
     Returns
     -------
@@ -80,19 +89,22 @@ def read_grid(
         for name in sorted(one.keys() & other.keys()):
             report(keys(name), words, "one of the two")
     for name, single in fixed.items():
-        value = _read(name, single, keys(name), report) if name in PARAMETERS else None
+        value = _read(name, single, keys(name), report, known) if name in PARAMETERS else None
         if value is not None:
             good_fixed[name] = value
     for name, raw in axes.items():
         if name in PARAMETERS and raw is not None:
-            good_axes[name] = _read_axis(name, raw, keys(name), report)
+            good_axes[name] = _read_axis(name, raw, keys(name), report, known)
     for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
         report(key, found, allowed)
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    check_shapes_given(fixed, {**axes, **samples}, good_fixed, good_axes | good_samples, keys, report)
+    along = good_axes | good_samples
+    check_amplitudes(good_fixed, along, keys, report)
+    check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)
+    check_loops(grid, keys, report)
     check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes
 
@@ -107,21 +119,23 @@ def given_twice(
             yield f"{keys(other)}, {keys(name)}", "both", "one of the two: it says what is prescribed"
 
 
-def _read(name: str, raw: object, key: str, report: Report) -> Value | None:
+def _read(name: str, raw: object, key: str, report: Report, known: Known) -> Value | None:
     try:
-        return read_value(PARAMETERS[name], raw)
+        return read_value(PARAMETERS[name], raw, known.get(name, NOTHING))
     except ValueError as error:
-        report(key, f"{literal(raw)} ({error})", _allowed(name, raw))
+        report(key, f"{literal(raw)} ({error})", _allowed(name, raw, known))
         return None
 
 
-def _allowed(name: str, raw: object) -> str:
-    if PARAMETERS[name].kind == "profile" and isinstance(raw, str):
-        return nearest(raw, FAMILIES)
+def _allowed(name: str, raw: object, known: Known) -> str:
+    if PARAMETERS[name].kind == "name" and isinstance(raw, str):
+        return nearest(raw, [*BUILT_IN[name], *known.get(name, ())])
     return PARAMETERS[name].allowed
 
 
-def _read_axis(name: str, raw: Sequence[object] | Range, key: str, report: Report) -> tuple[Value, ...]:
+def _read_axis(
+    name: str, raw: Sequence[object] | Range, key: str, report: Report, known: Known
+) -> tuple[Value, ...]:
     elements = _expand(raw, key, report) if isinstance(raw, Range) else list(raw)
     if not elements and not isinstance(raw, Range):
         report(key, "an empty axis", "at least one value")
@@ -129,13 +143,15 @@ def _read_axis(name: str, raw: Sequence[object] | Range, key: str, report: Repor
         report(key, f"{len(elements)} values", f"at most {LONGEST_AXIS} values")
         return ()
     values: list[Value] = []
-    seen: dict[Value, int] = {}
+    seen: dict[float | str | Fraction, int] = {}
     for index, element in enumerate(elements):
-        value = _read(name, element, f"{key}[{index}]", report)
+        value = _read(name, element, f"{key}[{index}]", report, known)
         if value is None:
             continue
         values.append(value)
-        first = seen.setdefault(canonical_number(value) if isinstance(value, float) else value, index)
+        # Two of one name could not be told apart.
+        own = str(value) if isinstance(value, Named) else value
+        first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, index)
         if first != index:
             report(f"{key}[{index}]", f"{literal(element)}, the same as {key}[{first}]", "distinct values")
     return tuple(values)

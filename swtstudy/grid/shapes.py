@@ -9,7 +9,7 @@ import numpy as np
 
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import Report, literal
 from swtstudy.parameters import PARAMETERS, families_with, family_of
 
@@ -97,17 +97,21 @@ def _shapes_of(grid: Grid, profile: str) -> Grid:
 def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
     """How many of the shapes are not admissible; the first of these, and its largest depth."""
     from swtstudy.mechanics.indenter import compact_shapes
+    from swtstudy.mechanics.load.load_path import LoadPath
 
     names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
     refused, first = 0, None
     # The largest contact of a shape is the hardest to keep compact.
-    largest = max(map(float, grid.values(amplitude)))
+    largest = max(map(as_number, grid.values(amplitude)))
+    reach = max(load.reach if isinstance(load, LoadPath) else 1.0 for load in grid.values("load"))
     for start in range(0, shapes.size, _SLAB):
         stop = min(start + _SLAB, shapes.size)
         columns = shapes.columns(start, stop)
         shape = {name: np.broadcast_to(columns[name], stop - start) for name in names}
         own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
-        depth = _largest_depths(grid, profile, shape, np.broadcast_to(1.0 + own, stop - start))
+        depth = _largest_depths(
+            grid, profile, shape, np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), stop - start)
+        )
         wrong = np.flatnonzero(~compact_shapes(profile, shape, depth))
         if wrong.size and first is None:
             first = {name: float(values[wrong[0]]) for name, values in shape.items()}, float(depth[wrong[0]])

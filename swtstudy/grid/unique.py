@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, LOAD_COLUMNS, group_rows, select
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.grid import Grid
 from swtstudy.mechanics.points import FloatArray, IntArray
 
@@ -30,11 +31,14 @@ class UniquePoints:
         Shape (grid.size,): row of `table` for every grid point.
     mirrored
         Shape (grid.size,): True where x is mirrored with respect to that row.
+    definitions
+        What the user has defined, by its code.
     """
 
     table: FloatArray
     index: IntArray
     mirrored: NDArray[np.bool_]
+    definitions: Definitions
 
 
 def unique_points(grid: Grid) -> UniquePoints:
@@ -55,7 +59,7 @@ def unique_points(grid: Grid) -> UniquePoints:
         stop = min(start + _SLAB, grid.size)
         rows[start:stop], mirrored[start:stop] = grid.canonical(start, stop)
     first, index = group_rows(rows)
-    return UniquePoints(rows[first], index, mirrored)
+    return UniquePoints(rows[first], index, mirrored, grid.definitions)
 
 
 def loads(table: FloatArray) -> int:

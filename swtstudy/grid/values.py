@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
 from numbers import Rational
 
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
-from swtstudy.parameters import PARAMETERS, Parameter, is_profile
+from swtstudy.named import Named
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter
 
-#: A checked value: a float, an exact frequency ratio, or the name of a profile.
-Value = float | Fraction | str
+#: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
+Value = float | Fraction | str | Named
+
+#: No definitions.
+NOTHING: Mapping[str, Named] = {}
 
 #: Names of the parameters that are numbers: those that can have any value between two others.
 NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
@@ -20,8 +25,8 @@ NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind
 _FRACTION_TOLERANCE = 1e-9
 
 
-def read_value(parameter: Parameter, raw: object) -> Value:
-    """The value of a parameter, from a number, a string such as "pi/2" or "3/2", or a profile's name.
+def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = NOTHING) -> Value:
+    """The value of a parameter, from a number, a string such as "pi/2" or "3/2", or a name.
 
     Parameters
     ----------
@@ -29,11 +34,13 @@ def read_value(parameter: Parameter, raw: object) -> Value:
         Row of the table of parameters.
     raw
         What the user wrote.
+    known
+        What the user has defined, by name.
 
     Returns
     -------
-    float, Fraction or str
-        A Fraction for a frequency ratio, the name for a profile, a float otherwise.
+    float, Fraction, str or Named
+        A Fraction for a frequency ratio, a built-in name or what was defined, a float otherwise.
 
     Raises
     ------
@@ -41,8 +48,8 @@ def read_value(parameter: Parameter, raw: object) -> Value:
         With the reason only, if the value is not allowed; `Parameter.allowed` says what is.
     """
     raw = plain(raw)
-    if parameter.kind == "profile":
-        return _read_profile(raw)
+    if parameter.kind == "name":
+        return _read_name(parameter.name, raw, known)
     exact = read_exact(raw)
     if parameter.kind == "ratio":
         return _read_ratio(exact, int(parameter.upper))
@@ -53,10 +60,21 @@ def read_value(parameter: Parameter, raw: object) -> Value:
     return number + 0.0  # -0.0 and 0.0 are one value
 
 
-def _read_profile(raw: object) -> str:
-    if is_profile(raw):
+def as_number(value: Value) -> float:
+    """The value of a parameter that is a number."""
+    if isinstance(value, Named):
+        raise TypeError(f"{value!r} is no number")
+    return float(value)
+
+
+def _read_name(parameter: str, raw: object, known: Mapping[str, Named]) -> str | Named:
+    if isinstance(raw, Named) and raw.parameter == parameter:
         return raw
-    raise ValueError("no such profile" if isinstance(raw, str) else "not a name")
+    if isinstance(raw, str) and raw in BUILT_IN[parameter]:
+        return raw
+    if isinstance(raw, str) and raw in known:
+        return known[raw]
+    raise ValueError(f"no such {parameter}" if isinstance(raw, str) else "not a name")
 
 
 def read_exact(raw: object) -> Fraction | float:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.parameters import DISPLACEMENTS, Control
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.load.load_path import LoadPath
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -35,6 +39,8 @@ class Points:
         Shape parameters κ_i of the profile, each of shape (n,).
     control
         What is prescribed.
+    path
+        The loop that the load runs through; None for the two harmonic oscillations.
     """
 
     profile: str
@@ -47,6 +53,7 @@ class Points:
     phase: FloatArray
     shape: dict[str, FloatArray] = field(default_factory=dict)
     control: Control = DISPLACEMENTS
+    path: LoadPath | None = None
 
     def __len__(self) -> int:
         return len(self.phase)

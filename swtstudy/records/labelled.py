@@ -10,8 +10,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.values import Value
+from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.named import Named
 from swtstudy.parameters import CONTROLS, PARAMETERS
 from swtstudy.records.records import STATES
 
@@ -132,9 +133,9 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
 
 
 def _values(values: tuple[Value, ...]) -> NDArray:
-    if isinstance(values[0], str):
-        return np.array(values, dtype=object)
-    return np.array([float(value) for value in values])
+    if any(isinstance(value, str | Named) for value in values):
+        return np.array([str(value) for value in values], dtype=object)
+    return np.array([as_number(value) for value in values])
 
 
 def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
@@ -145,7 +146,7 @@ def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
         "comment": parameter.meaning,
         "symbol": parameter.symbol,
     }
-    if parameter.kind != "profile":
+    if parameter.kind != "name":
         attributes["units"] = parameter.units
     if isinstance(values[0], Fraction):
         attributes["fractions"] = " ".join(map(str, values))

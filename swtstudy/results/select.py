@@ -80,7 +80,11 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mi
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name = str(there.name)
     try:
-        value = read_value(PARAMETERS[name], raw)
+        # A name is known by its place in the results, whatever it stood for.
+        named = (
+            PARAMETERS[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
+        )
+        value = str(raw) if named else read_value(PARAMETERS[name], raw)
     except ValueError as error:
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
         return 0

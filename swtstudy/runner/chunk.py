@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from swtstudy.grid.codes import Definitions
+from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined
@@ -28,17 +30,20 @@ class Chunk:
         Their canonical rows, shape (n, len(COLUMNS)).
     lengths
         Number of points in each block, adding up to n.
+    definitions
+        What the user has defined, by its code.
     """
 
     rows: IntArray
     table: FloatArray
     lengths: tuple[int, ...]
+    definitions: Definitions
 
     @classmethod
-    def of(cls, table: FloatArray, blocks: list[IntArray]) -> Chunk:
+    def of(cls, points: UniquePoints, blocks: list[IntArray]) -> Chunk:
         """The chunk that consists of the given blocks of rows."""
         rows = np.concatenate(blocks)
-        return cls(rows, table[rows], tuple(map(len, blocks)))
+        return cls(rows, points.table[rows], tuple(map(len, blocks)), points.definitions)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -54,7 +59,7 @@ class Chunk:
         start = 0
         for length in lengths:
             part = slice(start, start + length)
-            yield Chunk(self.rows[part], self.table[part], (length,))
+            yield Chunk(self.rows[part], self.table[part], (length,), self.definitions)
             start += length
 
 
@@ -81,7 +86,7 @@ def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution,
     """Solutions of the points, in order; a point that fails is isolated, with its message."""
     if len(chunk.lengths) == 1:
         try:
-            return [(_checked(chunk.table, rtol, solver), "")]
+            return [(_checked(chunk, rtol, solver), "")]
         except Exception as error:
             if len(chunk) == 1:
                 return [(blank(1), f"{type(error).__name__}: {error}")]
@@ -104,10 +109,10 @@ def solve_points(points: Points, rtol: float) -> Solution:
     return mechanics.solve_points(points, rtol)
 
 
-def _checked(table: FloatArray, rtol: float, solver: Solver) -> Solution:
+def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Solution:
     from swtstudy.grid.canonical import points_from
 
-    solution = solver(points_from(table), rtol)
+    solution = solver(points_from(chunk.table, chunk.definitions), rtol)
     lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")

@@ -9,36 +9,37 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.cost import weights
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.grid.unique import UniquePoints
+from swtstudy.mechanics.points import IntArray
 from swtstudy.runner.chunk import Chunk
 
 
-def chunks(table: FloatArray, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
+def chunks(points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
     """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
 
     Parameters
     ----------
-    table
-        Canonical rows in the order of `unique_points`.
+    points
+        The points of the study.
     wanted
-        Shape (len(table),): the points to be solved.
+        Shape (len(points.table),): the points to be solved.
     size
         Called for every chunk, so that later chunks follow the timing of earlier ones.
     """
-    weight = weights(table)
+    weight = weights(points.table)
     blocks: list[IntArray] = []
     heaviness = 0
     begin = 0
-    for end in block_ends(table).tolist():
+    for end in block_ends(points.table).tolist():
         rows = begin + np.flatnonzero(wanted[begin:end])
         begin = end
         if not len(rows):
             continue
         block_weight = int(weight[rows].sum())
         if blocks and heaviness + block_weight > size():
-            yield Chunk.of(table, blocks)
+            yield Chunk.of(points, blocks)
             blocks, heaviness = [], 0
         blocks.append(rows)
         heaviness += block_weight
     if blocks:
-        yield Chunk.of(table, blocks)
+        yield Chunk.of(points, blocks)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import Chunk, Solver, solve_chunk
 
@@ -18,7 +18,7 @@ _TIMED_KINDS = 4
 
 
 def estimate(
-    table: FloatArray,
+    points: UniquePoints,
     missing: NDArray[np.bool_],
     rtol: float,
     solver: Solver,
@@ -28,23 +28,23 @@ def estimate(
 
     Parameters
     ----------
-    table
-        Canonical rows in the order of `unique_points`.
+    points
+        The points of the study.
     missing
-        Shape (len(table),): the points to be solved.
+        Shape (len(points.table),): the points to be solved.
     rtol, solver
         As in `run`.
     timed
         Called with the result of each block that was timed.
     """
-    rows = np.flatnonzero(missing)
+    table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
         return 0.0
     _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends = block_ends(table)
-    seconds = points = 0.0
+    seconds = count = 0.0
     total = 0.0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
@@ -53,11 +53,11 @@ def estimate(
         inside = begin + np.flatnonzero(missing[begin : ends[block]])
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            solve_chunk(Chunk.of(table, [inside[:1]]), rtol, solver)
-        result = solve_chunk(Chunk.of(table, [inside]), rtol, solver)
+            solve_chunk(Chunk.of(points, [inside[:1]]), rtol, solver)
+        result = solve_chunk(Chunk.of(points, [inside]), rtol, solver)
         timed(result)
         seconds += result.seconds
-        points += len(result)
+        count += len(result)
         total += result.seconds / len(result) * sizes[each]
     others = len(rows) - sizes[largest].sum()
-    return float(total + seconds / points * others)
+    return float(total + seconds / count * others)

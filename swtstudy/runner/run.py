@@ -184,7 +184,7 @@ def _compute(
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
     collector = Collector(work.records, Run(SOLVER_VERSION, study.rtol, study.text, versions(), now), writer)
-    todo = chunks(work.points.table, work.missing, collector.pace.chunk_weight)
+    todo = chunks(work.points, work.missing, collector.pace.chunk_weight)
     with collector, workers as pool:
         solve(todo, study.rtol, solver, collector.add, pool)
     return collector.records

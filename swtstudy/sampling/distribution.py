@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.grid.values import read_exact, read_value
+from swtstudy.grid.values import as_number, read_exact, read_value
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import Parameter
@@ -110,7 +110,7 @@ def _number(parameter: Parameter, name: str, raw: object, key: str, report: Repo
             raise ValueError("nothing")
         if bound and raw == parameter.lower:
             return parameter.lower  # an open end is a bound, although it is no value
-        return float(read_value(parameter, raw) if bound else read_exact(raw))
+        return as_number(read_value(parameter, raw)) if bound else float(read_exact(raw))
     except ValueError as error:
         found = "nothing" if raw is None else f"{literal(raw)} ({error})"
         report(key, found, parameter.allowed if bound else "a number")

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from swtstudy.grid.reading import LONGEST_AXIS
-from swtstudy.grid.values import NUMERIC, Value, read_value
+from swtstudy.grid.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
+from swtstudy.grid.values import NOTHING, NUMERIC, Value, read_value
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import PARAMETERS
 from swtstudy.sampling.design import BALANCED, DESIGNS, Design
@@ -40,7 +40,9 @@ class Sample:
     ranges: dict[str, Distribution] = field(default_factory=dict)
 
 
-def read_sample(raw: Mapping[str, Any], folder: Path, report: Report) -> tuple[Sample | None, list[str]]:
+def read_sample(
+    raw: Mapping[str, Any], folder: Path, report: Report, known: Known = NOTHING_KNOWN
+) -> tuple[Sample | None, list[str]]:
     """The sample of a study's table; None if there are mistakes, which are reported.
 
     Parameters
@@ -51,6 +53,8 @@ def read_sample(raw: Mapping[str, Any], folder: Path, report: Report) -> tuple[S
         Where a file of points is, if its path is relative.
     report
         Called with key, found and allowed of each mistake.
+    known
+        What the user has defined, by parameter and name.
 
     Returns
     -------
@@ -76,7 +80,7 @@ def read_sample(raw: Mapping[str, Any], folder: Path, report: Report) -> tuple[S
         )
     if not isinstance(points, Mapping):
         return None, []
-    return _given(points, key, report), [name for name in points if name in PARAMETERS]
+    return _given(points, key, report, known), [name for name in points if name in PARAMETERS]
 
 
 def _designed(raw: Mapping[str, Any], report: Report) -> tuple[Sample | None, list[str]]:
@@ -133,7 +137,7 @@ def _whole(raw: object, least: int, largest: int) -> int | None:
     return raw if whole else None  # type: ignore[return-value]
 
 
-def _given(points: Mapping[str, Any], key: str, report: Report) -> Sample | None:
+def _given(points: Mapping[str, Any], key: str, report: Report, known: Known) -> Sample | None:
     """Points given one by one."""
     values: dict[str, tuple[Value, ...]] = {}
     lengths = {name: len(column) for name, column in points.items() if isinstance(column, Sequence)}
@@ -150,20 +154,22 @@ def _given(points: Mapping[str, Any], key: str, report: Report) -> Sample | None
         if name not in PARAMETERS:
             report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, PARAMETERS))
         elif name in lengths:
-            good = _column(name, column, f"{key}.{name}", report)
+            good = _column(name, column, f"{key}.{name}", report, known)
             if good is not None:
                 values[name] = good
     sound = len(values) == len(points) and len({*lengths.values()}) == 1
     return Sample(values) if sound else None
 
 
-def _column(name: str, column: Sequence[object], key: str, report: Report) -> tuple[Value, ...] | None:
+def _column(
+    name: str, column: Sequence[object], key: str, report: Report, known: Known
+) -> tuple[Value, ...] | None:
     """Checked values of a parameter; the first that is wrong is reported, with the number of others."""
     good: list[Value] = []
     wrong: list[str] = []
     for index, raw in enumerate(column):
         try:
-            good.append(read_value(PARAMETERS[name], raw))
+            good.append(read_value(PARAMETERS[name], raw, known.get(name, NOTHING)))
         except ValueError as error:
             wrong.append(f"{literal(raw)} ({error}) at [{index}]")
     if not wrong:

@@ -32,7 +32,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     _, group = np.unique(select(rows, SHARED_COLUMNS), axis=0, return_inverse=True)
     for family in range(int(group.max()) + 1):
         members = np.flatnonzero(group.ravel() == family)
-        radius[members] = _radius(points_from(rows[members]))
+        radius[members] = _radius(points_from(rows[members], {}))
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 
 

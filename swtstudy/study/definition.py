@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.reading import Range, read_grid
+from swtstudy.grid.reading import Known, Range, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
@@ -119,9 +120,9 @@ class Study:
         text
             The text.
         source
-            Its name in messages.
+            Names it in messages.
         folder
-            Where a file of points is that the text names.
+            To which the paths of files in it are relative.
 
         Raises
         ------
@@ -150,12 +151,16 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
         mistakes.append(Mistake(key, found, allowed, source))
 
     fixed, axes = _parts(raw)
-    sample, sampled = _sample(raw, folder, report)
+    known, found = _definitions(raw, folder, source)
+    mistakes += found
+    sample, sampled = _sample(raw, folder, known, report)
     places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     samples = {name: sample.values[name] if sample else None for name in sampled}
-    grid, found = read_grid(
-        fixed, axes, lambda name: f"{places.get(name, 'fixed')}.{name}", source, samples=samples
-    )
+
+    def keys(name: str) -> str:
+        return f"{places.get(name, 'fixed')}.{name}"
+
+    grid, found = read_grid(fixed, axes, keys, source, known=known, samples=samples)
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
@@ -170,13 +175,29 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     return Study(table.title, grid, table.rtol, figure, text, sample)
 
 
-def _sample(raw: Mapping[str, Any], folder: Path, report: Report) -> tuple[Sample | None, list[str]]:
+def _sample(
+    raw: Mapping[str, Any], folder: Path, known: Known, report: Report
+) -> tuple[Sample | None, list[str]]:
     """The sample, and the names of the parameters that are sampled."""
     if not isinstance(raw.get("sample"), dict):
         return None, []
     from swtstudy.sampling.reading import read_sample
 
-    return read_sample(raw["sample"], folder, report)
+    return read_sample(raw["sample"], folder, report, known)
+
+
+def _definitions(
+    raw: Mapping[str, Any], folder: Path, source: str
+) -> tuple[dict[str, dict[str, Named]], list[Mistake]]:
+    """What the study defines, by parameter and name, as far as its structure is sound."""
+    tables = raw.get("loads", {})
+    if not tables or not isinstance(tables, dict):
+        return {}, []
+    from swtstudy.study.loops import read_loops
+
+    sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
+    found, mistakes = read_loops(sound, folder, source)
+    return {"load": found}, mistakes
 
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

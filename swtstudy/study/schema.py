@@ -7,7 +7,7 @@ from typing import Any
 
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter, families_with
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
@@ -22,6 +22,7 @@ _DESCRIPTIONS = {
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
+    "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -37,6 +38,11 @@ _SAMPLE_DESCRIPTIONS = {
     "ranges": "Sampled parameters: both ends, [low, high], or a distribution.",
     "file": "CSV file of points: a row with names of parameters, then a row for each point.",
     "points": "Points given here: a list of values for each parameter, all of one length.",
+}
+_LOAD_DESCRIPTIONS = {
+    "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
+    "amplitude times c_t.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
@@ -66,6 +72,7 @@ def study_schema() -> dict[str, Any]:
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
         (parts["SampleTable"]["properties"], _SAMPLE_DESCRIPTIONS),
+        (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):
         for name, entry in table.items():
@@ -105,8 +112,12 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:
         entry["default"] = parameter.default
-    if parameter.kind == "profile":
-        return entry | {"enum": list(FAMILIES)}
+    if parameter.kind == "name":
+        names = list(BUILT_IN[parameter.name])
+        # Beside the built-in loads there may be the study's own loops.
+        return entry | (
+            {"type": "string", "examples": names} if parameter.name == "load" else {"enum": names}
+        )
     lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
@@ -123,7 +134,7 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
     """Schema of several values: a list, or a range of numbers."""
     values = _values(parameter)
     description = values.pop("description")
-    if parameter.kind == "profile":
+    if parameter.kind == "name":
         return {"description": description, **values}
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 

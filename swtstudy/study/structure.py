@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from swtstudy.accuracy import ALLOWED_RTOL
 from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.study.tables import FigureTable, RangeTable, SampleTable, StudyTable
+from swtstudy.study.tables import FigureTable, LoadTable, RangeTable, SampleTable, StudyTable
 
 #: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {
@@ -24,6 +24,7 @@ _ALLOWED = {
     "sample.ranges": "a table of ranges",
     "sample.file": "the path of a CSV file",
     "sample.points": "a table of lists of values",
+    "loads": "a table of loops, [loads.NAME]",
     "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
     "figure.kind": '"lines", "contour", "heatmap", "scatter" or "histogram"',
     "figure.vertical": "the name of an axis",
@@ -56,6 +57,10 @@ def _mistake(detail: Any, source: str) -> Mistake:
         return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)
     if path[0] == "axes" and len(path) == 2:
         allowed = "a list of values or {start, stop, num}"
+    elif path[0] == "loads" and len(path) == 2:
+        allowed = "a table with vertices or file"
+    elif path[0] == "loads" and path[-1] == "file":
+        allowed = "the path of a CSV file"
     elif path[0] == "axes" and path[-1] == "spacing":
         allowed = '"linear" or "log"'
     elif path[0] == "axes" and path[-1] == "num":
@@ -67,6 +72,11 @@ def _mistake(detail: Any, source: str) -> Mistake:
 
 
 def _known(path: list[Any]) -> list[str]:
-    inner: dict[str, type[BaseModel]] = {"axes": RangeTable, "sample": SampleTable, "figure": FigureTable}
+    inner: dict[str, type[BaseModel]] = {
+        "axes": RangeTable,
+        "sample": SampleTable,
+        "loads": LoadTable,
+        "figure": FigureTable,
+    }
     model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable
     return list(model.model_fields)

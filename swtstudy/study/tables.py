@@ -55,6 +55,13 @@ class FigureTable(_Table):
     regimes: bool = False
 
 
+class LoadTable(_Table):
+    """A loop of loads: its vertices, or the file that has them."""
+
+    vertices: Any = None
+    file: str | None = None
+
+
 class StudyTable(_Table):
     """A study file."""
 
@@ -63,4 +70,5 @@ class StudyTable(_Table):
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     sample: SampleTable | None = None
+    loads: dict[str, LoadTable] = {}
     figure: FigureTable | None = None

@@ -50,6 +50,7 @@ def _fixed() -> str:
         if name == "profile" or name in _USED:
             continue
         lines.append(f"# {parameter.meaning}: {parameter.allowed}")
-        value = "…" if parameter.default is None else f"{parameter.default:.6g}"
+        default = parameter.default
+        value = "…" if default is None else quoted(default) if isinstance(default, str) else f"{default:.6g}"
         lines.append(f"# {name} = {value}")
     return "\n".join(lines)

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
+from swtstudy.named import Named
 from swtstudy.study.figure import FigureLayout
 
 
@@ -33,6 +34,9 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     if grid.samples:
         lines += ["", "[sample.points]"]
         lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
+    for defined in grid.definitions.values():
+        lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
+        lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]
     if figure is not None:
         lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
         lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())
@@ -45,7 +49,7 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
 
 
 def _literal(value: Value) -> str:
-    return quoted(str(value)) if isinstance(value, str | Fraction) else repr(value)
+    return quoted(str(value)) if isinstance(value, str | Fraction | Named) else repr(value)
 
 
 def quoted(text: str) -> str:

@@ -12,6 +12,8 @@ from swtstudy.mechanics.points import FloatArray, Points
 
 def load_of(points: Points) -> Load:
     """The loads (eqs. 7, 8) of points that are alike, see `alike`."""
+    if points.path is not None:
+        return points.path.loads(points.normal_amplitude, points.tangential_amplitude)
     of_load = points.normal_amplitude, points.tangential_amplitude, points.phase
     return BimodalLoad(*of_load, int(points.p[0]), int(points.q[0]))
 
@@ -36,6 +38,8 @@ def largest_normal(points: Points) -> FloatArray:
 
 def largest_turn_count(points: Points) -> int:
     """How many turning instants the load of points that are alike has at most."""
+    if points.path is not None:
+        return points.path.turn_count
     return 6 * int(max(points.p[0], points.q[0]))
 
 

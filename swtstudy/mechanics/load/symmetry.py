@@ -9,10 +9,9 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 
 
 def without_what_stands_still(
-    normal_amplitude: FloatArray, phase: FloatArray, p: IntArray, q: IntArray
+    constant: NDArray[np.bool_], phase: FloatArray, p: IntArray, q: IntArray
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Phase and ω2/ω1 = p/q, each (n,): 0 and 1 for a constant normal load, which has neither."""
-    constant = normal_amplitude == 0.0
     return np.where(constant, 0.0, phase), np.where(constant, 1, p), np.where(constant, 1, q)
 
 
