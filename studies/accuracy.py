@@ -25,6 +25,7 @@ SHAPES = {
     "rounded_punch": {"flat_radius": (0.0, 2.0)},
     "truncated_paraboloid": {"flat_radius": (0.0, 2.0)},
     "wavy_paraboloid": {"waviness_amplitude": (0.003, 0.1), "wavelength": (4.5, 10.0)},
+    "power_law": {"exponent": (1.1, 6.0)},
 }
 HEADER = (
     "| profile | rtol | median error | 99 % | largest | error > s_error | and the reference's "
@@ -76,6 +77,8 @@ def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -
     shape = {}
     if "flat_radius" in SHAPES[profile]:
         shape = {"flat_radius": one_of(*[logarithmic(1e-6, 20.0)] * 9, 20.0)}
+    if "exponent" in SHAPES[profile]:
+        shape = {"exponent": 1.0 + logarithmic(0.1, 19.0)}
     if "wavelength" in SHAPES[profile]:
         shape = {"waviness_amplitude": logarithmic(1e-6, 10.0), "wavelength": logarithmic(3.3, 1e3)}
         for k in range(count):

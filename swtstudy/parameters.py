@@ -190,6 +190,9 @@ PARAMETERS: dict[str, Parameter] = {
             part="shape",
             scale="√(hR)",
         ),
+        Parameter(
+            "exponent", "n", "n", "exponent of the power law", None, 1.0, 20.0, open_lower=True, part="shape"
+        ),
     )
 }
 
@@ -278,6 +281,7 @@ FAMILIES: dict[str, Family] = {
         Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.0)),
         Family("truncated_paraboloid", ("flat_radius",), plain=("flat_radius", 0.0)),
         Family("wavy_paraboloid", ("waviness_amplitude", "wavelength"), plain=("waviness_amplitude", 0.0)),
+        Family("power_law", ("exponent",), plain=("exponent", 2.0)),
     )
 }
 

@@ -11,6 +11,7 @@ from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
 from swtstudy.grid.reading import read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.quantities import read_quantities, variables_of
 from swtstudy.version import __version__
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from swtstudy.grid.grid import Grid
 
 
-def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
+def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
     """Normalised SWT parameter s on the grid spanned by named parameters.
 
     Computes in this process; for a large grid write a study and `swtstudy.run` it.
@@ -28,6 +29,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     ----------
     rtol
         Relative accuracy asked of s.
+    quantities
+        Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, each a single value or a one-dimensional sequence of
         values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
@@ -37,7 +40,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
     xarray.Dataset
         s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
         the surface line is not enough). Sequences become dimensions, in the order given, and single values
-        scalar coordinates; the attributes state the version and rtol.
+        scalar coordinates; the attributes state the version and rtol. The quantities that are asked are
+        further data variables.
         Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN.
 
     Raises
@@ -66,24 +70,34 @@ def solve(*, rtol: float = DEFAULT_RTOL, **parameters: object) -> xr.Dataset:
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-    grid, found = read_grid(fixed, axes, others=("rtol",))
+    asked = read_quantities(quantities, "quantities", lambda *parts: mistakes.append(Mistake(*parts)))
+    grid, found = read_grid(fixed, axes, others=("rtol", "quantities"))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
-    return solve_grid(grid, float(rtol))
+    return solve_grid(grid, float(rtol), asked)
 
 
-def solve_grid(grid: Grid, rtol: float) -> xr.Dataset:
-    """s on a grid, solved in this process in bounded memory, as `solve` returns it."""
+def solve_grid(grid: Grid, rtol: float, asked: tuple[str, ...] = ()) -> xr.Dataset:
+    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
     from swtstudy.grid.blocks import block_ends
     from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
+    from swtstudy.mechanics.quantities import quantities_of
     from swtstudy.records.labelled import arrays_of, label
     from swtstudy.records.solutions import joined, solution_at
 
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    solution = joined([solve_points(points_from(block, unique.definitions), rtol) for block in blocks])
-    dataset = label(grid, arrays_of(solution_at(solution, unique.index), unique.mirrored))
+    batches = [points_from(block, unique.definitions) for block in blocks]
+    solution = joined([solve_points(batch, rtol) for batch in batches])
+    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
+    if asked:
+        found_there = [quantities_of(batch, asked) for batch in batches]
+        arrays |= {
+            name: np.concatenate([part[name] for part in found_there])[unique.index]
+            for name in variables_of(asked)
+        }
+    dataset = label(grid, arrays)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 

@@ -62,6 +62,7 @@ DRAWN: dict[str, Callable[[np.random.Generator, int], NDArray[np.float64]]] = {
     "flat_radius": lambda rng, count: rng.uniform(0.05, 2.0, count),
     "waviness_amplitude": lambda rng, count: 10.0 ** rng.uniform(-3.5, -1.0, count),
     "wavelength": lambda rng, count: rng.uniform(3.6, 10.0, count),
+    "exponent": lambda rng, count: rng.uniform(1.1, 6.0, count),
 }
 
 

@@ -16,6 +16,7 @@ SHAPES: dict[str, dict[str, float]] = {
     "rounded_punch": {"flat_radius": 0.5},
     "truncated_paraboloid": {"flat_radius": 0.5},
     "wavy_paraboloid": {"waviness_amplitude": 0.01, "wavelength": 5.0},
+    "power_law": {"exponent": 1.5},
 }
 
 

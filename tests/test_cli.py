@@ -458,7 +458,9 @@ def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path,
     names = {name for name, row in swtstudy.parameters.PARAMETERS.items() if row.default is not None}
     names |= {*swtstudy.parameters.FAMILIES[profile].shape}
     for name in swtstudy.parameters.PARAMETERS:
-        value = swtstudy.parameters.PARAMETERS[name].default or {"wavelength": 7}.get(name, 0.01)
+        value = swtstudy.parameters.PARAMETERS[name].default or {"wavelength": 7, "exponent": 3}.get(
+            name, 0.01
+        )
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
         assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
         for line in lines if name in names else ():

@@ -18,6 +18,7 @@ PROFILES = {
     "rounded_punch": {"flat_radius": [0.5]},
     "truncated_paraboloid": {"flat_radius": [0.5]},
     "wavy_paraboloid": {"waviness_amplitude": [0.05], "wavelength": [20**0.5]},
+    "power_law": {"exponent": [1.5]},
 }
 # δA/δ0, p, q, uA, ψ: without growth in stick, with one growth, with several that begin at one depth, with
 # lift-off.

@@ -47,6 +47,13 @@ def swt_on_normal(sigma: Stress, nu: Array, normal: Array) -> Array:
     return np.maximum(stress.max(axis=-1), 0.0) * 0.5 * np.ptp(strain, axis=-1)
 
 
+def coarse(sigma: Stress, nu: Array, count: int) -> tuple[Array, Array]:
+    """`coarse_swt` of single positions, shape (n,)."""
+    history = PlaneHistory.from_stresses(tuple(v[:, None] for v in sigma), nu)  # type: ignore[arg-type]
+    swt, angle = coarse_swt(history, count)
+    return swt[:, 0], angle[:, 0]
+
+
 def planes_through_y(count: int) -> list[Array]:
     angles = np.pi * np.arange(count) / count
     return [np.array([np.cos(angle), 0.0, np.sin(angle)]) for angle in angles]
@@ -65,7 +72,7 @@ def test_normal_stress_and_strain_of_a_plane_are_those_of_the_tensors() -> None:
 def test_largest_swt_over_planes_against_brute_force(seed: int) -> None:
     sigma, nu = random_history(seed)
     brute = np.max([swt_on_normal(sigma, nu, normal) for normal in planes_through_y(720)], axis=0)
-    found, double_angle = coarse_swt(PlaneHistory.from_stresses(sigma, nu), 720)
+    found, double_angle = coarse(sigma, nu, 720)
     # Between planes 0.25° apart swt is known to (0.25°)² of itself, at kinks to 0.25°.
     np.testing.assert_allclose(found, brute, rtol=2e-3)
     normals = np.stack([np.cos(0.5 * double_angle), 0.0 * double_angle, np.sin(0.5 * double_angle)], axis=-1)
@@ -96,7 +103,7 @@ def test_newtons_method_finds_the_plane_for_given_instants(seed: int) -> None:
 def test_swt_is_zero_where_no_plane_sees_tension() -> None:
     (xx, yy, zz, xz), nu = random_history(3)
     pressed = xx - 100.0, yy - 100.0, zz - 100.0, xz
-    assert np.all(coarse_swt(PlaneHistory.from_stresses(pressed, nu), 36)[0] == 0.0)
+    assert np.all(coarse(pressed, nu, 36)[0] == 0.0)
     assert of_maxima(np.array([-1.0]), np.array([2.0]), np.array([2.0])) == 0.0
 
 
@@ -116,11 +123,9 @@ def rotated(sigma: Stress, angle: float) -> Stress:
 def test_the_critical_plane_turns_with_the_stress(turns: int) -> None:
     count = 36
     sigma, nu = random_history(1)
-    swt, angle = coarse_swt(PlaneHistory.from_stresses(sigma, nu), count)
+    swt, angle = coarse(sigma, nu, count)
     # By whole steps of the planes, whose angles in 2θ are 2π/count apart.
-    turned, turned_angle = coarse_swt(
-        PlaneHistory.from_stresses(rotated(sigma, np.pi * turns / count), nu), count
-    )
+    turned, turned_angle = coarse(rotated(sigma, np.pi * turns / count), nu, count)
     np.testing.assert_allclose(turned, swt, rtol=1e-12)
     shift = turned_angle - angle - 2.0 * np.pi * turns / count
     np.testing.assert_allclose(np.sin(0.5 * shift), 0.0, atol=1e-12)
@@ -129,15 +134,31 @@ def test_the_critical_plane_turns_with_the_stress(turns: int) -> None:
 def test_mirror_order_and_scale_of_the_history() -> None:
     sigma, nu = random_history(2)
     xx, yy, zz, xz = sigma
-    swt, angle = coarse_swt(PlaneHistory.from_stresses(sigma, nu), 36)
-    mirrored, mirrored_angle = coarse_swt(PlaneHistory.from_stresses((xx, yy, zz, -xz), nu), 36)
+    swt, angle = coarse(sigma, nu, 36)
+    mirrored, mirrored_angle = coarse((xx, yy, zz, -xz), nu, 36)
     np.testing.assert_allclose(mirrored, swt, rtol=1e-12)
     np.testing.assert_allclose(np.sin(0.5 * (mirrored_angle + angle)), 0.0, atol=1e-12)
     order = np.random.default_rng(0).permutation(xx.shape[1])
-    shuffled = coarse_swt(PlaneHistory.from_stresses(tuple(v[:, order] for v in sigma), nu), 36)  # type: ignore[arg-type]
+    shuffled = coarse(tuple(v[:, order] for v in sigma), nu, 36)  # type: ignore[arg-type]
     np.testing.assert_array_equal(shuffled[0], swt)
-    scaled = coarse_swt(PlaneHistory.from_stresses(tuple(3.0 * v for v in sigma), nu), 36)  # type: ignore[arg-type]
+    scaled = coarse(tuple(3.0 * v for v in sigma), nu, 36)  # type: ignore[arg-type]
     np.testing.assert_allclose(scaled[0], 9.0 * swt, rtol=1e-12)
+
+
+def test_low_positions_keep_the_coarse_plane_and_the_highest_is_improved() -> None:
+    sigma, nu = random_history(4)
+    high, angle = coarse(sigma, nu, 16)
+    # The same history twice, once so faint that it does not matter, and many points: blocks are put together.
+    many = 40
+    pairs = tuple(np.tile(np.stack([v, 1e-3 * v], axis=1), (many, 1, 1)) for v in sigma)
+    history = PlaneHistory.from_stresses(pairs, np.tile(nu, many))  # type: ignore[arg-type]
+    swt, angles = coarse_swt(history, 16)
+    np.testing.assert_array_equal(swt[:, 0], np.tile(high, many))
+    np.testing.assert_array_equal(angles[:, 0], np.tile(angle, many))
+    coarse_angle = angles[:, 1] * 16 / (2.0 * np.pi)
+    np.testing.assert_allclose(coarse_angle, np.rint(coarse_angle), atol=1e-12)
+    assert np.all(swt[:, 1] <= 1e-6 * (1.0 + 1e-12) * swt[:, 0])
+    assert np.all(swt[:, 1] > 0.5e-6 * swt[:, 0])
 
 
 def stress_history(point: Points, x: float, instants: Array) -> Stress:

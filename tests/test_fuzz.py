@@ -30,6 +30,7 @@ NAMES += [
     "flat_radius",
     "waviness_amplitude",
     "wavelength",
+    "exponent",
 ]
 TEXTS = ["phase", "friction", "wavy_paraboloid", "rounded_punch", "3/2", "pi", "3/0", "s", "s/s(phase=0)"]
 

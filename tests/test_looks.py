@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scenes import random_points
 
 from swtstudy.mechanics.events.nodes import _places
 from swtstudy.mechanics.line.first_look import local_maxima
-from swtstudy.mechanics.line.value import of_extremes
+from swtstudy.mechanics.line.look import Look
+from swtstudy.mechanics.line.samples import of_extremes
+from swtstudy.mechanics.stress.scene import scene_of
 
 R = np.arange(1.0, 11.0)
 
@@ -79,3 +83,18 @@ def test_nodes_where_stretches_meet_are_there_once():
     placed = _places(parts, 2)
     pairs = list(zip(placed.stretch.ravel().tolist(), placed.place.ravel().tolist(), strict=True))
     assert pairs == [(0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (2, 0), (2, 1), (2, 2)]
+
+
+@pytest.mark.parametrize("profile", ["paraboloid", "rounded_punch", "wavy_paraboloid"])
+def test_some_rows_of_a_look_are_a_look_at_these(profile):
+    batch = random_points(5, 6, profile)
+    batch = replace(batch, p=np.full(6, 3), q=np.full(6, 2), normal_amplitude=np.linspace(0.3, 0.9, 6))
+    scene, rows = scene_of(batch), np.array([4, 1, 1])
+    r = scene.profile.radius(scene.profile.largest_depth)[:, None] * np.array([0.5, 0.9])
+    some = Look.at(scene, r, 3, 6.0).take(rows)
+    alone = Look.at(scene.take(rows), r[rows], 3, 6.0)
+    extremes = np.array([[[5, 9, 2], [8, 0, 11]]] * 3)
+    closer, same = (look.line.history(look.brackets(extremes).samples()) for look in (some, alone))
+    for values, expected in zip(vars(closer).values(), vars(same).values(), strict=True):
+        np.testing.assert_array_equal(values, expected)
+    assert some.line.growth.count > 0

@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 
 from swtstudy.mechanics.numerics import chebyshev
-from swtstudy.mechanics.numerics.arrays import align, distinct, filled_rows, gather, packed, pick
+from swtstudy.mechanics.numerics.arrays import (
+    RowTable,
+    align,
+    count_below,
+    distinct,
+    filled_rows,
+    gather,
+    packed,
+    pick,
+)
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.numerics.peaks import near_maximum, parabola, polynomial_maximum, vertex_near
@@ -24,6 +33,21 @@ def test_gather_and_pick_are_numpys() -> None:
         np.testing.assert_array_equal(found, np.take_along_axis(values, each, axis=-1))
     one = index[..., 0]
     np.testing.assert_array_equal(pick(values, one), gather(values, one[..., None])[..., 0])
+
+
+def test_tables_of_many_rows_are_numpys_interpolation() -> None:
+    abscissa, value = np.sort(RNG.normal(size=(5, 8)), axis=1), RNG.normal(size=(5, 8))
+    row, at = np.array([3, 0, 3, 4])[:, None], RNG.normal(size=(4, 60))
+    at[:, :8] = abscissa[row[:, 0]]
+    expected = [np.interp(x, abscissa[k], value[k]) for k, x in zip(row[:, 0], at, strict=True)]
+    np.testing.assert_allclose(RowTable(abscissa, value).interpolated(row, at), expected, rtol=1e-13)
+
+
+def test_values_below_a_level_are_counted() -> None:
+    values = np.where(RNG.random((4, 3, 5)) < 0.2, np.inf, RNG.integers(6, size=(4, 3, 5)))
+    row, level = RNG.integers(12, size=40), RNG.integers(6, size=40).astype(float)
+    expected = [np.sum(values.reshape(12, 5)[k] < at) for k, at in zip(row, level, strict=True)]
+    np.testing.assert_array_equal(count_below(values, row, level), expected)
 
 
 def test_rows_are_packed_and_filled() -> None:

@@ -38,6 +38,8 @@ def single_points(draw: st.DrawFn, names: tuple[str, ...] = PROFILE_NAMES) -> Po
     shape: dict[str, Any] = {}
     if profile == "wavy_paraboloid":
         shape = {"waviness_amplitude": draw(between(1e-4, 0.2)), "wavelength": draw(between(3.6, 12.0))}
+    elif profile == "power_law":
+        shape = {"exponent": draw(between(1.1, 20.0))}
     elif profile != "paraboloid":
         shape = {"flat_radius": draw(between(0.0, 3.0))}
     p, q = draw(pairs)

@@ -61,7 +61,7 @@ class House:
 
 WHOLE = House(
     "swtstudy",
-    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording"),
+    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording", "quantities"),
     (
         *(
             "mechanics",
@@ -84,7 +84,7 @@ MECHANICS = House(
     ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("solver", "__init__"),
+        *("solver", "quantities", "__init__"),
     ),
 )
 

@@ -30,7 +30,7 @@ from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")
-LENGTHS = ("flat_radius", "waviness_amplitude", "wavelength")
+SHAPE_COLUMNS = ("flat_radius", "waviness_amplitude", "wavelength", "exponent")
 DIGITS = 10.0
 #: Steps of a stretch, positions and planes of the first look; how many of its maxima are looked at closer.
 STEPS, POSITIONS, PLANES, KEPT = 6, 240, 72, 6
@@ -103,10 +103,10 @@ def rows(profile: str, points: Points) -> Iterator[list[str]]:
         more = dense > tight.s[k] * (1.0 + 5e-6) + 2.0 * tight.s_error[k]
         if more or dense < tight.s[k] * (1.0 - 1e-4):
             print(f"{profile} {k}: {tight.s[k]:.10g} at the tightest, {dense / tight.s[k] - 1.0:+.1e}")
-        lengths = [repr(one.shape[name].item()) if name in one.shape else "" for name in LENGTHS]
+        shape = [repr(one.shape[name].item()) if name in one.shape else "" for name in SHAPE_COLUMNS]
         values = [repr(getattr(one, name).item()) for name in NUMBERS]
         s = dense if more else float(tight.s[k])
-        yield [profile, *values, *lengths, f"{s:.12g}", f"{tight.s_error[k]:.1e}"]
+        yield [profile, *values, *shape, f"{s:.12g}", f"{tight.s_error[k]:.1e}"]
 
 
 def main() -> None:
@@ -117,7 +117,7 @@ def main() -> None:
     count = 1 if given.quick else COUNT
     with (given.results / "reference_values.csv").open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["profile", *NUMBERS, *LENGTHS, "s", "s_error"])
+        table.writerow(["profile", *NUMBERS, *SHAPE_COLUMNS, "s", "s_error"])
         for profile in SHAPES:
             for draw in (random_points, lambda *of: points_at_ends(*of, largest_term=4)):
                 table.writerows(rows(profile, draw(profile, count, SEED)))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import platform
-from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -15,6 +14,7 @@ import xarray as xr
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
+from swtstudy.quantities import variables_of
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -55,6 +55,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
+    arrays |= {name: records.quantity(name)[points.index] for name in variables_of(study.quantities)}
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     dataset = label(study.grid, arrays)
     if study.sample is not None and study.sample.design is not None:
@@ -94,7 +95,7 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "wall_time_seconds": round(seconds, 3),
         "computing_time_seconds": round(sum(run.seconds for run in records.runs), 3),
         "study": study.text,
-        "runs": json.dumps([asdict(run) for run in records.runs]),
+        "runs": json.dumps([run.to_json() for run in records.runs]),
     }
     defined = [
         {"parameter": each.parameter, "name": each.name, "content": each.content()}

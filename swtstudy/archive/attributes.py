@@ -10,6 +10,7 @@ from typing import Any, TypedDict
 from swtstudy.grid.defined import kinds
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.named import Named
+from swtstudy.quantities import QUANTITIES, variables_of
 from swtstudy.records.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
@@ -67,7 +68,7 @@ def read_figure(text: object) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        if reference(y) is None and y.strip() not in VARIABLES:
+        if reference(y) is None and y.strip() not in (*VARIABLES, *variables_of(QUANTITIES)):
             raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 
@@ -92,7 +93,10 @@ def _run(raw: object) -> Run:
         raise ValueError(f"not a run: {literal(raw)}")
     for item in fields(Run):
         value = raw.get(item.name, item.default)
-        good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf
+        if item.name == "quantities":
+            good = isinstance(value, list | tuple) and {*map(str, value)} <= QUANTITIES.keys()
+        else:
+            good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf
         if not good:
             raise ValueError(f"{item.name} of a run: {'nothing' if value is MISSING else literal(value)}")
-    return Run(**raw)
+    return Run.from_json(raw)

@@ -21,7 +21,7 @@ from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, matching
+from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
@@ -78,7 +78,10 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
             )
         made += f", {gaps} in none of them"
     merged = matching(points.table, records, records.status != MISSING)
-    study = _study(paths, datasets, grid)
+    quantities = made_by(records.runs)
+    if not sparse:
+        _refuse_gaps_in_quantities(paths, merged, quantities, grid.definitions)
+    study = _study(paths, datasets, grid, quantities)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
@@ -125,6 +128,18 @@ def _refuse_conflicts(
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
 
 
+def _refuse_gaps_in_quantities(
+    paths: Sequence[Path], merged: Records, names: tuple[str, ...], definitions: Definitions
+) -> None:
+    for name, lacks in zip(names, merged.lacking(names).T, strict=True):
+        if lacks.any():
+            example = describe_point(merged.table[np.flatnonzero(lacks)[0]], definitions)
+            raise GapsError(
+                f"{name} is known of some points in {_names(paths)}, but not of {int(lacks.sum())} others, "
+                f"such as {example}; --sparse (sparse=True in Python) leaves it NaN, and a run computes it"
+            )
+
+
 def _union(grids: list[Grid]) -> Grid:
     """The grid that the values of all grids span; dimensions in the order of the first.
 
@@ -156,7 +171,9 @@ def _distinct(values: list[Value]) -> tuple[Value, ...]:
     return tuple(sorted(keyed.values(), key=as_number))
 
 
-def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Study:
+def _study(
+    paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, quantities: tuple[str, ...]
+) -> Study:
     """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
@@ -165,7 +182,7 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid) -> Stu
         layout = read_figure(datasets[0].attrs["figure"])
         if {name for _, name in layout.roles()} == set(grid.dims):
             figure = layout
-    text = to_toml(" + ".join(titles), rtol, grid, figure)
+    text = to_toml(" + ".join(titles), rtol, grid, figure, quantities)
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:

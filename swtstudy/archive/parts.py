@@ -16,7 +16,7 @@ import json
 import logging
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, fields
+from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +30,8 @@ from swtstudy.records.records import Records, Run, join
 _log = logging.getLogger(__name__)
 
 _ARRAYS = tuple(item.name for item in fields(Solution))
+#: What else is in every part; the rest are quantities.
+_OWN = ("meta", "table", "status", "run")
 
 _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 
@@ -145,7 +147,7 @@ def _write(folder: Path, number: int, records: Records) -> Path:
     path = folder / f"{number:06d}.npz"
     meta = {
         "layout": _LAYOUT,
-        "runs": [asdict(run) for run in records.runs],
+        "runs": [run.to_json() for run in records.runs],
         "messages": records.messages,
     }
     content = io.BytesIO()
@@ -156,6 +158,7 @@ def _write(folder: Path, number: int, records: Records) -> Path:
         status=records.status,
         run=records.run,
         **{name: getattr(records.solution, name) for name in _ARRAYS},
+        **records.quantities,  # type: ignore[arg-type]
     )
     with replacing(path) as temporary, open(temporary, "wb") as file:
         file.write(content.getbuffer())
@@ -187,8 +190,9 @@ def _records_from(content: bytes) -> Records:
             Solution(**{name: part[name] for name in _ARRAYS}),
             part["status"],
             part["run"],
-            tuple(Run(**run) for run in meta["runs"]),
+            tuple(map(Run.from_json, meta["runs"])),
             {int(index): message for index, message in meta["messages"].items()},
+            {name: part[name] for name in part.files if name not in (*_OWN, *_ARRAYS)},
         )
 
 

@@ -19,8 +19,9 @@ from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
 from swtstudy.parameters import PAIRS, PARAMETERS, Control, Parameter
+from swtstudy.quantities import variables_of
 from swtstudy.records.labelled import arrays_of
-from swtstudy.records.records import FAILED, Records
+from swtstudy.records.records import FAILED, Records, made_by
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -117,6 +118,11 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
         for name in (*(item.name for item in fields(Solution)), "status", "run")
     }
     status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
+    runs = read_runs(dataset.attrs["runs"])
+    quantities = {
+        name: dataset[name].transpose(*dataset.s.dims).values.reshape(-1)[at]
+        for name in variables_of(made_by(runs))
+    }
     # Mirroring a second time gives the canonical point back.
     solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
     failures = read_failures(dataset.status.attrs["failures"])
@@ -124,4 +130,4 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     failed = np.flatnonzero(status == FAILED)
     rows = zip(failed.tolist(), map(tuple, points.table[failed].tolist()), strict=True)
     messages = {index: reason[row] for index, row in rows if row in reason}
-    return Records(points.table, solution, status, run, read_runs(dataset.attrs["runs"]), messages)
+    return Records(points.table, solution, status, run, runs, messages, quantities)

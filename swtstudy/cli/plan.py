@@ -43,11 +43,11 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     from swtstudy.runner.work import assess
 
     work = assess(study, target)
-    missing = work.missing
-    grid, distinct, todo = study.grid, len(missing), int(missing.sum())
+    missing, todo = work.missing, work.todo
+    grid, distinct = study.grid, len(missing)
     panels = study.figure.panels if study.figure else None
     count = len(grid.values(panels)) if panels else 1
-    shared = todo - loads(work.points.table[missing])
+    shared = int(missing.sum()) - loads(work.points.table[missing])
     lines = [
         study.title,
         f"  prescribed         {grid.control.name}",
@@ -57,14 +57,23 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
         f"  already computed   {distinct - todo}",
         f"  to be computed     {todo} ({shared} of them share another's contact solution)",
     ]
+    if study.quantities:
+        lines.insert(-3, f"  quantities         {', '.join(study.quantities)}")
+    if work.incomplete.any():
+        lines.append(f"  without s          {int(work.incomplete.sum())} of them lack quantities alone")
     if work.outdated:
         lines.append(f"  recomputed         {work.outdated} come from another version of the solver")
     if work.coarse:
         lines.append(f"  recomputed         {work.coarse} are less accurate than the study asks for")
     if todo:
         timed: list[int] = []
-        seconds = estimate(
-            work.points, missing, study.rtol, solve_points, lambda result: timed.append(len(result))
+        seconds = sum(
+            estimate(
+                *(work.points, wanted, study.rtol, solve_points),
+                lambda result: timed.append(len(result)),
+                asked,
+            )
+            for wanted, asked in work.tasks()
         )
         chunk_count = max(1, round(seconds / CHUNK_SECONDS))
         lines.append(f"  chunks             about {chunk_count}")

@@ -12,6 +12,7 @@ from swtstudy.accuracy import DEFAULT_RTOL
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import SEVERAL
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import QUANTITIES, variables_of
 
 
 def _short(value: object) -> str:
@@ -35,12 +36,14 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 @click.command(
     epilog=examples(
         "swtstudy solve --phase 0,pi/2",
+        "swtstudy solve --quantities dissipation,stick_radius --tangential-amplitude 0.2,0.4",
         "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
     )
 )
 @with_parameters(SEVERAL)
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
-def solve(rtol: float, **texts: str | None) -> None:
+@click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(QUANTITIES)}.")
+def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
@@ -49,13 +52,15 @@ def solve(rtol: float, **texts: str | None) -> None:
     from swtstudy.solving import solve as solve_grid
 
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
-    dataset = solve_grid(rtol=rtol, **parameters)
+    asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
+    dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
     dims = list(map(str, dataset.s.dims))
     places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
     columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
-    click.echo("\t".join([*dims, *columns]))
-    rows = zip(*(dataset[name].values.ravel() for name in columns), strict=True)
-    for place, (s, error, surface, x, angle, regime) in zip(places, rows, strict=True):
+    more = variables_of(asked)
+    click.echo("\t".join([*dims, *columns, *more]))
+    rows = zip(*(dataset[name].values.ravel() for name in (*columns, *more)), strict=True)
+    for place, (s, error, surface, x, angle, regime, *others) in zip(places, rows, strict=True):
         numbers = (
             f"{s:.6f}",
             f"{error:.1e}",
@@ -63,6 +68,7 @@ def solve(rtol: float, **texts: str | None) -> None:
             f"{x:z.5f}",
             f"{angle:z.2f}",
             REGIMES[int(regime)],
+            *(f"{value:.6g}" for value in others),
         )
         click.echo("\t".join([*map(_short, place), *numbers]))
 

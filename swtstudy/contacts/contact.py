@@ -22,7 +22,7 @@ from swtstudy.contacts.bodies import (
 )
 from swtstudy.contacts.scales import length_of, number_of
 from swtstudy.grid.reading import read_grid
-from swtstudy.mechanics.indenter import Profile, make_profile
+from swtstudy.mechanics.indenter import Profile, length_law, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
 from swtstudy.parameters import HARMONIC, PAIRS, PARAMETERS, family_of, is_profile
@@ -46,7 +46,7 @@ class PhysicalContact:
     moduli
         Of the two bodies.
     radius
-        R.
+        R; of a power law f = rⁿ/(n Rⁿ⁻¹).
     depth
         Mean indentation depth δ0.
     friction, frequency_ratio, phase, profile, load
@@ -54,7 +54,7 @@ class PhysicalContact:
     normal_amplitude, tangential_amplitude
         δA and uA, lengths; None where a force is prescribed.
     shape
-        What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths.
+        What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths, and exponent n.
     normal_force_amplitude, tangential_force_amplitude
         FA and QA, forces; None where a displacement is prescribed.
     """
@@ -75,8 +75,9 @@ class PhysicalContact:
 
     @property
     def length_scale(self) -> float:
-        """a_H = √(R δ0)."""
-        return math.sqrt(self.radius * self.depth)
+        """a_H: √(R δ0), and of a power law its contact radius at δ0."""
+        coefficient, power = length_law(self.profile, self.shape)
+        return self.radius * (self.depth / (coefficient * self.radius)) ** power
 
     @property
     def slip_scale(self) -> float:
@@ -85,13 +86,13 @@ class PhysicalContact:
 
     @property
     def stress_scale(self) -> float:
-        """E* √(δ0/R), the unit of every stress."""
-        return self.moduli.normal * math.sqrt(self.depth / self.radius)
+        """E* δ0/a_H, the unit of every stress."""
+        return self.moduli.normal * self.depth / self.length_scale
 
     @property
     def swt_scale(self) -> float:
-        """SWT0 = E* δ0/R of the half-space with E* (eq. 19)."""
-        return self.moduli.normal * self.depth / self.radius
+        """SWT0 = E* (δ0/a_H)² of the half-space with E*: E* δ0/R (eq. 19) but for a power law."""
+        return self.moduli.normal * (self.depth / self.length_scale) ** 2
 
     @property
     def contact_radius(self) -> float:
@@ -122,6 +123,7 @@ class PhysicalContact:
             return math.inf
         edge = profile.radius(np.ones((1, 1)))
         r = edge * np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII))[None]
+        r = np.append(r, profile.singular_approach, axis=1)
         outer = profile.primitives(r, _DIGITS).outer(edge[:, :, None])[0]
         return self.stress_scale * float(outer.max()) / math.pi
 

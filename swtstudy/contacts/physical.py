@@ -21,7 +21,7 @@ from swtstudy.contacts.given import (
 from swtstudy.contacts.scales import least_depths, length_of
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import read_value
-from swtstudy.mechanics.indenter import too_small
+from swtstudy.mechanics.indenter import length_law, too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
 from swtstudy.units.moduli import Moduli
@@ -53,7 +53,8 @@ def physical(
     young_modulus, poisson_ratio
         Of both bodies: one value for two equal bodies, or a pair. These and radius must be given.
     radius
-        R of the relative curvature, 1/R = 1/R1 + 1/R2.
+        R of the relative curvature, 1/R = 1/R1 + 1/R2. The power law is f = rⁿ/(n Rⁿ⁻¹), with the slope 1 at
+        r = R.
     depth, normal_force
         One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
@@ -63,8 +64,8 @@ def physical(
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
-        waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio, phase and profile
-        are as for `swtstudy.solve`.
+        waviness_amplitude h and wavelength λ of profiles that have them. frequency_ratio, phase, profile and
+        exponent are as for `swtstudy.solve`.
 
     Returns
     -------
@@ -160,12 +161,13 @@ def _depth_at(contact: PhysicalContact, force: float) -> float:
     from scipy.optimize import brentq
 
     _refuse_at_any_depth(contact)
+    (coefficient, power), log_radius = length_law(contact.profile, contact.shape), math.log(contact.radius)
 
     def excess(logarithm: float) -> float:
         # In logarithms: a force out of the range of numbers is too large or too small like others.
         factor = replace(contact, depth=math.exp(logarithm)).force_factor
-        scale = math.log(contact.moduli.normal) + 0.5 * math.log(contact.radius) + 1.5 * logarithm
-        return math.log(factor) + scale - math.log(force)
+        length = log_radius + power * (logarithm - math.log(coefficient) - log_radius)
+        return math.log(factor) + math.log(contact.moduli.normal) + logarithm + length - math.log(force)
 
     name, least = max(least_depths(contact).items(), key=lambda item: item[1], default=("", 0.0))
     if least > 0.0 and excess(math.log(least)) > 0.0:

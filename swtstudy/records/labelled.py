@@ -14,6 +14,7 @@ from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.named import Named
 from swtstudy.parameters import CONTROLS, PARAMETERS
+from swtstudy.quantities import attributes_of
 from swtstudy.records.records import STATES
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -107,7 +108,7 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
             coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {
-        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
+        name: (grid.dims, array.reshape(grid.shape), _attributes_of(name)) for name, array in arrays.items()
     }
     return xr.Dataset(variables, coordinates)
 
@@ -130,6 +131,10 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
         "regime": solution.regime,
         "s_surface": solution.s_surface,
     }
+
+
+def _attributes_of(variable: str) -> dict[str, Any]:
+    return dict(ATTRIBUTES[variable]) if variable in ATTRIBUTES else attributes_of(variable)
 
 
 def _values(values: tuple[Value, ...]) -> NDArray:

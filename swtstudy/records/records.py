@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
+from swtstudy.quantities import variables_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
 
@@ -36,6 +38,8 @@ class Run:
         Date and time of its first result, ISO 8601.
     seconds
         Computing time in seconds, summed over all workers.
+    quantities
+        What its points have beside s.
     """
 
     solver_version: str
@@ -44,6 +48,16 @@ class Run:
     versions: str
     started: str = field(default="", compare=False)
     seconds: float = field(default=0.0, compare=False)
+    quantities: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """The run as JSON has it; without quantities, if there are none."""
+        return {name: value for name, value in asdict(self).items() if value != ()}
+
+    @classmethod
+    def from_json(cls, raw: Mapping[str, Any]) -> Run:
+        """The run from `to_json`."""
+        return cls(**{**raw, "quantities": tuple(raw.get("quantities", ()))})
 
 
 @dataclass(frozen=True)
@@ -64,6 +78,9 @@ class Records:
         The runs that made them.
     messages
         Why a point failed, by its index.
+    quantities
+        What some of the points have beside s, by data variable, each of shape (n,); a point's run says
+        whether it is known.
     """
 
     table: FloatArray
@@ -72,6 +89,7 @@ class Records:
     run: NDArray[np.int32]
     runs: tuple[Run, ...] = ()
     messages: dict[int, str] = field(default_factory=dict)
+    quantities: dict[str, FloatArray] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.table)
@@ -87,7 +105,20 @@ class Records:
         """Records of one result, whose canonical rows are `table`."""
         run = replace(run, seconds=result.seconds)
         status = np.where(result.failed, FAILED, COMPUTED).astype(np.int8)
-        return cls(table, result.solution, status, np.zeros(len(table), np.int32), (run,), result.messages)
+        number = np.zeros(len(table), np.int32)
+        return cls(table, result.solution, status, number, (run,), result.messages, result.quantities)
+
+    def extended(self, result: Result) -> Records:
+        """These records with more quantities, from a result for exactly them."""
+        share = result.seconds / len(self)
+        counts = np.bincount(self.run, minlength=len(self.runs))
+        runs = tuple(
+            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *result.names})))
+            for run, count in zip(self.runs, counts.tolist(), strict=True)
+        )
+        status = np.where(result.failed, FAILED, self.status).astype(np.int8)
+        known = self.quantities | result.quantities
+        return replace(self, status=status, runs=runs, messages=result.messages, quantities=known)
 
     def take(self, rows: NDArray) -> Records:
         """The records at the given indices; all runs are kept."""
@@ -100,6 +131,7 @@ class Records:
             self.run[rows],
             self.runs,
             messages,
+            {name: values[rows] for name, values in self.quantities.items()},
         )
 
     def fill(self, rows: IntArray, part: Records) -> Records:
@@ -107,6 +139,9 @@ class Records:
         runs, index = _with_runs(self.runs, part.runs)
         for item in fields(Solution):
             getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
+        for name in {**self.quantities, **part.quantities}:
+            values = self.quantities.setdefault(name, np.full(len(self), np.nan))
+            values[rows] = part.quantities.get(name, np.nan)
         self.status[rows] = part.status
         self.run[rows] = index[part.run]
         self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
@@ -118,12 +153,49 @@ class Records:
         worst = COMPUTED if retry_failed else FAILED
         return np.array([*good, False])[self.run] & (self.status <= worst)
 
+    def quantity(self, variable: str) -> FloatArray:
+        """Values of a quantity's data variable, NaN where it is not known, shape (n,)."""
+        return self.quantities.get(variable, np.full(len(self), np.nan))
+
+    def lacking(self, names: Sequence[str]) -> NDArray[np.bool_]:
+        """Which quantities are not known of which computed points, shape (n, len(names))."""
+        known = [[name in run.quantities for name in names] for run in self.runs]
+        # The last row is for missing points, and for those that a run has filled in since.
+        table = np.array([*known, [True] * len(names)], bool)
+        return ~table[np.minimum(self.run, len(known))] & (self.status == COMPUTED)[:, None]
+
+    def without_others(self, names: Sequence[str]) -> Records:
+        """These records with no quantities but the named ones."""
+        if {*made_by(self.runs)} <= {*names}:
+            return self
+        kept = {name: self.quantities[name] for name in variables_of(names) if name in self.quantities}
+        runs = [
+            replace(run, quantities=tuple(name for name in run.quantities if name in names))
+            for run in self.runs
+        ]
+        return replace(self, runs=tuple(runs), quantities=kept)
+
     def trimmed(self) -> Records:
-        """These records without the runs that made none of them."""
+        """These records without the runs that made none of them.
+
+        The time of one whose points have all got more quantities is time of the run that has these points.
+        """
         used = np.unique(self.run[self.run >= 0])
         index = np.full(len(self.runs) + 1, -1, np.int32)
         index[used] = np.arange(len(used))
-        return replace(self, run=index[self.run], runs=tuple(self.runs[i] for i in used))
+        runs = [self.runs[i] for i in used]
+        for unused in (run for i, run in enumerate(self.runs) if i not in used):
+            for i, run in enumerate(runs):
+                more = {*run.quantities} > {*unused.quantities}
+                if more and replace(run, quantities=unused.quantities) == unused:
+                    runs[i] = replace(run, seconds=run.seconds + unused.seconds)
+                    break
+        return replace(self, run=index[self.run], runs=tuple(runs))
+
+
+def made_by(runs: Iterable[Run]) -> tuple[str, ...]:
+    """Names of the quantities that some of the runs have computed, in alphabetical order."""
+    return tuple(sorted({name for run in runs for name in run.quantities}))
 
 
 def join(parts: Iterable[Records]) -> Records:
@@ -133,6 +205,7 @@ def join(parts: Iterable[Records]) -> Records:
         return Records.missing(np.empty((0, len(COLUMNS))))
     runs: tuple[Run, ...] = ()
     run, messages, start = [], {}, 0
+    names = {name: None for part in parts for name in part.quantities}
     for part in parts:
         runs, index = _with_runs(runs, part.runs)
         run.append(index[part.run])
@@ -145,6 +218,7 @@ def join(parts: Iterable[Records]) -> Records:
         np.concatenate(run),
         runs,
         messages,
+        {name: np.concatenate([part.quantity(name) for part in parts]) for name in names},
     )
 
 
@@ -168,13 +242,14 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
     Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
-    one, then the latest.
+    one, then the one with most quantities, then the latest.
     """
     index = np.flatnonzero(candidates)
     if not len(index):
         return np.full(len(table), -1)
     tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
-    order = np.lexsort((-index, tolerance, records.status[index]))
+    count = np.array([*(len(run.quantities) for run in records.runs), 0])[records.run[index]]
+    order = np.lexsort((-index, -count, tolerance, records.status[index]))
     index = index[order]
     # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
     first, group = group_rows(np.concatenate([records.table[index], table]))

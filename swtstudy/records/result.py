@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import IntArray, Solution
+from swtstudy.mechanics.points import FloatArray, IntArray, Solution
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,10 @@ class Result:
         Time that the worker took.
     solver_version
         Version of the solver on the worker.
+    names
+        Names of the quantities that were asked beside s.
+    quantities
+        Their values by data variable, each of shape (n,); NaN for points that failed.
     """
 
     rows: IntArray
@@ -36,6 +40,8 @@ class Result:
     messages: dict[int, str]
     seconds: float
     solver_version: str
+    names: tuple[str, ...] = ()
+    quantities: dict[str, FloatArray] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.rows)

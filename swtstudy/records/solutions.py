@@ -17,7 +17,7 @@ def blank(size: int) -> Solution:
     return Solution(s, s_error, critical_x, critical_angle, regime, s_surface)
 
 
-def solution_at(solution: Solution, rows: NDArray) -> Solution:
+def solution_at(solution: Solution, rows: NDArray | slice) -> Solution:
     """The solution at the given rows."""
     return Solution(**{item.name: getattr(solution, item.name)[rows] for item in fields(Solution)})
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.quantities import error_of
 from swtstudy.records.records import COMPUTED
 from swtstudy.results.select import slice_at
 from swtstudy.study.figure import QUANTITY, reference
@@ -55,12 +56,13 @@ def known_regime(dataset: xr.Dataset) -> xr.DataArray:
 def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
     """Estimated absolute error of `quantity`, 0 at the reference place; None if no error is known."""
     place = reference(y)
-    if "s_error" not in dataset or (place is None and y.strip() != "s"):
+    error = error_of("s" if place is not None else y.strip())
+    if error not in dataset:
         return None
     if place is None:
-        return dataset.s_error
+        return dataset[error]
     name, value = place
     there = slice_at(dataset, {name: value})
     own, reference_error = (part.s_error / abs(part.s) for part in (dataset, there.drop_vars(name)))
-    error = abs(quantity(dataset, y)) * (own + reference_error)
-    return error.where(dataset[name] != there[name].item(), 0.0)
+    both = abs(quantity(dataset, y)) * (own + reference_error)
+    return both.where(dataset[name] != there[name].item(), 0.0)

@@ -11,11 +11,36 @@ import numpy as np
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
+from swtstudy.quantities import variables_of
 from swtstudy.records.result import Result
-from swtstudy.records.solutions import blank, joined
+from swtstudy.records.solutions import blank, joined, solution_at
 
 #: Solves a batch of points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is asked of points: s, and quantities beside it.
+
+    Attributes
+    ----------
+    quantities
+        Names of the quantities.
+    known
+        The solution of the points, if that is known and the quantities alone are asked.
+    """
+
+    quantities: tuple[str, ...] = ()
+    known: Solution | None = None
+
+    def at(self, rows: IntArray | slice) -> Asked:
+        """What is asked of the points at the given rows."""
+        return self if self.known is None else Asked(self.quantities, solution_at(self.known, rows))
+
+
+#: s alone.
+ONLY_S = Asked()
 
 
 @dataclass(frozen=True)
@@ -32,18 +57,22 @@ class Chunk:
         Number of points in each block, adding up to n.
     definitions
         What the user has defined, by its code.
+    asked
+        What is asked of them.
     """
 
     rows: IntArray
     table: FloatArray
     lengths: tuple[int, ...]
     definitions: Definitions
+    asked: Asked = ONLY_S
 
     @classmethod
-    def of(cls, points: UniquePoints, blocks: list[IntArray]) -> Chunk:
-        """The chunk that consists of the given blocks of rows."""
+    def of(cls, points: UniquePoints, blocks: list[IntArray], asked: Asked = ONLY_S) -> Chunk:
+        """The chunk that consists of the given blocks of rows; ``asked`` of all points."""
         rows = np.concatenate(blocks)
-        return cls(rows, points.table[rows], tuple(map(len, blocks)), points.definitions)
+        lengths = tuple(map(len, blocks))
+        return cls(rows, points.table[rows], lengths, points.definitions, asked.at(rows))
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -59,7 +88,8 @@ class Chunk:
         start = 0
         for length in lengths:
             part = slice(start, start + length)
-            yield Chunk(self.rows[part], self.table[part], (length,), self.definitions)
+            own = self.rows[part], self.table[part], (length,)
+            yield Chunk(*own, self.definitions, self.asked.at(part))
             start += length
 
 
@@ -68,28 +98,27 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     from swtstudy.version import SOLVER_VERSION
 
     begin = time.perf_counter()
-    solutions: list[Solution] = []
-    messages: dict[int, str] = {}
-    start = 0
-    for solution, message in _isolated(chunk, rtol, solver):
-        if message:
-            messages[start] = message
-        solutions.append(solution)
-        start += len(solution.s)
+    parts = _isolated(chunk, rtol, solver)
+    solutions, quantities, words = zip(*parts, strict=True)
+    starts = np.cumsum([0, *(len(solution.s) for solution in solutions)]).tolist()
+    messages = {start: message for start, message in zip(starts, words, strict=False) if message}
     failed = np.zeros(len(chunk), bool)
     failed[list(messages)] = True
+    names = chunk.asked.quantities
+    values = {name: np.concatenate([part[name] for part in quantities]) for name in variables_of(names)}
     seconds = time.perf_counter() - begin
-    return Result(chunk.rows, joined(solutions), failed, messages, seconds, SOLVER_VERSION)
+    solution = joined(list(solutions))
+    return Result(chunk.rows, solution, failed, messages, seconds, SOLVER_VERSION, names, values)
 
 
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, str]]:
-    """Solutions of the points, in order; a point that fails is isolated, with its message."""
+def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, dict[str, FloatArray], str]]:
+    """Solutions and quantities of the points, in order; a point that fails is isolated, with its message."""
     if len(chunk.lengths) == 1:
         try:
-            return [(_checked(chunk, rtol, solver), "")]
+            return [(*_checked(chunk, rtol, solver), "")]
         except Exception as error:
             if len(chunk) == 1:
-                return [(blank(1), f"{type(error).__name__}: {error}")]
+                return [(*_nothing(chunk), f"{type(error).__name__}: {error}")]
     return [found for part in chunk.split() for found in _isolated(part, rtol, solver)]
 
 
@@ -99,7 +128,9 @@ def given_up(chunk: Chunk, message: str) -> Result:
 
     size = len(chunk)
     messages = dict.fromkeys(range(size), message)
-    return Result(chunk.rows, blank(size), np.ones(size, bool), messages, 0.0, SOLVER_VERSION)
+    solution, values = _nothing(chunk)
+    names = chunk.asked.quantities
+    return Result(chunk.rows, solution, np.ones(size, bool), messages, 0.0, SOLVER_VERSION, names, values)
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
@@ -109,11 +140,23 @@ def solve_points(points: Points, rtol: float) -> Solution:
     return mechanics.solve_points(points, rtol)
 
 
-def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Solution:
+def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
+    """What is known of points that failed: no quantity, and s if it was known before."""
+    size, known = len(chunk), chunk.asked.known
+    values = {name: np.full(size, np.nan) for name in variables_of(chunk.asked.quantities)}
+    return blank(size) if known is None else known, values
+
+
+def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:
     from swtstudy.grid.canonical import points_from
 
-    solution = solver(points_from(chunk.table, chunk.definitions), rtol)
+    points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
+    solution = solver(points, rtol) if asked.known is None else asked.known
     lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")
-    return solution
+    if not asked.quantities:
+        return solution, {}
+    from swtstudy.mechanics.quantities import quantities_of
+
+    return solution, quantities_of(points, asked.quantities)

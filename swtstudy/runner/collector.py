@@ -27,15 +27,17 @@ class Collector:
         Origin of the results.
     writer
         Saves them as parts.
+    todo
+        Number of points to be computed.
     """
 
-    def __init__(self, records: Records, run: Run, writer: PartsWriter) -> None:
+    def __init__(self, records: Records, run: Run, writer: PartsWriter, todo: int) -> None:
         self.records = records
         self.pace = Pace()
         self._run = run
         self._writer = writer
         self._weights = weights(records.table)
-        self._bar = ProgressBar(int((records.status == MISSING).sum()))
+        self._bar = ProgressBar(todo)
 
     def __enter__(self) -> Collector:
         return self
@@ -56,7 +58,11 @@ class Collector:
         if result.solver_version != SOLVER_VERSION:
             found = f"a worker has version {result.solver_version} of the solver"
             raise WorkerError(f"{found}, this machine {SOLVER_VERSION}")
-        part = Records.of(result, self.records.table[result.rows], self._run)
+        there = self.records.take(result.rows)
+        if (there.status == MISSING).all():
+            part = Records.of(result, there.table, self._run)
+        else:
+            part = there.trimmed().extended(result)
         self._writer.add(part)
         self.records = self.records.fill(result.rows, part)
         self.pace.update(result, int(self._weights[result.rows].sum()))

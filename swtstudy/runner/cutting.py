@@ -11,10 +11,12 @@ from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.cost import weights
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import IntArray
-from swtstudy.runner.chunk import Chunk
+from swtstudy.runner.chunk import ONLY_S, Asked, Chunk
 
 
-def chunks(points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], float]) -> Iterator[Chunk]:
+def chunks(
+    points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], float], asked: Asked = ONLY_S
+) -> Iterator[Chunk]:
     """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
 
     Parameters
@@ -25,6 +27,8 @@ def chunks(points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], f
         Shape (len(points.table),): the points to be solved.
     size
         Called for every chunk, so that later chunks follow the timing of earlier ones.
+    asked
+        What is asked of the points.
     """
     weight = weights(points.table)
     blocks: list[IntArray] = []
@@ -37,9 +41,9 @@ def chunks(points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], f
             continue
         block_weight = int(weight[rows].sum())
         if blocks and heaviness + block_weight > size():
-            yield Chunk.of(points, blocks)
+            yield Chunk.of(points, blocks, asked)
             blocks, heaviness = [], 0
         blocks.append(rows)
         heaviness += block_weight
     if blocks:
-        yield Chunk.of(points, blocks)
+        yield Chunk.of(points, blocks, asked)

@@ -11,7 +11,7 @@ from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.result import Result
-from swtstudy.runner.chunk import Chunk, Solver, solve_chunk
+from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
 #: How many kinds of points (profile and frequency ratio) are timed, one block each: a plan takes seconds.
 _TIMED_KINDS = 4
@@ -23,6 +23,7 @@ def estimate(
     rtol: float,
     solver: Solver,
     timed: Callable[[Result], None] = lambda result: None,
+    asked: Asked = ONLY_S,
 ) -> float:
     """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
 
@@ -36,6 +37,8 @@ def estimate(
         As in `run`.
     timed
         Called with the result of each block that was timed.
+    asked
+        What is asked of the points.
     """
     table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
@@ -53,8 +56,8 @@ def estimate(
         inside = begin + np.flatnonzero(missing[begin : ends[block]])
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            solve_chunk(Chunk.of(points, [inside[:1]]), rtol, solver)
-        result = solve_chunk(Chunk.of(points, [inside]), rtol, solver)
+            solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
+        result = solve_chunk(Chunk.of(points, [inside], asked), rtol, solver)
         timed(result)
         seconds += result.seconds
         count += len(result)

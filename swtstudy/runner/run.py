@@ -109,7 +109,7 @@ def run(
         if finished is not None:
             return finished
         _log_known(work)
-        what = f"{work.todo} of {len(work.records)} distinct points computed"
+        what = _words(work)
         with _reporting_what_is_saved(work, path):
             records = _compute(work, study, path, _pool(work, workers, client), solver)
             history, seconds = _history(what, path), time.perf_counter() - begin
@@ -130,11 +130,20 @@ def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
     return archive
 
 
+def _words(work: Work) -> str:
+    """What a run does, in the past tense, for the history."""
+    words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
+    more = int(work.incomplete.sum())
+    return f"{words}, and {', '.join(work.quantities)} of {more} others" if more else words
+
+
 def _log_known(work: Work) -> None:
     if work.outdated:
         _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
     if work.coarse:
         _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
+    if work.incomplete.any():
+        _log.info("%d points are computed, but lack quantities that the study asks", work.incomplete.sum())
     if 0 < work.todo < len(work.records):
         known = len(work.records) - work.todo
         _log.info("%d of %d distinct points are already computed", known, len(work.records))
@@ -166,7 +175,8 @@ def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextMan
         from swtstudy.runner.cluster import ClusterPool
 
         return ClusterPool(client)
-    seconds = weights(work.points.table[work.missing]).sum() * SECONDS_PER_WEIGHT
+    wanted = work.missing | work.incomplete
+    seconds = weights(work.points.table[wanted]).sum() * SECONDS_PER_WEIGHT
     if workers < 2 or seconds < _SMALL_SECONDS:
         return nullcontext()
     return LocalPool(workers)
@@ -183,8 +193,13 @@ def _compute(
         return work.records
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    collector = Collector(work.records, Run(SOLVER_VERSION, study.rtol, study.text, versions(), now), writer)
-    todo = chunks(work.points, work.missing, collector.pace.chunk_weight)
+    asked = tuple(sorted(study.quantities))
+    own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, quantities=asked)
+    collector = Collector(work.records, own, writer, work.todo)
+    weight = collector.pace.chunk_weight
+    todo = (
+        chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, weight, asked)
+    )
     with collector, workers as pool:
         solve(todo, study.rtol, solver, collector.add, pool)
     return collector.records

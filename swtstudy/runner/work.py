@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from swtstudy.grid.canonical import group_rows
 from swtstudy.grid.unique import UniquePoints, unique_points
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.records.records import MISSING, Records, look_up, matching
+from swtstudy.runner.chunk import Asked
 from swtstudy.study.definition import Study
 from swtstudy.version import SOLVER_VERSION
 
@@ -26,27 +28,43 @@ class Work:
         The distinct points of the study.
     records
         Records of these points, "missing" where no known one can be used; a run fills them in place.
+    quantities
+        What the study asks beside s.
     dropped
-        Known records of points that the study does not have.
+        Known records of points, or with quantities, that the study does not have.
     outdated, coarse
         Number of points known only from another version of the solver, or only with less accuracy.
     """
 
     points: UniquePoints
     records: Records
+    quantities: tuple[str, ...]
     dropped: Records
     outdated: int
     coarse: int
 
     @property
     def missing(self) -> NDArray[np.bool_]:
-        """Which points are to be computed, shape (n,)."""
+        """Of which points s is to be computed, shape (n,)."""
         return self.records.status == MISSING
 
     @property
+    def incomplete(self) -> NDArray[np.bool_]:
+        """Of which points s is known, but not all quantities, shape (n,)."""
+        return np.asarray(self.records.lacking(self.quantities).any(axis=1))
+
+    @property
     def todo(self) -> int:
-        """Number of points to be computed."""
-        return int(self.missing.sum())
+        """Number of points of which anything is to be computed."""
+        return int((self.missing | self.incomplete).sum())
+
+    def tasks(self) -> Iterator[tuple[NDArray[np.bool_], Asked]]:
+        """Masks of points, shape (n,), and what is to be computed of them."""
+        yield self.missing, Asked(self.quantities)
+        lacking = self.records.lacking(self.quantities)
+        for one in np.unique(lacking[lacking.any(axis=1)], axis=0):
+            names = tuple(name for name, lacks in zip(self.quantities, one, strict=True) if lacks)
+            yield (lacking == one).all(axis=1), Asked(names, self.records.solution)
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
@@ -57,19 +75,29 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     known = known_records(path)
     records = matching(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     outdated, coarse = _unusable(points.table[records.status == MISSING], known, study.rtol)
-    return Work(points, records, _dropped(points.table, known, records), outdated, coarse)
+    dropped = _dropped(points.table, known, records, study.quantities)
+    records = records.without_others(study.quantities)
+    return Work(points, records, study.quantities, dropped, outdated, coarse)
 
 
-def _dropped(table: FloatArray, known: Records, used: Records) -> Records:
-    """Known records of points that are not in a table; the time of a run counts where it is used."""
+def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
+    """Known records of points that are not in a table, or of more quantities than are asked.
+
+    The time of a run counts where it is used.
+    """
     everything = Records.missing(table)
     elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0
+    more = [not {*run.quantities} <= {*quantities} for run in known.runs]
+    elsewhere |= np.array([*more, False])[known.run]
     rows = np.flatnonzero(elsewhere & (known.status != MISSING))
     # A kill may have left a record in two places.
     first, _ = group_rows(np.column_stack([known.table[rows], known.run[rows]]))
     dropped = known.take(rows[first]).trimmed()
     counted = used.trimmed().runs
-    runs = tuple(replace(run, seconds=0.0) if run in counted else run for run in dropped.runs)
+    same = [replace(run, quantities=()) for run in counted]
+    runs = tuple(
+        replace(run, seconds=0.0) if replace(run, quantities=()) in same else run for run in dropped.runs
+    )
     return replace(dropped, runs=runs)
 
 

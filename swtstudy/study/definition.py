@@ -14,6 +14,7 @@ from swtstudy.grid.reading import Known, Range, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import read_quantities, variables_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -41,6 +42,8 @@ class Study:
         Its points.
     rtol
         Relative accuracy asked of s.
+    quantities
+        Names of what is asked beside s, of `swtstudy.quantities.QUANTITIES`.
     figure
         Layout of the figure, or None.
     text
@@ -63,6 +66,7 @@ class Study:
     title: str
     grid: Grid
     rtol: float
+    quantities: tuple[str, ...]
     figure: FigureLayout | None
     text: str
     sample: Sample | None = None
@@ -162,17 +166,19 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
 
     grid, found = read_grid(fixed, axes, keys, source, known=known, samples=samples)
     mistakes += found
+    quantities = read_quantities(raw.get("quantities", []), "quantities", report)
     figure = _figure_from(raw)
     if figure is not None:
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
-        check_figure(figure, [*((SAMPLE,) if "sample" in raw else ()), *names], grid, report)
+        dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
+        check_figure(figure, dims, grid, variables_of(quantities), report)
     if mistakes or table is None or grid is None:
         raise StudyError(list(dict.fromkeys(mistakes)))
     if table.sample is not None and table.sample.file is not None:
-        text = to_toml(table.title, table.rtol, grid, figure)
-    return Study(table.title, grid, table.rtol, figure, text, sample)
+        text = to_toml(table.title, table.rtol, grid, figure, quantities)
+    return Study(table.title, grid, table.rtol, quantities, figure, text, sample)
 
 
 def _sample(

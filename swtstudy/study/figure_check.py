@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import QUANTITIES, variables_of
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 
 
@@ -83,7 +84,9 @@ def wrong_axes(
             )
 
 
-def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, report: Report) -> None:
+def check_figure(
+    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report
+) -> None:
     """Report everything in a figure that does not fit its study.
 
     Parameters
@@ -94,6 +97,8 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
         Names of the axes of the study.
     grid
         The grid, to look up the places used for normalisation; None if it has mistakes itself.
+    asked
+        Data variables that the study asks for beside those of every study.
     report
         Called with key, found and allowed of each mistake.
     """
@@ -102,7 +107,7 @@ def check_figure(layout: FigureLayout, dims: list[str], grid: Grid | None, repor
     for key, found, allowed in (*wrong_layout(layout), *wrong_axes(layout, sizes, "this study")):
         report(key, found, allowed)
     for y in layout.y:
-        _check_quantity(y, dims, grid, report)
+        _check_quantity(y, dims, grid, asked, report)
 
 
 def _wrong_formula(text: str) -> str | None:
@@ -124,15 +129,20 @@ def _wrong_formula(text: str) -> str | None:
     return None
 
 
-def _check_quantity(y: str, dims: list[str], grid: Grid | None, report: Report) -> None:
+def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report) -> None:
+    known = (*VARIABLES, *asked)
     try:
         place = reference(y)
     except ValueError as error:
-        report("figure.y", f"{literal(y)} ({error})", f"{', '.join(VARIABLES)}, or {QUANTITY}")
+        report("figure.y", f"{literal(y)} ({error})", f"{', '.join(known)}, or {QUANTITY}")
         return
     if place is None:
-        if y.strip() not in VARIABLES:
-            report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, VARIABLES)}, {QUANTITY}")
+        name = y.strip()
+        if name in variables_of(QUANTITIES) and name not in asked:
+            found = f"{literal(y)}, which this study does not ask for"
+            report("figure.y", found, f"what is among its quantities, {', '.join(known)}, or {QUANTITY}")
+        elif name not in known:
+            report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
         return
     name, value = place
     if name not in dims:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import Value
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -32,6 +33,7 @@ def as_html(study: Study) -> str:
         ("sampled", name, _values(values), _meaning(name, roles.get(SAMPLE)))
         for name, values in study.grid.samples.items()
     ]
+    rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in study.quantities]
     rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"

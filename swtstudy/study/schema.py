@@ -8,6 +8,7 @@ from typing import Any
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
 from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
+from swtstudy.quantities import QUANTITIES
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
@@ -19,6 +20,7 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 _DESCRIPTIONS = {
     "title": "One line that describes the study.",
     "rtol": "Relative accuracy asked of s.",
+    "quantities": "What is computed beside s, as data variables of the results.",
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
@@ -52,7 +54,7 @@ _FIGURE_DESCRIPTIONS = {
     "panels": "Axis whose values are the panels side by side.",
     "y": (
         f"One row of panels for each: {', '.join(VARIABLES)}, "
-        f"or {QUANTITY} for s over its value at one place."
+        f"a quantity that the study asks for, or {QUANTITY} for s over its value at one place."
     ),
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
@@ -77,6 +79,13 @@ def study_schema() -> dict[str, Any]:
     ):
         for name, entry in table.items():
             entry["description"] = descriptions[name]
+    keys["quantities"] = {
+        "description": keys["quantities"]["description"],
+        "type": "array",
+        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in QUANTITIES.values()]},
+        "uniqueItems": True,
+        "default": [],
+    }
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     sample = parts["SampleTable"]["properties"]

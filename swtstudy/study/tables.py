@@ -67,6 +67,8 @@ class StudyTable(_Table):
 
     title: str = Field(min_length=1)
     rtol: float = Field(default=DEFAULT_RTOL, ge=SMALLEST_RTOL, le=LARGEST_RTOL)
+    # Checked against the table of quantities.
+    quantities: Any = []
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     sample: SampleTable | None = None

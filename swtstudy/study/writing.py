@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from fractions import Fraction
 
 from swtstudy.grid.grid import Grid
@@ -11,7 +12,9 @@ from swtstudy.named import Named
 from swtstudy.study.figure import FigureLayout
 
 
-def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) -> str:
+def to_toml(
+    title: str, rtol: float, grid: Grid, figure: FigureLayout | None, quantities: Sequence[str] = ()
+) -> str:
     """The text of a study file that gives exactly this grid.
 
     Examples
@@ -28,6 +31,8 @@ def to_toml(title: str, rtol: float, grid: Grid, figure: FigureLayout | None) ->
     <BLANKLINE>
     """
     lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
+    if quantities:
+        lines.append(f"quantities = [{', '.join(map(quoted, quantities))}]")
     lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]

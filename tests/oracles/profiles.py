@@ -1,4 +1,4 @@
-"""The profiles f of the paper (eqs. 3–6) and what follows from them, by adaptive quadrature.
+"""The profiles f, four of them of the paper (eqs. 3–6), and what follows from them, by adaptive quadrature.
 
 Lengths in a_H, depths in δ0.
 """
@@ -12,7 +12,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 from scipy.integrate import quad
-from scipy.special import struve
+from scipy.special import beta, struve
 
 
 def one(xi: float) -> float:
@@ -141,6 +141,12 @@ def wavy_paraboloid(h: float, wavelength: float) -> Indenter:
     )
 
 
+def power_law(n: float) -> Indenter:
+    """g = ξⁿ: f′ = n rⁿ⁻¹ over ∫ sinⁿ⁻¹θ dθ from 0 to π/2."""
+    wallis = 0.5 * beta(0.5 * n, 0.5)
+    return Indenter("power_law", {"exponent": n}, lambda r: r ** (n - 1.0) / wallis, lambda w: n * w**n)
+
+
 #: Every family at the shapes that the tests look at.
 ORACLES: dict[str, tuple[Indenter, ...]] = {
     "paraboloid": (paraboloid(),),
@@ -148,5 +154,6 @@ ORACLES: dict[str, tuple[Indenter, ...]] = {
     "truncated_paraboloid": tuple(map(truncated_paraboloid, (0.5, 0.05, 2.0))),
     # Shallow, steep and fine waves.
     "wavy_paraboloid": (wavy_paraboloid(0.01, 5.0), wavy_paraboloid(0.1, 3.6), wavy_paraboloid(5e-4, 4.5)),
+    "power_law": tuple(map(power_law, (1.1, 1.5, 4.0, 10.0, 20.0))),
 }
 INDENTERS = tuple(chain.from_iterable(ORACLES.values()))

@@ -161,3 +161,7 @@ class DistinctPieces:
         (first,) = packed(new.reshape(n, -1), every)
         start, slope, below = (gather(v.reshape(n, -1), first) for v in (memory.start, memory.slope, below))
         return cls(np.where(np.isfinite(start), start, 0.0), slope, first, first % depth, below, index)
+
+    def take(self, index: NDArray[np.intp]) -> DistinctPieces:
+        """The pieces of the cycles at ``index``."""
+        return DistinctPieces(*(values[index] for values in vars(self).values()))

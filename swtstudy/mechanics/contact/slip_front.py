@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
 from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.numerics.arrays import count_below
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray
 
@@ -61,23 +62,24 @@ def slip_states(
         Shape (n, …) or broadcast to it: instants φ and their intervals.
     """
     edge, tangential = np.maximum(load.normal(instant), 0.0), load.tangential(instant)
-    n, intervals, pieces = memory.start.shape
+    n, intervals, _ = memory.start.shape
     place = np.arange(n).reshape((n,) + (1,) * (edge.ndim - 1)) * intervals + interval
-    front, sign = edge, np.ones_like(edge)
+    place = np.broadcast_to(place, edge.shape).ravel()
+    front, sign, ground = edge.ravel().copy(), np.ones(edge.size), edge.ravel()
     # Where nothing slips the front is the edge, and during unloading that need not be in the last piece.
-    piece = (memory.start.reshape(-1, pieces).take(place, axis=0) < edge[..., None]).sum(axis=-1) - 1
+    piece = count_below(memory.start, place, ground) - 1
     for sense, where in zip((1.0, -1.0), senses, strict=True):
-        if not np.any(where):
+        active = np.flatnonzero(where.take(place))
+        if not active.size:
             continue
-        active = np.broadcast_to(where.take(place), edge.shape)
-        slip_line = sense * tangential - edge
-        height = (sense * memory.offset - memory.start).reshape(-1, pieces).take(place, axis=0)
-        inside = (height > slip_line[..., None]).sum(axis=-1) - 1
-        found = _front_in_piece(load, memory, sense, slip_line, place, inside, active)
-        nearer = active & (found < front)
-        front, sign = np.where(nearer, np.maximum(found, 0.0), front), np.where(nearer, sense, sign)
-        piece = np.where(nearer, inside, piece)
-    return SlipStates(edge, tangential, front, sign, np.maximum(piece, 0))
+        slip_line, of = sense * tangential.take(active) - ground[active], place[active]
+        inside = count_below(memory.start - sense * memory.offset, of, -slip_line) - 1
+        found = _front_in_piece(load, memory, sense, slip_line, of, inside)
+        nearer = found < front[active]
+        slips = active[nearer]
+        front[slips], sign[slips], piece[slips] = np.maximum(found[nearer], 0.0), sense, inside[nearer]
+    shape, piece = edge.shape, np.maximum(piece, 0)
+    return SlipStates(edge, tangential, front.reshape(shape), sign.reshape(shape), piece.reshape(shape))
 
 
 def _front_in_piece(
@@ -87,14 +89,14 @@ def _front_in_piece(
     slip_line: FloatArray,
     place: NDArray[np.intp],
     piece: NDArray[np.intp],
-    active: NDArray[np.bool_],
 ) -> FloatArray:
-    """Solve sense·o(G) − G = slip line in the given piece; −inf where piece < 0."""
+    """Solve sense·o(G) − G = slip line in the given piece of the stacks ``place``; −inf where piece < 0."""
     last = memory.start.shape[-1] - 1
     known = np.maximum(piece, 0)
     at = place * (last + 1) + known
     start, offset, slope = (values.take(at) for values in (memory.start, memory.offset, memory.slope))
-    steep = 1.0 - sense * np.where(slope == GROWTH, 0.0, slope)
+    grown = slope == GROWTH
+    steep = 1.0 - sense * np.where(grown, 0.0, slope)
     fall = np.where(piece < 0, 0.0, sense * offset - start - slip_line)
     # On a line of the same sense h is constant: the front is at its end, in a tie that recurs every cycle.
     end = np.where(known == last, np.inf, memory.start.take(at + (known < last)))
@@ -102,9 +104,9 @@ def _front_in_piece(
     if load.grows_in_lines:
         # A line may be nearly as steep as the slip line: rounding leads out of its piece.
         front = np.clip(front, start, end)
-    grown = active & (slope == GROWTH) & (piece >= 0)
-    if np.any(grown):
-        row = np.nonzero(grown)[0]
+    grown = np.flatnonzero(grown & (piece >= 0))
+    if grown.size:
+        row = place[grown] // memory.start.shape[1]
         front[grown] = _front_in_growth(load, memory, sense, slip_line[grown], at[grown], row)
     return np.where(piece < 0, -np.inf, front)
 

@@ -40,6 +40,10 @@ class Nodes:
         """Values at the distinct instants, shape (n, k), at the instants of each position, (n, X, T)."""
         return values.ravel().take(self._flat)
 
+    def take(self, row: NDArray[np.intp]) -> Nodes:
+        """The instants of the rows."""
+        return Nodes(self.interval[row], self.instant[row], self.index[row])
+
     @cached_property
     def _flat(self) -> NDArray[np.intp]:
         n, distinct = self.instant.shape
@@ -60,6 +64,10 @@ class Placed:
 
     stretch: NDArray[np.intp]
     place: NDArray[np.intp]
+
+    def take(self, index: NDArray[np.intp]) -> Placed:
+        """The nodes of the cycles at ``index``."""
+        return Placed(self.stretch[index], self.place[index])
 
     @property
     def interval(self) -> NDArray[np.intp]:

@@ -10,25 +10,27 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import filled_rows
+from swtstudy.mechanics.numerics.arrays import count_below, filled_rows
 from swtstudy.mechanics.points import FloatArray
 
 
 def front_passes(cycle: Cycle, coordinate: FloatArray) -> FloatArray:
     """Instant at which the spring at G starts to slip in each interval, else the end, shape (n, X, i)."""
-    load, memory = cycle.load, cycle.memory
-    high, at = cycle.end[:, None], coordinate[:, :, None]
-    piece = np.maximum((memory.start[:, None] < at[..., None]).sum(axis=-1) - 1, 0)
-    row = np.arange(len(coordinate))[:, None, None]
-    pieces = memory.take((row, np.arange(piece.shape[2]), piece))
-    held = held_offset(load, pieces, np.broadcast_to(at, piece.shape))
-    in_contact = at < np.maximum(load.normal(cycle.begin), 0.0)[:, None]
-
-    first = np.broadcast_to(high, held.shape).copy()
+    load, memory, end = cycle.load, cycle.memory, cycle.end
+    first = np.repeat(end[:, None], coordinate.shape[1], axis=1)
+    may_slip = coordinate[:, :, None] < np.maximum(load.normal(cycle.begin), 0.0)[:, None]
+    may_slip &= (cycle.forward | cycle.backward)[:, None]
+    where = np.flatnonzero(may_slip)
+    spring, interval = np.divmod(where, end.shape[1])
+    row, at = spring // coordinate.shape[1], coordinate.ravel()[spring]
+    piece = np.maximum(count_below(memory.start, row * end.shape[1] + interval, at) - 1, 0)
+    held = held_offset(load.take(row), memory.take((row, interval, piece)), at)
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
-        goal = sense * held - at
-        hit, instant = _slip_line_passes(cycle, sense, goal, active[:, None] & in_contact)
-        first[hit] = np.minimum(first[hit], instant)
+        some = np.flatnonzero(active[row, interval])
+        goal = sense * held[some] - at[some]
+        hit, instant = _slip_line_passes(cycle, sense, row[some], interval[some], goal)
+        there = where[some[hit]]
+        first.ravel()[there] = np.minimum(first.ravel()[there], instant)
     return first
 
 
@@ -46,9 +48,11 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
     n = len(memory.start)
     rows, instants = [], []
     for sense, active in ((1.0, cycle.forward), (-1.0, cycle.backward)):
-        goal = np.moveaxis(sense * memory.offset - memory.start, -1, 1)
-        hit, instant = _slip_line_passes(cycle, sense, goal, np.broadcast_to(active[:, None], goal.shape))
-        rows.append(hit[0])
+        row, interval, piece = np.nonzero(active[:, :, None] & np.isfinite(memory.start))
+        at = row, interval, piece
+        goal = sense * memory.offset[at] - memory.start[at]
+        hit, instant = _slip_line_passes(cycle, sense, row, interval, goal)
+        rows.append(row[hit])
         instants.append(instant)
     row, instant = np.concatenate(rows), np.concatenate(instants)
     cuts = filled_rows(row, instant, n, PERIOD)
@@ -62,16 +66,15 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
 
 
 def _slip_line_passes(
-    cycle: Cycle, sense: float, goal: FloatArray, allowed: NDArray[np.bool_]
-) -> tuple[tuple[NDArray[np.intp], ...], FloatArray]:
-    """Where in (n, X, i), and when, the slip line sense·T − N rises through ``goal``."""
+    cycle: Cycle, sense: float, row: NDArray[np.intp], interval: NDArray[np.intp], goal: FloatArray
+) -> tuple[NDArray[np.intp], FloatArray]:
+    """Which goals, shape (m,), the slip line sense·T − N rises through in their intervals, and when."""
     load = cycle.load
     first, last = (
         sense * load.tangential(instant) - load.normal(instant) for instant in (cycle.begin, cycle.end)
     )
-    hit = np.nonzero(allowed & (first[:, None] < goal) & (goal < last[:, None]))
-    row, _, interval = hit
-    low, high = cycle.begin[row, interval], cycle.end[row, interval]
+    hit = np.flatnonzero((first[row, interval] < goal) & (goal < last[row, interval]))
+    row, interval = row[hit], interval[hit]
     slipping = load.take(row)
-    brackets = slipping.slip_line_brackets(sense, low, high)
+    brackets = slipping.slip_line_brackets(sense, cycle.begin[row, interval], cycle.end[row, interval])
     return hit, slipping.slip_line_instant(sense, goal[hit], brackets)

@@ -33,6 +33,10 @@ class Stretches:
     low: FloatArray
     high: FloatArray
 
+    def take(self, index: NDArray[np.intp]) -> Stretches:
+        """Those of the cycles at ``index``."""
+        return Stretches(self.low[index], self.high[index])
+
     @cached_property
     def real(self) -> NDArray[np.bool_]:
         """Shape (n, X, m): which have a length."""

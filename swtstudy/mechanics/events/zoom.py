@@ -85,6 +85,31 @@ class TimeBrackets:
         interval = sides // PER_INTERVAL
         return cls(low, high, interval, start, np.pi / count, corner, np.zeros(place.shape), 1.0)
 
+    def take(self, index: NDArray[np.intp]) -> TimeBrackets:
+        """The brackets of the cycles at ``index``."""
+        return replace(
+            self,
+            low=self.low[index],
+            high=self.high[index],
+            interval=self.interval[index],
+            start=self.start[index],
+            corner=self.corner[index],
+            centre=self.centre[index],
+        )
+
+    def or_other(self, own: NDArray[np.bool_], other: TimeBrackets) -> TimeBrackets:
+        """These brackets where ``own``, shape (n, X, e), elsewhere other ones of the same step and width."""
+        two = own[..., None]
+        return replace(
+            self,
+            low=np.where(two, self.low, other.low),
+            high=np.where(two, self.high, other.high),
+            interval=np.where(two, self.interval, other.interval),
+            start=np.where(two, self.start, other.start),
+            corner=np.where(own, self.corner, other.corner),
+            centre=np.where(own, self.centre, other.centre),
+        )
+
     def samples(self) -> Nodes:
         """The samples of the extremes, index of shape (n, X, e · k)."""
         c = self.centre[..., None] + self.width * OFFSETS
@@ -130,12 +155,16 @@ class TimeBrackets:
             higher = centre + rise > top
             top = np.where(higher, centre + rise, top)
             place, left = np.where(higher, middle + shift, place), np.where(higher, middle < STEPS, left)
-        power = POWERS[np.where(corner, np.where(left, 1, 2), 0)]
         low = np.maximum(place - 1.0, np.where(corner & ~left, STEPS, 0))
         high = np.minimum(place + 1.0, np.where(corner & left, STEPS, LAST))
-        series = np.moveaxis(np.einsum("...pk,...k->...p", power, curve), -1, 0)
-        u = polynomial_maximum(series, place / STEPS - 1.0, low / STEPS - 1.0, high / STEPS - 1.0)
-        weights = np.einsum("...p,...pk->...k", u[..., None] ** np.arange(LAST + 1), power)
+        start, low, high = (v / STEPS - 1.0 for v in (place, low, high))
+        series = np.einsum("pk,...k->p...", POWERS[0], curve)
+        at = np.nonzero(corner)
+        of_side = POWERS[np.where(left[at], 1, 2)]
+        series[:, *at] = np.einsum("mpk,mk->pm", of_side, curve[at])
+        u = polynomial_maximum(series, start, low, high)[..., None] ** np.arange(LAST + 1)
+        weights = np.einsum("...p,pk->...k", u, POWERS[0])
+        weights[at] = np.einsum("mp,mpk->mk", u[at], of_side)
         # Never below what has been seen.
         worse = (weights * curve).sum(axis=-1) <= pick(curve, best)
         return np.where(worse[..., None], np.arange(LAST + 1) == best[..., None], weights)

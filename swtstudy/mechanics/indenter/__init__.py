@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid
+from swtstudy.mechanics.indenter.power_law import PowerLaw
 from swtstudy.mechanics.indenter.wavy_paraboloid import WavyParaboloid
 from swtstudy.mechanics.points import FloatArray, IntArray
 
@@ -16,6 +19,7 @@ PROFILES: dict[str, type[Profile]] = {
     "rounded_punch": RoundedPunch,
     "truncated_paraboloid": TruncatedParaboloid,
     "wavy_paraboloid": WavyParaboloid,
+    "power_law": PowerLaw,
 }
 
 
@@ -52,6 +56,11 @@ def check_shape(profile: str, shape: dict[str, float], largest_depth: float) -> 
     return PROFILES[profile].check(largest_depth, **shape)
 
 
+def length_law(profile: str, shape: Mapping[str, float]) -> tuple[float, float]:
+    """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ."""
+    return PROFILES[profile].length_law(**shape)
+
+
 def too_small(profile: str, shape: dict[str, float], largest_depth: float) -> tuple[str, float] | None:
     """The shape parameter that no full disc up to a depth can have, and its least value, or None."""
     return PROFILES[profile].too_small(largest_depth, **shape)
@@ -63,6 +72,7 @@ __all__ = [
     "Profile",
     "check_shape",
     "compact_shapes",
+    "length_law",
     "make_profile",
     "resolved_shape",
     "roughness",

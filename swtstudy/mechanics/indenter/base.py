@@ -1,7 +1,7 @@
 """What a profile must know: its MDR profile g, and the integrals of the surface stress over it.
 
-Lengths are in a_H = √(R δ0), depths in δ0. A batch of n profiles of one family is one object; its methods
-take arrays of shape (n, …).
+Lengths are in a_H, which is √(R δ0) unless a family says otherwise, depths in δ0. A batch of n profiles of
+one family is one object; its methods take arrays of shape (n, …).
 """
 
 from __future__ import annotations
@@ -42,6 +42,10 @@ class Primitives(ABC):
         over 2 r²), v = √(ξ²−r²), ξ from max(r, b) to radius; 0 where the radius is smaller.
         """
 
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        """Π alone, the first of `outer`, shape (n, X, …)."""
+        return np.asarray(self.outer(radius)[0])
+
 
 class Profile(ABC):
     """n profiles of one family, in contact up to a depth.
@@ -54,6 +58,8 @@ class Profile(ABC):
 
     #: Whether the stress has no bound at the edge r = b⁺ of a flat face.
     has_singular_edge: ClassVar[bool] = False
+    #: Whether equal cells of ξ resolve g′ as well as others.
+    evenly_smooth: ClassVar[bool] = True
 
     def __init__(self, largest_depth: FloatArray) -> None:
         self.largest_depth = largest_depth
@@ -93,6 +99,11 @@ class Profile(ABC):
             f"{' at ' * bool(others)}{others} up to the depth {largest_depth:g} δ0"
         )
 
+    @classmethod
+    def length_law(cls, **shape: float) -> tuple[float, float]:
+        """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ, the contact radius at δ0 were there no shape."""
+        return 1.0, 0.5
+
     @abstractmethod
     def take(self, index: NDArray[np.intp]) -> Profile:
         """The profiles at ``index``."""
@@ -104,7 +115,7 @@ class Profile(ABC):
 
     @property
     def singular_approach(self) -> FloatArray:
-        """Shape (n, k): radii that lead up to a singularity of the stress, in ever smaller steps."""
+        """Shape (n, k): radii that lead up to a singularity of the stress or a tip, in ever smaller steps."""
         return np.zeros((len(self.largest_depth), 0))
 
     def extra_nodes(self, digits: float) -> int:

@@ -98,6 +98,9 @@ class FacePrimitives(Primitives):
     def outer(self, radius: FloatArray) -> FloatArray:
         return self._outer(radius)
 
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        return self._outer.pressure(radius)
+
     def _angle(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
         """r, b, (r² − b²), sin α and cos α, which broadcast against the radius."""
         r, b = align(self.position, radius), align(self.flat, radius)

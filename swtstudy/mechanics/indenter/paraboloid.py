@@ -32,6 +32,11 @@ class ParaboloidPrimitives(Primitives):
         inside = (2.0 / 3.0) * (radius + v * v / (radius + v) - r)
         return np.stack([2.0 * v, inside])
 
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        r = align(self.position, radius)
+        radius = np.maximum(radius, r)
+        return np.asarray(2.0 * np.sqrt(radius * radius - r * r))
+
 
 class Paraboloid(Profile):
     """n paraboloids; they are all the same in a_H and δ0."""

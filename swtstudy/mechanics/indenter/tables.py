@@ -87,10 +87,17 @@ class OuterTable:
         return np.asarray(np.arcsinh(rise / scale)) if self.has_face else rise
 
     def __call__(self, radius: FloatArray) -> FloatArray:
+        """Π and W up to the radii (n, X, …), shape (2, n, X, …)."""
+        return self._up_to(radius, self.series)
+
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        """Π alone."""
+        return self._up_to(radius, self.series[:, 0])
+
+    def _up_to(self, radius: FloatArray, series: FloatArray) -> FloatArray:
         low2, scale, span = (align(v, radius) for v in (self.low2, self.scale, self.span))
         y = np.minimum(2.0 * self._abscissa(radius, low2, scale) / span, 2.0) - 1.0
-        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
-        return chebyshev.evaluate(series, y)
+        return chebyshev.evaluate(series.reshape(series.shape + (1,) * (radius.ndim - 2)), y)
 
 
 class TablePrimitives(Primitives):
@@ -107,3 +114,6 @@ class TablePrimitives(Primitives):
 
     def outer(self, radius: FloatArray) -> FloatArray:
         return self._outer(radius)
+
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        return self._outer.pressure(radius)

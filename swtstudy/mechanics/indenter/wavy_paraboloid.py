@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.indenter.tables import TablePrimitives
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import RowTable, align
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
@@ -88,10 +89,10 @@ class WavyParaboloid(Profile):
         return "wavelength", float(_smallest_wavelength(largest_depth, h, wavelength))
 
     def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
-        taken = WavyParaboloid(
-            self.largest_depth[index], self.waviness_amplitude[index], self.wavelength[index]
-        )
-        taken._origin, taken._row = self._origin or self, self._row[index]
+        taken = copy(self)
+        for name in ("largest_depth", "waviness_amplitude", "wavelength", "wave_number", "reach", "_row"):
+            setattr(taken, name, getattr(self, name)[index])
+        taken._origin = self._origin or self
         return taken
 
     def extra_nodes(self, digits: float) -> int:
@@ -129,21 +130,15 @@ class WavyParaboloid(Profile):
             guess = np.maximum(guess - step, 0.0)
         return guess
 
-    def _interpolated(self, at: FloatArray, table: tuple[FloatArray, FloatArray]) -> FloatArray:
-        """Values at (n, …) in tables with one row for each of the profiles that these were taken from."""
-        result = np.empty_like(at)
-        order = np.argsort(self._row, kind="stable")
-        ends = np.flatnonzero(np.diff(self._row[order])) + 1
-        for same in np.split(order, ends) if order.size else ():
-            known, value = (column[self._row[same[0]]] for column in table)
-            result[same] = np.interp(at[same], known, value)
-        return result
+    def _interpolated(self, at: FloatArray, table: RowTable) -> FloatArray:
+        """Values at (n, …) in a table with one row for each of the profiles that these were taken from."""
+        return table.interpolated(align(self._row, at), at)
 
     @cached_property
-    def _guesses(self) -> tuple[FloatArray, FloatArray]:
-        """√g, whose both ends are straight, at radii, each (n, k)."""
+    def _guesses(self) -> RowTable:
+        """Radii over √g, whose both ends are straight."""
         radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
-        return np.sqrt(np.maximum(self.depth(radius), 0.0)), radius
+        return RowTable(np.sqrt(np.maximum(self.depth(radius), 0.0)), radius)
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         return radius * self._with_slope(radius)[1]
@@ -172,10 +167,10 @@ class WavyParaboloid(Profile):
         return self._interpolated(np.cbrt(half_load), (self._origin or self)._guesses_by_load)
 
     @cached_property
-    def _guesses_by_load(self) -> tuple[FloatArray, FloatArray]:
-        """The cubic root of `half_load`, nearly straight, at the radii of `_guesses`, each (n, k)."""
-        radius = self._guesses[1]
-        return np.cbrt(np.maximum(self.half_load(radius), 0.0)), radius
+    def _guesses_by_load(self) -> RowTable:
+        """The radii of `_guesses` over the cubic root of `half_load`, which is nearly straight."""
+        radius = self._guesses.value
+        return RowTable(np.cbrt(np.maximum(self.half_load(radius), 0.0)), radius)
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         largest = self.radius(self.largest_depth)

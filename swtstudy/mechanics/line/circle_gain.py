@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.line.look import Look, extreme_instants
-from swtstudy.mechanics.line.value import of_extremes, on_plane
+from swtstudy.mechanics.line.samples import of_extremes, on_plane
 from swtstudy.mechanics.planes.ascent import climb
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.planes.through_y import PlaneHistory

@@ -77,18 +77,18 @@ class FirstLook:
         hot
             Shape (m, i): intervals of the cycle that can hold an extreme.
         """
-        x_sign = np.where(side == 0, 1.0, -1.0)[:, None]
-        planes = scene.take(point).planes(self.history.take(point, column), x_sign)
+        x_sign = np.where(side == 0, 1.0, -1.0)[:, None, None]
+        planes = scene.take(point).planes(self.history.take(point[:, None], column[:, None]), x_sign)
         _, angle = coarse_swt(planes, CLOSER_PLANES)
-        both = angle, self.double_angle[point, side, column]
-        row, instant = np.nonzero(near_extremes(planes, both))
+        both = angle, self.double_angle[point, side, column][:, None]
+        row, _, instant = np.nonzero(near_extremes(planes, both))
         count = self.interval.shape[-1]
         at = point[row], instant // count, self.interval[point[row], column[row], instant % count]
         # Ranges of intervals, as steps up and down.
         steps = np.zeros((len(point), scene.cycle.begin.shape[1] + 1), dtype=np.intp)
         np.add.at(steps, (row, self.first[at]), 1)
         np.add.at(steps, (row, self.last[at] + 1), -1)
-        return angle, np.cumsum(steps, axis=1)[:, :-1] > 0
+        return angle[:, 0], np.cumsum(steps, axis=1)[:, :-1] > 0
 
 
 def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:

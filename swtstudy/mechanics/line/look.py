@@ -81,6 +81,11 @@ class Look:
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
 
+    def take(self, index: NDArray[np.intp]) -> Look:
+        """The looks at the points at ``index``, repetitions allowed."""
+        line, nodes = self.line.take(index), self.nodes.take(index)
+        return Look(line, self.parts.take(index), self.count, nodes, self.placed.take(index))
+
     @cached_property
     def history(self) -> History:
         """Building blocks of the stress at the instants: not every look needs them."""

@@ -145,7 +145,8 @@ class _StretchesOfRange:
         low, high = ends[:, :-1], ends[:, 1:].copy()
         length, total = high - low, ends[:, -1:] - ends[:, :1]
         steps = np.clip(np.ceil(length / total * spread[:, None]), 1, None).astype(np.intp)
-        real = length > NO_LENGTH * total
+        # Next to a sharp tip stretches are short, but not as they lie there.
+        real = length > np.minimum(NO_LENGTH * total, 0.5 * high)
         last = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
         # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
         high[np.arange(len(ends)), last] = ends[:, -1]

@@ -6,6 +6,8 @@ that make swt (the largest σ_n, the largest and the smallest ε_n), ever closer
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,15 +21,13 @@ from swtstudy.mechanics.line.look import (
     near_extremes,
     reach,
 )
+from swtstudy.mechanics.line.samples import ANGLE_ROUNDS, Samples, of_extremes
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
-from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, climb_over_planes
+from swtstudy.mechanics.planes.through_y import PlaneHistory, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: How often the plane is improved and the extremes over the cycle are looked up anew. Once: 4e-4 at
-#: 1 of 1,001 points at rtol 1e-6, where two planes stand 3° apart, 3 % faster.
-ANGLE_ROUNDS = 2
 #: swt may have two maxima over the planes not far apart: 2θ is started from here, rad from the first look.
 #: The first start alone: 1e-3 at some of 600 points (tests/test_narrow_maxima.py); half or twice: no
 #: change at 128.
@@ -90,50 +90,64 @@ def refine(
     best, other = _best_planes(planes, look.inside, double_angle + STARTS)
     found, rival = extremes_and_rivals(planes, best, look.inside)
     elsewhere = extreme_instants(planes, other, look.inside)
-    swt, angle = _zoomed(scene, look, side, best, found, resolution.zooms)
+    zoom = _Zoom(scene, look, side, resolution)
+    first = zoom.around(found)
+    swt, angle = zoom.to_maximum(first, best)
     # Two planes, or two instants, that the nodes cannot tell apart are both followed; neighbouring nodes have
     # the same bracket.
-    for plane, extremes in ((other, elsewhere), (best, rival)):
-        rows = np.flatnonzero((np.abs(found - extremes) > 1).any(axis=(1, 2)))
-        if not rows.size:
-            continue
-        some, at, there = scene.take(rows), plane[rows], extremes[rows]
-        again = Look.at(some, position[rows], resolution.nodes, resolution.digits)
-        if extremes is rival:
-            there = _higher(some, again, side[rows], at, (found[rows], there))
-        more, at = _zoomed(some, again, side[rows], at, there, resolution.zooms)
-        better = more > swt[rows]
-        swt[rows] = np.where(better, more, swt[rows])
-        angle[rows] = np.where(better, at, angle[rows])
+    others, rivals = (
+        np.flatnonzero((np.abs(found - extremes) > 1).any(axis=(1, 2))) for extremes in (elsewhere, rival)
+    )
+    rows, is_rival = np.concatenate([others, rivals]), np.repeat([False, True], [others.size, rivals.size])
+    if rows.size:
+        plane = np.concatenate([other[others], best[rivals]])
+        extremes = np.concatenate([elsewhere[others], rival[rivals]])
+        again = _Zoom(scene.take(rows), look.take(rows), side[rows], resolution)
+        second, first = again.around(extremes), first.take(rows)
+        # Of two instants the one around which the plane is higher.
+        here = (second.tops(plane) > first.tops(plane)) | ~is_rival[:, None, None]
+        more, at = again.to_maximum(second.or_other(here, first), plane)
+        for which in (~is_rival, is_rival):
+            same, value, turned = rows[which], more[which], at[which]
+            better = value > swt[same]
+            swt[same] = np.where(better, value, swt[same])
+            angle[same] = np.where(better, turned, angle[same])
     return swt, angle
 
 
-def _higher(
-    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, either: tuple[NDArray[np.intp], ...]
-) -> NDArray[np.intp]:
-    """Of two instants for each extreme on a plane, both (n, X, 3), the one around which it is higher."""
-    tops = []
-    for extremes in either:
-        brackets = look.brackets(extremes)
-        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
-        tops.append(on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle))
-    return np.where(tops[1] > tops[0], either[1], either[0])
+@dataclass(frozen=True)
+class _Zoom:
+    """Ever closer samples.
 
+    Attributes
+    ----------
+    scene, look, side
+        n points, their look and the signs of x.
+    resolution
+        How closely.
+    """
 
-def _zoomed(
-    scene: Scene, look: Look, side: FloatArray, angle: FloatArray, extremes: NDArray[np.intp], zooms: int
-) -> tuple[FloatArray, FloatArray]:
-    """swt and 2θ near a plane (n, X), from samples ever closer around the instants of its extremes."""
-    brackets = look.brackets(extremes)
-    for turn in range(zooms):
-        near = of_extremes(scene.planes(look.line.history(brackets.samples()), side[:, None, None]))
-        for _ in range(ANGLE_ROUNDS):
-            peak, high, low = _at_peaks(near, brackets, angle)
-            angle = best_angle(peak, high + low, angle)
-        if turn < zooms - 1:
-            brackets = brackets.narrowed(on_plane(near, angle).argmax(axis=-1))
-    tops = on_plane(np.stack(_at_peaks(near, brackets, angle), axis=-1), angle)
-    return of_maxima(*np.moveaxis(tops, -1, 0)), angle
+    scene: Scene
+    look: Look
+    side: FloatArray
+    resolution: Resolution
+
+    def around(self, extremes: NDArray[np.intp]) -> Samples:
+        """Samples around instants of the look, shape (n, X, 3)."""
+        return self._within(self.look.brackets(extremes))
+
+    def _within(self, brackets: TimeBrackets) -> Samples:
+        history = self.look.line.history(brackets.samples())
+        return Samples(brackets, of_extremes(self.scene.planes(history, self.side[:, None, None])))
+
+    def to_maximum(self, samples: Samples, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """swt and 2θ near a plane (n, X)."""
+        gain = 10.0**-self.resolution.digits
+        swt, angle = samples.best_plane(angle, gain)
+        for _ in range(1, self.resolution.zooms):
+            samples = self._within(samples.narrowed(angle))
+            swt, angle = samples.best_plane(angle, gain)
+        return swt, angle
 
 
 def _best_planes(
@@ -168,22 +182,3 @@ def _best_planes(
         rival = high.argmax(axis=-1)
         other[at] = np.where(pick(high, rival) > pick(found[1][at], best[at]), rival, best[at])
     return pick(angle, best), pick(angle, other)
-
-
-def of_extremes(planes: PlaneHistory) -> FloatArray:
-    """Coefficients of σ_n, ε_n and −ε_n, whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
-    stress, strain = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.strain))
-    return np.stack([stress[..., 0, :], strain[..., 1, :], -strain[..., 2, :]], axis=-2)
-
-
-def on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
-    """A + B cos 2θ + C sin 2θ of coefficients (3, n, X, …) at 2θ of shape (n, X)."""
-    a, b, c = coefficients
-    angle = angle.reshape(angle.shape + (1,) * (a.ndim - angle.ndim))
-    return np.asarray(a + b * np.cos(angle) + c * np.sin(angle))
-
-
-def _at_peaks(near: FloatArray, brackets: TimeBrackets, angle: FloatArray) -> tuple[FloatArray, ...]:
-    """Coefficients of σ_n, ε_n and −ε_n at their maxima between the samples, each (3, n, X)."""
-    weights = brackets.weights_at_peak(on_plane(near, angle))
-    return tuple(np.moveaxis((near * weights).sum(axis=-1), -1, 0))

@@ -140,6 +140,9 @@ class BimodalLoad(Load):
         return (np.arcsin(sine) + 2.0 * np.pi * branch - align(self.phase, sine)) / self.q
 
     def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
+        if self.p == self.q:
+            # The root is in closed form.
+            return Brackets(low, high, *(np.zeros_like(low),) * 4)
         return Brackets.of(self._slip_line(sense), low, high)
 
     def slip_line_instant(self, sense: float, goal: FloatArray, brackets: Brackets) -> FloatArray:

@@ -36,6 +36,25 @@ def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
     return gather(values, index[..., None])[..., 0]
 
 
+def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) -> NDArray[np.intp]:
+    """How many of the values in its row are below each level.
+
+    Parameters
+    ----------
+    values
+        Shape (…, k).
+    row
+        Shape (m,) or broadcast to it: rows of the flattened leading axes.
+    level
+        Shape (m,).
+    """
+    count = np.zeros(level.shape, dtype=np.intp)
+    # One column after the other: sums of short rows are slow.
+    for column in values.reshape(-1, values.shape[-1]).T:
+        count += column.take(row) < level
+    return count
+
+
 def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
     """The kept entries of each row, moved to its front; shorter rows repeat their first kept entry.
 
@@ -50,17 +69,48 @@ def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ..
     -------
     Arrays of shape (…, m), where m is the largest number of kept entries.
     """
+    lead, k = keep.shape[:-1], keep.shape[-1]
     place = np.cumsum(keep, axis=-1)
     width = int(place[..., -1].max(initial=1))
-    where = np.nonzero(keep)
-    target = (*where[:-1], place[where] - 1)
+    kept = np.flatnonzero(keep)
+    target = kept // k * width + place.ravel()[kept] - 1
     first = keep.argmax(axis=-1)
     result = []
     for values in arrays:
-        out = np.repeat(pick(values, first)[..., None], width, axis=-1)
-        out[target] = values[where]
-        result.append(out)
+        out = np.repeat(pick(values, first), width)
+        out[target] = values.ravel()[kept]
+        result.append(out.reshape(*lead, width))
     return tuple(result)
+
+
+class RowTable:
+    """n functions, each known at k ascending abscissae.
+
+    Parameters
+    ----------
+    abscissa, value
+        Shape (n, k).
+    """
+
+    def __init__(self, abscissa: FloatArray, value: FloatArray) -> None:
+        self.abscissa, self.value = abscissa, value
+        self._width = abscissa[:, -1:] - abscissa[:, :1]
+        #: All rows as one ascending row, each within a unit of its own.
+        self._key = self._keys(np.arange(len(abscissa))[:, None], abscissa).ravel()
+
+    def interpolated(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+        """The functions number ``row`` at (…), linear between their abscissae and constant beyond."""
+        k = self.abscissa.shape[1]
+        place = np.searchsorted(self._key, self._keys(row, at), side="right") - 1
+        place = np.clip(place, row * k, row * k + k - 2)
+        low, first = self.abscissa.take(place), self.value.take(place)
+        high, last = self.abscissa.take(place + 1), self.value.take(place + 1)
+        slope = (last - first) / (high - low)
+        return np.asarray(slope * (np.clip(at, low, high) - low) + first)
+
+    def _keys(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+        share = (at - self.abscissa[row, 0]) / self._width[row, 0]
+        return np.asarray(row + 0.5 * np.clip(share, 0.0, 1.0))
 
 
 def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
@@ -73,7 +123,7 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     return filled
 
 
-def align(values: FloatArray, like: FloatArray) -> FloatArray:
+def align(values: NDArray[T], like: FloatArray) -> NDArray[T]:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
 

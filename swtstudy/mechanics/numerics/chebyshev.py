@@ -22,11 +22,21 @@ def nodes(count: int) -> FloatArray:
 
 
 @lru_cache(maxsize=16)
+def _series_matrix(count: int) -> FloatArray:
+    """Matrix from values at `nodes` to coefficients, (count, count)."""
+    return np.ascontiguousarray(np.linalg.inv(chebvander(nodes(count), count - 1)).T)
+
+
+@lru_cache(maxsize=16)
 def _integration_matrix(count: int) -> FloatArray:
     """Matrix from values at `nodes` to the coefficients of the running integral, (count, count + 1)."""
-    values_to_series = np.linalg.inv(chebvander(nodes(count), count - 1))
-    integral = chebint(values_to_series, lbnd=-1.0, axis=0)
+    integral = chebint(_series_matrix(count).T, lbnd=-1.0, axis=0)
     return np.ascontiguousarray(integral.T)
+
+
+def series(values: FloatArray) -> FloatArray:
+    """Series of functions given by their values at `nodes`, shape (…, count): (count, …)."""
+    return np.einsum("...i,ij->j...", values, _series_matrix(values.shape[-1]))
 
 
 def running_integral(values: FloatArray) -> FloatArray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +68,18 @@ class GrowthIntegrals:
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
         )
         self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
+
+    def take(self, index: NDArray[np.intp]) -> GrowthIntegrals:
+        """Those of the cycles at ``index``, repetitions allowed."""
+        taken = copy(self)
+        if self.count:
+            taken.index, taken.position, taken.flat = (
+                self.index[index],
+                self.position[index],
+                self.flat[index],
+            )
+            taken.inner, taken.outer = self.inner.take(index), self.outer.take(index)
+        return taken
 
     def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
         """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
@@ -134,6 +147,13 @@ class _RunningIntegrals:
             at = np.nonzero(real & same)
             self.column[at] = np.arange(len(at[0]))
             self.groups.append((same.ravel(), self._series(at, density, int(nodes))))
+
+    def take(self, index: NDArray[np.intp]) -> _RunningIntegrals:
+        """Those at ``index`` of the first axis."""
+        taken, shape = copy(self), self.span.shape
+        taken.low, taken.span, taken.column = self.low[index], self.span[index], self.column[index]
+        taken.groups = [(same.reshape(shape)[index].ravel(), series) for same, series in self.groups]
+        return taken
 
     def _series(self, at: tuple[NDArray[np.intp], ...], density: Density, count: int) -> FloatArray:
         low, span = self.low[at][:, None], self.span[at][:, None]

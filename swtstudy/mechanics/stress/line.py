@@ -7,7 +7,10 @@ The stress at x is a short sum over the memory diagram: with the full-slip primi
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
@@ -59,18 +62,29 @@ class SurfaceLine:
     """
 
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
-        self.cycle, self.coordinate, self.position = cycle, coordinate, position
+        self.cycle, self.coordinate, self.position, self.digits = cycle, coordinate, position, digits
         self.primitives = coordinate.profile.primitives(position, digits)
         at = coordinate.of(position)
-        #: Radii, shape (n, X, 1) each, between which a contact edge, and a slip front, has arrived at r.
-        self.edge_at_r, self.front_at_r = (
-            tuple(coordinate.radius(v)[:, :, None] for v in (at - distance, at + distance))
-            for distance in arrival(cycle.load, coordinate, position, at)
+        #: The coordinate of r, and how near to it a contact edge, and a slip front, has arrived, (n, X, 1).
+        self.at = at[:, :, None]
+        self.edge_near, self.front_near = (
+            distance[:, :, None] for distance in arrival(cycle.load, coordinate, position, at)
         )
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
+
+    def take(self, index: NDArray[np.intp]) -> SurfaceLine:
+        """The lines at ``index`` with their positions, repetitions allowed."""
+        taken = copy(self)
+        taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
+        taken.position, taken.base = self.position[index], self.base[:, index]
+        taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
+        taken.at = self.at[index]
+        taken.edge_near, taken.front_near = self.edge_near[index], self.front_near[index]
+        taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
+        return taken
 
     def _base(self) -> FloatArray:
         """Integrals over all pieces inside of each distinct piece, and slope · A at its start."""
@@ -117,14 +131,13 @@ class SurfaceLine:
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
-        inner, outer = self.primitives.inner(radius), self.primitives.outer(radius)
-        return np.concatenate([inner, outer[:1]])
+        return np.concatenate([self.primitives.inner(radius), self.primitives.pressure(radius)[None]])
 
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
         profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
-        edge = self._spread_radius(nodes, edge_radius, self.edge_at_r)
+        edge = self._spread_radius(nodes, edge_radius, states.edge, self.edge_near)
         r = self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, (*inner, outer[0]))
@@ -133,12 +146,14 @@ class SurfaceLine:
         inside = np.minimum(load, profile.half_load(self.position)[:, :, None])
         return History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
 
-    def _spread_radius(self, nodes: Nodes, radius: FloatArray, at_r: tuple[FloatArray, ...]) -> FloatArray:
+    def _spread_radius(
+        self, nodes: Nodes, radius: FloatArray, coordinate: FloatArray, near: FloatArray
+    ) -> FloatArray:
         """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
-        spread = nodes.spread(radius)
-        least, largest = at_r
-        arrives = (spread >= least) & (spread <= largest)
-        np.copyto(spread, self.position[:, :, None], where=arrives)
+        spread, distance = nodes.spread(radius), nodes.spread(coordinate)
+        distance -= self.at
+        np.abs(distance, out=distance)
+        np.copyto(spread, self.position[:, :, None], where=distance <= near)
         return spread
 
     def _tangential(self, nodes: Nodes, states: SlipStates, at_edge: tuple[FloatArray, ...]) -> FloatArray:
@@ -147,7 +162,8 @@ class SurfaceLine:
         place = nodes.interval * pieces.index.shape[-1] + states.piece
         piece = gather(pieces.index.reshape(n, -1), place)
         slope = gather(pieces.slope, piece)
-        front = self._spread_radius(nodes, self.coordinate.radius(states.front), self.front_at_r)
+        front_radius = self.coordinate.radius(states.front)
+        front = self._spread_radius(nodes, front_radius, states.front, self.front_near)
         at_piece, sign = nodes.spread(piece), nodes.spread(states.sign)
         bend = sign - nodes.spread(_line_slope(slope))
         rows, count = np.arange(n)[:, None, None], self.base.shape[-1]

@@ -124,6 +124,8 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
     b = float(profile.flat_radius[0])
     if b > 0.0:
         return graded_radii(b, end, cells)
+    if not profile.evenly_smooth:
+        return _adapted_radii(profile, end, cells)
     count = 1
     while True:
         radius = np.linspace(0.0, end, count + 1)
@@ -133,3 +135,17 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
         if bend < chord.max() / cells**2 or count > 8 * cells:
             return radius
         count *= 2
+
+
+def _adapted_radii(profile: Profile, end: float, cells: int) -> FloatArray:
+    """Cells that are halved where the slope is bent; of narrow ones less is asked."""
+    radius = np.linspace(0.0, end, 5)
+    while True:
+        width, middle = np.diff(radius), 0.5 * (radius[1:] + radius[:-1])
+        chord = np.diff(profile.depth(radius[None])[0]) / width
+        bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord)
+        bend *= np.sqrt(np.minimum(width * (cells / end), 1.0))
+        bent = bend > chord.max() / (2 * cells) ** 2
+        if not bent.any() or len(radius) > 8 * cells:
+            return radius
+        radius = np.sort(np.append(radius, middle[bent]))

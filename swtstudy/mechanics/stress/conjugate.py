@@ -1,0 +1,136 @@
+"""The tangential component that is not prescribed: the force of a displacement, the way of a force.
+
+Both are integrals over the memory diagram: ∫ o′ dC over the other coordinate C of the contact radius, on
+lines by its values at their ends. On growths o′ dC = Ṫ/Ṅ dC is integrated over the time of touch-down, where
+nothing is singular.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import GROWTH, Memory
+from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
+from swtstudy.mechanics.control.force import ForceCoordinate
+from swtstudy.mechanics.control.normal_map import LEAST_RADIUS
+from swtstudy.mechanics.events.passages import split_at_breakpoints
+from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
+
+#: Digits for which growths on a wavy profile have more nodes. Other digits: 3e-11 of the work.
+DIGITS = 16.0
+
+
+@dataclass(frozen=True)
+class Conjugate:
+    """The tangential component that is not prescribed.
+
+    Attributes
+    ----------
+    cycle
+        n cycles, cut where the front passes breakpoints.
+    coordinate, other
+        The coordinate of their diagrams and the other one.
+    by_force
+        Whether the tangential force is prescribed.
+    unit
+        Shape (n,), see `swtstudy.mechanics.control.force.unit_half_load`.
+    nodes
+        Gauss nodes for each growth on a smooth profile.
+    """
+
+    cycle: Cycle
+    coordinate: Coordinate
+    other: Coordinate
+    by_force: bool
+    unit: FloatArray
+    nodes: int
+
+    @classmethod
+    def of(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
+        """Over as much of the cycles of a scene as is no mirror image of the rest: all, or the first half."""
+        by_force = isinstance(scene.coordinate, ForceCoordinate)
+        other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
+        cycle, _ = split_at_breakpoints(scene.cycle)
+        if cycle.load.mirrored_half:
+            half = cycle.first_half()
+            cycle = replace(half, end=np.minimum(half.end, 0.5 * PERIOD))
+        return cls(cycle, scene.coordinate, other, by_force, unit, nodes)
+
+    def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
+        """Those at ``index``, with so many nodes."""
+        return replace(
+            self,
+            cycle=self.cycle.take(index),
+            coordinate=self.coordinate.take(index),
+            other=self.other.take(index),
+            unit=self.unit[index],
+            nodes=nodes,
+        )
+
+    def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Conjugate:
+        """Those at ``index`` over one interval each, arrays of shape (m,)."""
+        cycle = self.cycle.take_intervals(index, interval[:, None])
+        return replace(self.take(index, self.nodes), cycle=cycle)
+
+    def at(self, instant: FloatArray) -> FloatArray:
+        """The component at instants of shape (n, i, k), over μ F_0 or μ E* δ0/G*."""
+        memory = self.cycle.memory
+        interval = np.arange(memory.start.shape[1])[:, None]
+        states = self.cycle.states(interval, instant)
+        row = np.broadcast_to(np.arange(len(instant))[:, None, None], instant.shape)
+        pieces = memory.take((row, np.broadcast_to(interval, instant.shape), states.piece))
+        inside = self._inside()[row, interval, states.piece]
+        front, edge = self._other(states.front), self._other(states.edge)
+        return inside + self._integral(row, pieces, states.front) + states.sign * (edge - front)
+
+    def normal_force(self, normal: FloatArray) -> FloatArray:
+        """The normal force over F_0 at normal loads of the diagram, shape (n, …)."""
+        return normal if self.by_force else self._other(normal)
+
+    def rule(self) -> tuple[FloatArray, FloatArray]:
+        """Nodes and weights of Gauss's rule on [−1, 1]."""
+        node, weight = np.polynomial.legendre.leggauss(
+            self.nodes + 2 * self.other.profile.extra_nodes(DIGITS)
+        )
+        return node, weight
+
+    def _inside(self) -> FloatArray:
+        """∫ o′ dC up to the start of each piece of the memory, shape (n, i, d)."""
+        memory = self.cycle.memory
+        row = np.broadcast_to(np.arange(len(memory.start))[:, None, None], memory.start.shape)[..., 1:]
+        every = slice(None)
+        first, end = memory.take((every, every, slice(-1))), memory.start[..., 1:]
+        inside = np.zeros_like(memory.start)
+        part = self._integral(row, first, np.where(np.isfinite(end), end, first.start))
+        np.cumsum(part, axis=-1, out=inside[..., 1:])
+        return inside
+
+    def _integral(self, row: NDArray[np.intp], pieces: Memory, end: FloatArray) -> FloatArray:
+        """∫ o′ dC over pieces of the cycles number ``row`` up to a coordinate."""
+        finite = np.isfinite(pieces.start)
+        start = np.where(finite, pieces.start, 0.0)
+        end = np.where(finite, np.maximum(end, start), 0.0)
+        grown = (pieces.slope == GROWTH) & (end > start)
+        slope = np.where(pieces.slope == GROWTH, 0.0, pieces.slope)
+        result = slope * (self._other(end) - self._other(start))
+        if np.any(grown):
+            index, branch = row[grown], pieces.branch[grown]
+            load, coordinate = self.cycle.load.take(index), self.coordinate.take(index)
+            first, last = (load.touch_down(ends[grown], branch) for ends in (start, end))
+            node, weight = self.rule()
+            instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * node)
+            radius = np.maximum(coordinate.radius(load.normal(instant)), LEAST_RADIUS)
+            unit = self.unit[index, None]
+            stiffness = unit / radius if self.by_force else radius / unit
+            rate = load.tangential_rate(instant) * stiffness
+            result[grown] = 0.5 * (last - first) * (rate * weight).sum(axis=1)
+        return result
+
+    def _other(self, coordinate: FloatArray) -> FloatArray:
+        return self.other.of(self.coordinate.radius(coordinate))
