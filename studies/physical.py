@@ -41,8 +41,8 @@ def main() -> None:
     print("phase  SWT/MPa  cycles to a crack, at the worst point  and averaged over a radius of 50 µm")
     for degrees in (0, 60, 105, 150):
         contact = sphere_on_flat(np.radians(degrees))
-        s = swtstudy.nonlocal_swt(0.05 / contact.length_scale, **contact.parameters())
-        local, mean = (contact.cycles(MATERIAL, values.squeeze()) for values in (s.s, s.s_volume))
+        s = swtstudy.solve(critical_distance=0.05 / contact.length_scale, **contact.parameters())
+        local, mean = (contact.cycles(MATERIAL, values) for values in (s.s, s.s_volume))
         print(f"{degrees:4}°  {float(contact.swt(s.s)):8.3f}  {float(local):9.1e}  {float(mean):9.1e}")
 
 

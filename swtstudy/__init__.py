@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from swtstudy.contacts.physical import physical
     from swtstudy.fields.history import swt_of_history
     from swtstudy.fields.inspection import inspect_point
-    from swtstudy.fields.nonlocal_swt import nonlocal_swt
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
@@ -38,7 +37,6 @@ __all__ = [
     "audit_study",
     "inspect",
     "inspect_point",
-    "nonlocal_swt",
     "open_results",
     "optimise",
     "physical",
@@ -61,7 +59,6 @@ _HOMES = {
     "audit_study": "swtstudy.audit.audit",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
-    "nonlocal_swt": "swtstudy.fields.nonlocal_swt",
     "open_results": "swtstudy.archive.open",
     "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",

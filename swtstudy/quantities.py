@@ -11,6 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from swtstudy.mistakes import Report, literal, nearest
+from swtstudy.parameters import DIRECTIONS
+
+#: The parameter that asks for the nonlocal quantities.
+DISTANCE = "critical_distance"
 
 
 @dataclass(frozen=True)
@@ -28,11 +32,15 @@ class Quantity:
     comment
         What it is exactly, in one line.
     function
-        Name of the function in `swtstudy.mechanics.stress.work` that computes it.
+        Name of the function in `swtstudy.mechanics.stress.work`, or of the attribute of
+        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt`, that has it.
     has_error
-        Whether the function gives its estimated absolute error, too, which becomes ``NAME_error``.
+        Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     units
         CF units.
+    dims
+        Dimensions of its own, of `swtstudy.parameters.QUANTITY_AXES`, beside those of the points. With
+        `DISTANCE` among them it is asked by giving critical distances, else by its name.
     """
 
     name: str
@@ -42,6 +50,7 @@ class Quantity:
     function: str
     has_error: bool = False
     units: str = "1"
+    dims: tuple[str, ...] = ()
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -81,10 +90,135 @@ QUANTITIES: dict[str, Quantity] = {
             "largest |F_x| over mu F_N while there is contact; 1 if the whole contact slides",
             "largest_force_ratio",
         ),
+        Quantity(
+            "s_volume",
+            r"s_\mathrm{volume}",
+            "mean of swt over a volume",
+            "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
+            "volume",
+            has_error=True,
+            dims=(DISTANCE,),
+        ),
+        Quantity(
+            "s_point",
+            r"s_\mathrm{point}",
+            "swt at a distance",
+            "swt/SWT0 at half the critical distance from the critical point (point method)",
+            "point",
+            has_error=True,
+            dims=(DISTANCE, "direction"),
+        ),
+        Quantity(
+            "s_line",
+            r"s_\mathrm{line}",
+            "mean of swt along a line",
+            "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+            "line",
+            has_error=True,
+            dims=(DISTANCE, "direction"),
+        ),
     )
 }
 
-ALLOWED = f"a list of {', '.join(QUANTITIES)}"
+#: Those that are asked by name, and those that are asked by giving critical distances.
+NAMED = {name: row for name, row in QUANTITIES.items() if DISTANCE not in row.dims}
+NONLOCAL = {name: row for name, row in QUANTITIES.items() if DISTANCE in row.dims}
+ALLOWED = f"a list of {', '.join(NAMED)}"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of every point beside s.
+
+    Attributes
+    ----------
+    names
+        Of `NAMED`.
+    distances
+        Critical distances ℓ/a_H, for which all of `NONLOCAL` are asked.
+    is_axis
+        Whether these distances are a dimension.
+    """
+
+    names: tuple[str, ...] = ()
+    distances: tuple[float, ...] = ()
+    is_axis: bool = False
+
+    @classmethod
+    def of(cls, items: Iterable[str], is_axis: bool = False) -> Request:
+        """From its items, in ascending order; several distances are an axis always."""
+        items = sorted(items)
+        distances = sorted(distance for item in items if (distance := distance_of(item)) is not None)
+        names = tuple(item for item in items if item in NAMED)
+        return cls(names, tuple(distances), is_axis or len(distances) > 1)
+
+    @property
+    def items(self) -> tuple[str, ...]:
+        """What is computed, each by itself, and which runs say they have: names and single distances."""
+        return (*self.names, *map(item_of, self.distances))
+
+    @property
+    def variables(self) -> dict[str, tuple[str, ...]]:
+        """Data variables, with their dimensions beside those of the points."""
+        rows = [NAMED[name] for name in self.names] + [*NONLOCAL.values()] * bool(self.distances)
+        return {
+            variable: tuple(dim for dim in row.dims if dim != DISTANCE or self.is_axis)
+            for row in rows
+            for variable in row.variables
+        }
+
+
+#: Nothing but s.
+NOTHING = Request()
+
+
+def item_of(distance: float) -> str:
+    """A critical distance as an item: to 12 digits, as canonical points."""
+    return f"{DISTANCE}={distance:.12g}"
+
+
+def distance_of(item: str) -> float | None:
+    """The critical distance that an item is; None for others.
+
+    Examples
+    --------
+    >>> distance_of("critical_distance=0.05"), distance_of("dissipation")
+    (0.05, None)
+    """
+    name, _, number = item.partition("=")
+    try:
+        return float(number) if name == DISTANCE else None
+    except ValueError:
+        return None
+
+
+def is_item(raw: object) -> bool:
+    """Whether something is an item of a request."""
+    return isinstance(raw, str) and (raw in NAMED or distance_of(raw) is not None)
+
+
+def columns_of(items: Iterable[str]) -> tuple[str, ...]:
+    """Names of the numbers that every point has for items of a request.
+
+    Examples
+    --------
+    >>> columns_of(["dissipation", "critical_distance=0.5"])[:4]
+    ('dissipation', 'dissipation_error', 's_volume@0.5', 's_volume_error@0.5')
+    """
+    columns: list[str] = []
+    for item in items:
+        rows = [NAMED[item]] if item in NAMED else [*NONLOCAL.values()]
+        for row in rows:
+            columns += (name for variable in row.variables for name in columns_in(row, variable, item))
+    return tuple(columns)
+
+
+def columns_in(row: Quantity, variable: str, item: str) -> tuple[str, ...]:
+    """Those of one data variable of a quantity, along its direction."""
+    if item in NAMED:
+        return (variable,)
+    name = f"{variable}@{item.partition('=')[2]}"
+    return tuple(f"{name}@{each}" for each in DIRECTIONS) if "direction" in row.dims else (name,)
 
 
 def error_of(name: str) -> str:
@@ -92,9 +226,9 @@ def error_of(name: str) -> str:
     return f"{name}_error"
 
 
-def variables_of(names: Iterable[str]) -> tuple[str, ...]:
-    """Names of the data variables that quantities become."""
-    return tuple(variable for name in names for variable in QUANTITIES[name].variables)
+def every_variable() -> tuple[str, ...]:
+    """Names of all data variables that may be asked."""
+    return tuple(variable for row in QUANTITIES.values() for variable in row.variables)
 
 
 def attributes_of(variable: str) -> dict[str, Any]:
@@ -117,8 +251,10 @@ def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
         place = f"{key}[{index}]"
         if not isinstance(name, str):
             report(place, literal(name), ALLOWED)
-        elif name not in QUANTITIES:
-            report(place, f"unknown quantity {literal(name)}", nearest(name, QUANTITIES))
+        elif name in NONLOCAL:
+            report(place, literal(name), f"it by giving {DISTANCE} a value")
+        elif name not in NAMED:
+            report(place, f"unknown quantity {literal(name)}", nearest(name, NAMED))
         elif name in raw[:index]:
             report(place, f"{literal(name)}, the same as {key}[{raw.index(name)}]", "each quantity once")
-    return tuple(dict.fromkeys(name for name in raw if isinstance(name, str) and name in QUANTITIES))
+    return tuple(dict.fromkeys(name for name in raw if isinstance(name, str) and name in NAMED))

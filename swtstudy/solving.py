@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
-from swtstudy.grid.reading import read_grid
+from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.quantities import read_quantities, variables_of
+from swtstudy.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.version import __version__
 
 if TYPE_CHECKING:
@@ -70,14 +72,19 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
             mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-    asked = read_quantities(quantities, "quantities", lambda *parts: mistakes.append(Mistake(*parts)))
-    grid, found = read_grid(fixed, axes, others=("rtol", "quantities"))
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed))
+
+    names = read_quantities(quantities, "quantities", report)
+    asked = Request(names, *read_distances(fixed, axes, str, report))
+    grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or mistakes:
         raise StudyError([*found, *mistakes])
     return solve_grid(grid, float(rtol), asked)
 
 
-def solve_grid(grid: Grid, rtol: float, asked: tuple[str, ...] = ()) -> xr.Dataset:
+def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
     from swtstudy.grid.blocks import block_ends
     from swtstudy.grid.unique import unique_points
@@ -91,13 +98,13 @@ def solve_grid(grid: Grid, rtol: float, asked: tuple[str, ...] = ()) -> xr.Datas
     batches = [points_from(block, unique.definitions) for block in blocks]
     solution = joined([solve_points(batch, rtol) for batch in batches])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored)
-    if asked:
-        found_there = [quantities_of(batch, asked) for batch in batches]
-        arrays |= {
-            name: np.concatenate([part[name] for part in found_there])[unique.index]
-            for name in variables_of(asked)
-        }
-    dataset = label(grid, arrays)
+    columns: dict[str, NDArray] = {}
+    if asked.items:
+        starts = np.cumsum([0, *map(len, blocks)]).tolist()
+        known = [solution_at(solution, slice(*ends)) for ends in itertools.pairwise(starts)]
+        parts = [quantities_of(batch, asked.items, own) for batch, own in zip(batches, known, strict=True)]
+        columns = {name: np.concatenate([part[name] for part in parts])[unique.index] for name in parts[0]}
+    dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 

@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis
@@ -25,7 +25,7 @@ def parameter_words(name: str) -> str:
     >>> parameter_words("friction")
     '$\\\\mu$'
     """
-    return f"${PARAMETERS[name].symbol}$"
+    return f"${AXES[name].symbol}$"
 
 
 def axis_words(name: str) -> str:
@@ -36,7 +36,7 @@ def axis_words(name: str) -> str:
     >>> axis_words("phase"), axis_words("friction")
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
-    units = PARAMETERS[name].units
+    units = AXES[name].units
     return parameter_words(name) + ("" if units == "1" else f" ({units})")
 
 
@@ -52,9 +52,9 @@ def value_words(name: str, value: float | str) -> str:
     """
     if isinstance(value, str):
         return value.replace("_", " ")
-    if PARAMETERS[name].kind == "ratio":
+    if AXES[name].kind == "ratio":
         return str(_fraction(value, 64) or f"{value:.4g}")
-    if PARAMETERS[name].units == "rad" and value:
+    if AXES[name].units == "rad" and value:
         multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
         if multiple is not None:
             return pi_words(multiple)
@@ -77,7 +77,7 @@ def place_words(name: str, value: float | str) -> str:
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
     """
-    symbol = "" if PARAMETERS[name].kind == "name" else f"{parameter_words(name)} = "
+    symbol = "" if AXES[name].kind == "name" else f"{parameter_words(name)} = "
     return symbol + value_words(name, value)
 
 

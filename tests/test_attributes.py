@@ -52,12 +52,12 @@ def test_swt_field_and_slip_map():
 
 
 def test_nonlocal_values():
-    found = swtstudy.nonlocal_swt(0.05, rtol=1e-2)
-    words = {name: found[name].attrs["long_name"] for name in ("s_volume", "s_point", "s_line")}
+    found = swtstudy.solve(critical_distance=[0.05], rtol=1e-2)
+    words = {name: found[name].attrs["comment"] for name in ("s_volume", "s_point", "s_line")}
     assert words == {
         "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
-        "s_point": "swt/SWT0 at half the critical distance (point method)",
-        "s_line": "mean of swt/SWT0 over twice the critical distance (line method)",
+        "s_point": "swt/SWT0 at half the critical distance from the critical point (point method)",
+        "s_line": "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
     }
     assert {found[name].attrs["units"] for name in (*words, "critical_distance")} == {"1"}
     assert found.critical_distance.attrs["symbol"] == r"\ell/a_H"

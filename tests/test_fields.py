@@ -237,7 +237,6 @@ PUBLIC = {
     "y": lambda value: swtstudy.swt_field(0.0, value, 0.0),
     "time": lambda value: swtstudy.stress_field(0.0, 0.0, 0.0, time=[value]),
     "r": swtstudy.slip_map,
-    "critical_distance": swtstudy.nonlocal_swt,
     "stress": lambda value: swtstudy.swt_of_history(value, 0.3),
     "phase": lambda value: swtstudy.inspect_point(phase=f"{value}!" if isinstance(value, str) else value),
 }
@@ -284,15 +283,17 @@ def test_distances_of_a_slip_map_are_checked(r):
 
 def test_nonlocal_values_are_nan_where_s_is_not_finite():
     edge = {"profile": "truncated_paraboloid", "flat_radius": 0.5, "friction": 1.5}
-    dataset = swtstudy.nonlocal_swt(0.1, tangential_amplitude=[0.0, 3.0], normal_amplitude=0.2, **edge)
-    assert np.isfinite(dataset.s_volume.values).tolist() == [[True], [False]]
+    dataset = swtstudy.solve(
+        critical_distance=0.1, tangential_amplitude=[0.0, 3.0], normal_amplitude=0.2, **edge
+    )
+    assert np.isfinite(dataset.s_volume.values).tolist() == [True, False]
     assert np.isnan(dataset.s_point.sel(tangential_amplitude=3.0)).all()
 
 
 def test_nonlocal_values_of_several_profiles_at_once():
     at = {"critical_distance": 0.05, "rtol": 1e-2}
-    both = swtstudy.nonlocal_swt(profile=["paraboloid", "rounded_punch"], flat_radius=0.5, **at)
-    punch = swtstudy.nonlocal_swt(profile=["rounded_punch"], flat_radius=0.5, **at)
+    both = swtstudy.solve(profile=["paraboloid", "rounded_punch"], flat_radius=0.5, **at)
+    punch = swtstudy.solve(profile=["rounded_punch"], flat_radius=0.5, **at)
     assert both.s_volume.sel(profile="rounded_punch").item() == pytest.approx(punch.s_volume.item())
     with pytest.raises(ValueError, match=r"flat_radius: found .*, which no profile here has"):
         swtstudy.slip_map(0.5, flat_radius=0.5)
@@ -309,14 +310,16 @@ def test_waves_too_short_to_follow_are_left_out_of_fields_too():
 
 def test_nonlocal_values_of_one_point():
     """All parameters single values: the same numbers as along an axis, without its dimension."""
-    one = swtstudy.nonlocal_swt(0.05)
-    assert one.s_volume.dims == ("critical_distance",)
-    for name, values in swtstudy.nonlocal_swt(0.05, friction=[0.3]).squeeze("friction").items():
+    one = swtstudy.solve(critical_distance=0.05)
+    assert one.s_volume.dims == ()
+    assert one.s_line.dims == ("direction",)
+    along = swtstudy.solve(critical_distance=[0.05], friction=[0.3])
+    for name, values in along.squeeze(["friction", "critical_distance"]).items():
         np.testing.assert_array_equal(one[name], values)
 
 
 def test_nonlocal_values_tend_to_s():
-    dataset = swtstudy.nonlocal_swt([1e-8, 0.05], friction=[0.4])
+    dataset = swtstudy.solve(critical_distance=[1e-8, 0.05], friction=[0.4])
     assert dataset.s_volume.dims == ("friction", "critical_distance")
     assert dataset.s_line.dims == ("friction", "critical_distance", "direction")
     for name in ("s_volume", "s_point", "s_line"):
@@ -326,7 +329,7 @@ def test_nonlocal_values_tend_to_s():
         assert (values.diff("critical_distance") < 0).all()
     for wrong in (0.0, np.ma.masked_equal([0.1, 0.2], 0.2)):
         with pytest.raises(ValueError, match="critical_distance"):
-            swtstudy.nonlocal_swt(wrong)
+            swtstudy.solve(critical_distance=wrong)
 
 
 def one_point(**changes):
@@ -374,7 +377,7 @@ def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
     """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
     monkeypatch.setattr(swt_module, "_STEPS", 10)
     distance = 0.15
-    found = swtstudy.nonlocal_swt(distance, **parameters).squeeze("critical_distance")
+    found = swtstudy.solve(critical_distance=distance, **parameters)
     x, angle = float(found.critical_x), np.radians(float(found.critical_angle))
     assert abs(angle) > 0.05
     # Simpson's rule in the root of the distance, in which swt is smooth.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from scenes import points
 
@@ -159,3 +160,37 @@ def test_a_plane_that_moves_with_the_instants_of_its_extremes(rtol):
     found = solve_points(points("paraboloid", *values, 4.573917575870801, 1, 2), rtol)
     assert found.s[0] == pytest.approx(0.11232858, rel=max(rtol, 2e-7))
     assert abs(found.s[0] - 0.11232858) <= found.s_error[0]
+
+
+def test_a_maximum_beside_a_cusp_that_is_almost_as_high():
+    # It shows in the first round, in which the search stays at the cusp; the next one no longer sees as far.
+    # The value is the largest of all planes 0.001° apart at 600 steps to a stretch, at seven positions.
+    load = 0.22177930939779883, 0.3959710877076259, 0.336867339199554, 0.3044249521787499, 4.382105344563407
+    found = solve_points(points("rounded_punch", *load, 3, 2, flat_radius=0.7273683233397951), 1e-6)
+    assert found.s[0] == pytest.approx(0.09683958515, rel=1e-7)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-5])
+def test_two_planes_at_one_cusp_of_which_a_search_from_its_neighbour_brings_the_higher(rtol):
+    # The search around the cusp itself follows the other plane, 0.8° apart and 3e-4 lower. The value is the
+    # largest of all planes 0.001° apart at 300 steps to a stretch, there.
+    load = 0.5, 1.4538194680015437, 3.162066877907507e-05, 0.0018804518037344306, 5.497787143782138, 3, 4
+    lengths = {"waviness_amplitude": 0.00036937652528890654, "wavelength": 27.35474980691395}
+    found = solve_points(points("wavy_paraboloid", *load, **lengths), rtol)
+    assert found.s[0] == pytest.approx(0.00645426607, rel=1e-6)
+
+
+def test_edges_that_arrive_at_a_position_after_many_roundings_of_the_instant():
+    # Pressure alone, ν = 0: Hertz's radial stress, compressed most in the deepest contact, pulled as the edge
+    # passes.
+    amplitude = 1.0814068591891146
+
+    def stress(r, a):
+        rest = (1.0 - (r / a) ** 2) ** 0.5
+        return 2.0 * a / math.pi * ((a / r) ** 2 * (1.0 - rest**3) / 3.0 - rest)
+
+    r, radius = np.linspace(1.11, 1.112, 2001), math.sqrt(1.0 + amplitude)
+    pull = 2.0 * r / (3.0 * math.pi)
+    expected = np.max(0.5 * pull * (pull - stress(r, radius)))
+    found = solve_points(points("paraboloid", 0.0, 0.1, amplitude, 0.0, 0.25 * math.pi, 1, 8), 1e-6)
+    assert found.s[0] == pytest.approx(expected, rel=2e-8)

@@ -25,14 +25,17 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
+from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.stress import work
-from swtstudy.quantities import QUANTITIES, attributes_of, variables_of
+from swtstudy.quantities import NAMED, NONLOCAL, QUANTITIES, Request, attributes_of
+from swtstudy.records.solutions import blank
 from swtstudy.runner import chunk
 from swtstudy.runner.run import Stopped
 
-EVERY = tuple(QUANTITIES)
+EVERY = tuple(NAMED)
+VARIABLES = tuple(Request(EVERY).variables)
 
 
 def study(more: str = "", axes: str = "phase = [0.5, 1.0, 2.0, 4.0]", quantities: tuple[str, ...] = ()):
@@ -40,15 +43,21 @@ def study(more: str = "", axes: str = "phase = [0.5, 1.0, 2.0, 4.0]", quantities
     return Study.from_text(f'title = "t"\nrtol = 1e-3\n{asked}{more}[axes]\n{axes}\n')
 
 
+def computed(points, names):
+    """Quantities that need no solution."""
+    return quantities.quantities_of(points, names, blank(len(points)))
+
+
 def test_the_table_is_complete() -> None:
+    assert all(callable(getattr(work, row.function)) for row in NAMED.values())
+    assert all(row.function in NonlocalSwt.__annotations__ for row in NONLOCAL.values())
     for row in QUANTITIES.values():
-        assert callable(getattr(work, row.function))
         assert len(row.meaning) <= 30
         for name in row.variables:
             attributes = attributes_of(name)
             assert {"long_name", "comment", "units", "symbol"} <= attributes.keys()
             for other in attributes.get("ancillary_variables", "").split():
-                assert other in variables_of([row.name])
+                assert other in row.variables
 
 
 def test_under_a_constant_normal_load_they_are_those_of_cattaneo_and_mindlin() -> None:
@@ -76,8 +85,16 @@ def test_under_a_prescribed_force_they_are_those_of_the_displacement_that_belong
         np.testing.assert_allclose(found[name], own[name], rtol=1e-6)
     lost = swtstudy.solve(tangential_force_amplitude=1.1, **asked)
     assert lost.regime.attrs["flag_meanings"].split()[int(lost.regime)] == "no_equilibrium"
-    for name in variables_of(EVERY):
+    for name in VARIABLES:
         assert np.isnan(lost[name])
+
+
+def test_a_loop_on_a_line_has_those_of_the_harmonic_load() -> None:
+    line = swtstudy.LoadPath("line", [[0, 1], [0, -1]])
+    found = swtstudy.solve(load=line, tangential_amplitude=0.6, quantities=EVERY, rtol=1e-2)
+    harmonic = swtstudy.solve(normal_amplitude=0, tangential_amplitude=0.6, quantities=EVERY, rtol=1e-2)
+    for name in EVERY:
+        assert float(found[name]) == pytest.approx(float(harmonic[name]), rel=1e-6)
 
 
 def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple[float, float, float]:
@@ -109,7 +126,7 @@ def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple
 @pytest.mark.parametrize("profile", PROFILE_NAMES)
 def test_they_are_those_of_marched_springs(profile: str) -> None:
     points = random_points(41, 3, profile, largest_term=3)
-    found = quantities.quantities_of(points, EVERY)
+    found = computed(points, EVERY)
     for index in range(3):
         work_done, ratio, largest = marched(points, index)
         assert found["dissipation"][index] == pytest.approx(work_done, rel=3e-3, abs=3e-6)
@@ -120,11 +137,11 @@ def test_they_are_those_of_marched_springs(profile: str) -> None:
 @pytest.mark.parametrize("profile", PROFILE_NAMES)
 def test_errors_are_honest(profile: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(42, 10, profile)
-    found = quantities.quantities_of(points, ["dissipation", "force_ratio"])
+    found = computed(points, ["dissipation", "force_ratio"])
     monkeypatch.setattr(work, "NODES", 32)
     monkeypatch.setattr(work, "TOLERANCE", 3e-7)
     monkeypatch.setattr(work, "SAMPLES", 100)
-    finer = quantities.quantities_of(points, ["dissipation", "force_ratio"])
+    finer = computed(points, ["dissipation", "force_ratio"])
     error = np.abs(found["dissipation"] - finer["dissipation"])
     assert (error <= found["dissipation_error"]).all()
     assert (found["dissipation_error"] <= 1.1e-5 * finer["dissipation"] + 1e-12).all()
@@ -133,10 +150,10 @@ def test_errors_are_honest(profile: str, monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_they_do_not_depend_on_what_is_computed_together(monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(43, 30, "rounded_punch")
-    whole = quantities.quantities_of(points, EVERY)
+    whole = computed(points, EVERY)
     monkeypatch.setattr(work, "LARGEST_SIZE", 5_000)
     for part in (np.arange(7), np.array([29, 3])):
-        for name, values in quantities.quantities_of(points.take(part), EVERY).items():
+        for name, values in computed(points.take(part), EVERY).items():
             np.testing.assert_allclose(values, whole[name][part], rtol=1e-9, atol=1e-14)
 
 
@@ -145,7 +162,7 @@ def test_mirrored_points_have_the_same_and_are_computed_once() -> None:
     found = swtstudy.solve(phase=phase, quantities=EVERY, rtol=1e-2)
     assert found.critical_x[0] == -found.critical_x[1]
     # Computed as given, not as their canonical point.
-    own = quantities.quantities_of(batch(phase=phase), EVERY)
+    own = computed(batch(phase=phase), EVERY)
     for name in EVERY:
         assert found[name].values[0] == pytest.approx(found[name].values[1], rel=0, nan_ok=True)
         np.testing.assert_allclose(own[name], found[name], rtol=1e-6)
@@ -163,7 +180,7 @@ def test_a_study_without_them_neither_computes_nor_stores_any(tmp_path: Path, mo
 
     monkeypatch.setattr(quantities, "quantities_of", never)
     found = run(study(), tmp_path / "a.nc", workers=1)
-    assert not {*found.data_vars} & {*variables_of(EVERY)}
+    assert not {*found.data_vars} & {*VARIABLES}
     assert "quantities" not in found.attrs["runs"]
 
 
@@ -174,7 +191,7 @@ def test_an_archive_gets_what_it_lacks_and_keeps_s(tmp_path: Path) -> None:
     more = run(study(quantities=("dissipation",)), path, workers=1, solver=never)
     assert never.points == 0
     xr.testing.assert_equal(more[[*plain.data_vars]].drop_vars("run"), plain.drop_vars("run"))
-    assert "0 of 4 distinct points computed, and dissipation of 4 others" in more.attrs["history"]
+    assert "0 of 4 distinct points computed, and quantities that 4 others lacked" in more.attrs["history"]
     both = run(study(quantities=("stick_radius", "dissipation")), path, workers=1, solver=never)
     at_once = swtstudy.solve(phase=both.phase.values, rtol=1e-3, quantities=EVERY)
     for name in ("dissipation", "dissipation_error", "stick_radius"):
@@ -193,9 +210,9 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
     run(study(axes="phase = [0.5, 1.0]", quantities=asked), path, workers=1)
     counted: list[int] = []
 
-    def counting(points, names):
+    def counting(points, items, solution):
         counted.append(len(points))
-        return quantities_of(points, names)
+        return quantities_of(points, items, solution)
 
     quantities_of = quantities.quantities_of
     monkeypatch.setattr(quantities, "quantities_of", counting)
@@ -220,11 +237,11 @@ def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch)
     whole = quantities.quantities_of
     counted = [0]
 
-    def stopping(points, names):
+    def stopping(points, items, solution):
         if counted[0] >= 20:
             raise KeyboardInterrupt
         counted[0] += len(points)
-        return whole(points, names)
+        return whole(points, items, solution)
 
     monkeypatch.setattr(quantities, "quantities_of", stopping)
     asked = study(long, axes, ("dissipation",))
@@ -260,7 +277,7 @@ def test_a_killed_run_goes_on_with_its_quantities(tmp_path: Path) -> None:
     assert np.isfinite(half.dissipation.values[half.status.values == 0]).all()
     done = run(Study.from_toml(file), path, workers=1)
     direct = swtstudy.solve(phase=done.phase.values[::50], friction=[0.3], rtol=1e-3, quantities=EVERY)
-    for name in variables_of(EVERY):
+    for name in VARIABLES:
         np.testing.assert_allclose(
             done[name].sel(friction=0.3)[::50], direct[name].isel(friction=0), 1e-9, 1e-14
         )
@@ -271,10 +288,10 @@ def test_a_point_at_which_one_fails_is_told_and_keeps_its_s(tmp_path: Path, monk
     plain = run(study(), path, workers=1)
     whole = quantities.quantities_of
 
-    def failing(points, names):
+    def failing(points, items, solution):
         if np.isclose(points.phase, 1.0).any():
             raise ArithmeticError("an injected failure")
-        return whole(points, names)
+        return whole(points, items, solution)
 
     monkeypatch.setattr(quantities, "quantities_of", failing)
     found = run(study(quantities=("dissipation",)), path, workers=1)
@@ -296,7 +313,7 @@ def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) ->
         run(study(axes=f"phase = [{phase}]", quantities=asked), tmp_path / f"{name}.nc", workers=1)
     both = merge([tmp_path / "a.nc", tmp_path / "b.nc"])
     assert np.isfinite(both.dissipation).all()
-    assert Study.from_text(both.attrs["study"]).quantities == EVERY[:1]
+    assert Study.from_text(both.attrs["study"]).asked.names == EVERY[:1]
     with pytest.raises(GapsError, match=r"dissipation is known of some points .* not of 1 others"):
         merge([tmp_path / "a.nc", tmp_path / "c.nc"])
     sparse = merge([tmp_path / "a.nc", tmp_path / "c.nc"], sparse=True)
@@ -393,7 +410,140 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
 
 def test_a_worker_that_dies_gives_up_quantities_too() -> None:
     table = np.zeros((1, 12))
-    lost = chunk.Chunk(np.arange(1), table, (1,), chunk.Asked(("dissipation",)))
+    lost = chunk.Chunk(np.arange(1), table, (1,), {}, chunk.Asked(("dissipation",)))
     result = chunk.given_up(lost, "gone")
     assert result.failed.all()
     assert np.isnan(result.quantities["dissipation_error"]).all()
+
+
+NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
+
+
+def test_critical_distances_are_an_axis_of_the_quantities_alone() -> None:
+    found = swtstudy.solve(phase=[0.5, 1.0], critical_distance=["1/20", 0.2], quantities=EVERY[:1], rtol=1e-3)
+    assert found.s.dims == found.dissipation.dims == ("phase",)
+    assert found.s_volume.dims == ("phase", "critical_distance")
+    assert found.s_line.dims == found.s_line_error.dims == ("phase", "critical_distance", "direction")
+    assert found.critical_distance.values.tolist() == [0.05, 0.2]
+    assert tuple(found.direction.values) == DIRECTIONS
+    one = swtstudy.solve(phase=1.0, critical_distance=0.2, rtol=1e-3)
+    for name, dims in (("s_volume", ()), ("s_point", ("direction",)), ("s_line", ("direction",))):
+        assert one[name].dims == dims
+        there = found.isel(phase=1, critical_distance=1)
+        assert (abs(one[name] - there[name]) <= one[f"{name}_error"] + there[f"{name}_error"]).all()
+        assert (found[name].isel(critical_distance=1) < found[name].isel(critical_distance=0)).all()
+        assert (found[name] < found.s).all()
+    assert one.critical_distance.item() == 0.2
+
+
+def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch) -> None:
+    def known(scene, position, angle, distance):
+        volume = np.abs(position)[:, None] * distance
+        both = np.stack([volume + 1.0, volume + 2.0], axis=-1)
+        return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1)
+
+    monkeypatch.setattr(quantities, "nonlocal_swt", known)
+    found = swtstudy.solve(phase=[0.5, 1.0, 0.5 + np.pi], critical_distance=[0.2, 0.05], rtol=1e-2)
+    volume = abs(found.critical_x.drop_attrs()) * found.critical_distance
+
+    def check(name: str, expected: xr.DataArray, **place: str) -> None:
+        values = found[name].sel(place, drop=True)
+        np.testing.assert_allclose(values, expected.transpose(*values.dims), rtol=1e-12)
+
+    check("s_volume", volume)
+    check("s_volume_error", volume + 0.1)
+    for name, shift in (("s_point", 0.0), ("s_line", 10.0)):
+        for number, direction in enumerate(DIRECTIONS, start=1):
+            check(name, volume + number + shift, direction=direction)
+            check(f"{name}_error", volume + number + shift + 0.1, direction=direction)
+
+
+def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path, monkeypatch) -> None:
+    path = tmp_path / "a.nc"
+    few = run(study(axes=NEAR.format("[0.05]")), path, workers=1)
+    asked: list[float] = []
+
+    def counting(scene, position, angle, distance):
+        asked.extend(distance.tolist())
+        return whole(scene, position, angle, distance)
+
+    whole = quantities.nonlocal_swt
+    monkeypatch.setattr(quantities, "nonlocal_swt", counting)
+    never = stand_in.Counting()
+    # Written otherwise, the old distance is still the old one.
+    more = run(study(axes=NEAR.format('["1/20", 0.1]')), path, workers=1, solver=never)
+    assert never.points == 0
+    assert set(asked) == {0.1}
+    np.testing.assert_array_equal(more.s_line.isel(critical_distance=0), few.s_line.isel(critical_distance=0))
+    xr.testing.assert_identical(open_results(path), more)
+    one = run(study("[fixed]\ncritical_distance = 0.1\n", "phase = [2.0]"), tmp_path / "b.nc", workers=1)
+    assert one.s_volume.dims == ("phase",)
+    merged = merge([path, tmp_path / "b.nc"], sparse=True)
+    assert merged.critical_distance.values.tolist() == [0.05, 0.1]
+    assert np.isnan(merged.s_volume.values).tolist() == [[False, False], [False, False], [True, False]]
+    save(merged, tmp_path / "merged.nc")
+    asked.clear()
+    done = run(Study.from_text(merged.attrs["study"]), tmp_path / "merged.nc", workers=1, solver=never)
+    assert set(asked) == {0.05}
+    assert np.isfinite(done.s_line).all()
+    told = CliRunner().invoke(main, ["info", str(tmp_path / "merged.nc")]).output
+    assert "distances      0.05, 0.1" in told
+
+
+def test_figures_over_critical_distances(tmp_path: Path) -> None:
+    figure = '[figure]\nx = "critical_distance"\nhue = "phase"\ny = "s_volume"\n'
+    axes = "phase = [0.5, 1.0]\ncritical_distance = { start = 0.01, stop = 1, num = 3, spacing = 'log' }"
+    found = run(Study.from_text(study(axes=axes).text + figure), tmp_path / "a.nc", workers=1)
+    (panel,) = found.swt.figure().axes
+    assert panel.get_xscale() == "log"
+    assert "ell" in panel.get_xlabel()
+    np.testing.assert_allclose(panel.lines[1].get_ydata(), found.s_volume.isel(phase=1))
+    along = found.swt.slice(critical_distance=0.1).swt.panels(x="phase", hue="direction", y="s_line")
+    assert [line.get_label() for line in along.axes[0].lines] == ["depth", "critical plane"]
+    assert len(found.swt.to_table()) == 2 * 3 * 2
+    for change, words in (
+        (('"s_volume"', '"s"'), "'critical_distance', not an axis of s in this study"),
+        (('"s_volume"', '"s_line"'), "no place for the axis direction"),
+        (
+            ('y = "s_volume"', 'y = "s_volume"\nregimes = true'),
+            r"figure\.regimes: found true over crit",
+        ),
+    ):
+        with pytest.raises(StudyError, match=words):
+            Study.from_text(study(axes=axes).text + figure.replace(*change))
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        (
+            "[fixed]\ncritical_distance = 0",
+            r"fixed\.critical_distance: found 0 \(out of range\)",
+        ),
+        ("[fixed]\ncritical_distance = 'far'", r"critical_distance: found 'far' \(.*\); allowed: a number"),
+        ("[axes]\ncritical_distance = []", r"axes\.critical_distance: found an empty axis"),
+        ("[axes]\ncritical_distance = [0.1, '1/10']", r"distance\[1\]: found '1/10', the same as"),
+        ("[fixed]\ncritical_distance = 0.1\n[axes]\ncritical_distance = [0.1]", "a fixed value and an axis"),
+        ("quantities = ['s_volume']", r"\[0\]: found 's_volume'; allowed: it by giving critical_distance"),
+        ("[fixed]\ncritical_distanse = 0.1", r"did you mean critical_distance\?"),
+    ],
+)
+def test_bad_distances_are_named(entry: str, words: str) -> None:
+    with pytest.raises(StudyError, match=words) as error:
+        Study.from_text(f'title = "t"\n{entry}\n')
+    assert len(error.value.mistakes) == 1
+
+
+def test_one_point_has_no_critical_distance() -> None:
+    with pytest.raises(StudyError, match="critical_distance: found unknown parameter"):
+        swtstudy.inspect_point(critical_distance=0.1)
+    with pytest.raises(StudyError, match=r"critical_distance: found .*; allowed: a single value or"):
+        swtstudy.solve(critical_distance=[[0.1]])
+
+
+def test_the_command_line_prints_a_column_for_each_distance() -> None:
+    answer = CliRunner().invoke(main, ["solve", "--critical-distance", "0.05,0.2", "--rtol", "1e-2"])
+    header, row = (line.split("\t") for line in answer.output.splitlines())
+    values = dict(zip(header, row, strict=True))
+    assert float(values["s_volume[0.05]"]) > float(values["s_volume[0.2]"]) > 0.0
+    assert {"s_point[0.05,depth]", "s_line[0.2,critical_plane]"} <= values.keys()

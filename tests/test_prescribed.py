@@ -223,7 +223,7 @@ def test_a_real_contact_takes_forces() -> None:
 def test_rounding_does_not_make_two_points_of_one() -> None:
     table, _ = canonical_points(
         {**{n: 0.5 for n in ("normal_amplitude", "tangential_amplitude", "friction", "poisson_ratio")},
-         **{n: 0.0 for n in ("flat_radius", "waviness_amplitude", "wavelength", "profile")},
+         **{n: 0.0 for n in ("flat_radius", "waviness_amplitude", "wavelength", "exponent", "profile")},
          "control": 3.0, "load": 0.0, "p": 1.0, "q": 1.0,
          "phase": np.array([0.25, 0.25 + np.pi, 0.25 - np.pi])}
     )  # fmt: skip

@@ -49,7 +49,7 @@ def test_every_key_is_explained():
         for key, entry in table["properties"].items():
             assert entry["description"], key
     for name in ("fixed", "axes"):
-        assert list(schema["properties"][name]["properties"]) == list(PARAMETERS)
+        assert list(schema["properties"][name]["properties"]) == [*PARAMETERS, "critical_distance"]
 
 
 def test_three_mistakes(validator):
@@ -68,7 +68,7 @@ def test_three_mistakes(validator):
         "three.toml: axes.phase.number: found unknown key 'number'; allowed: "
         "did you mean num? known: start, stop, num, spacing",
         "three.toml: fixed.frictoin: found unknown parameter 'frictoin'; allowed: "
-        f"did you mean friction? known: {', '.join(PARAMETERS)}",
+        f"did you mean friction? known: {', '.join([*PARAMETERS, 'critical_distance'])}",
         "three.toml: fixed.poisson_ratio: found 0.7 (out of range); allowed: a number in [0, 0.5]",
     ]
 

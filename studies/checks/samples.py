@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from accuracy import points_at_ends, random_points
 
-from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import body, body_maximum, nonlocal_swt
+from swtstudy.mechanics.body import body_maximum, nonlocal_swt
 from swtstudy.mechanics.stress.scene import scene_of
 
 #: What each kind of sample takes points from: where, the profile, and one ratio p/q, so that they are solved
@@ -25,6 +24,8 @@ SOURCES = {
     "body": [(random_points, "paraboloid", (1, 2)), (random_points, "rounded_punch", (2, 1))],
 }
 SEED = 5
+#: ℓ/a_H of the means.
+DISTANCE = np.array([0.1])
 
 
 def solved(kind: str, count: int, rtol: float) -> tuple[np.ndarray, np.ndarray]:
@@ -50,13 +51,11 @@ def _of_line(points: Points, rtol: float, kind: str) -> tuple[np.ndarray, np.nda
 def _of_body(points: Points) -> tuple[np.ndarray, np.ndarray]:
     """swt of bodies over all planes, at the line's critical points, and means about these, shape (4 n,)."""
     found = []
-    critical_x = solve_points(points, 1e-5).critical_x
+    solution = solve_points(points, 1e-5)
+    critical_x = solution.critical_x
     for k in np.flatnonzero(np.isfinite(critical_x)):
         scene, x = scene_of(points.take(np.array([k]))), float(critical_x[k])
         largest, at_line = body_maximum.body_maximum(scene, x)
-        around = body.Body(scene, decisive_nodes(scene, (x, 0.0, 0.0)), 60)
-        distance, down = np.array([0.1]), np.array([0.0, 0.0, 1.0])
-        volume = nonlocal_swt.volume_mean(around, x, distance)
-        line = nonlocal_swt.line_mean(around, x, down, distance)
-        found += [largest.swt, float(at_line.swt), *volume, *line]
+        means = nonlocal_swt.nonlocal_swt(scene, critical_x[[k]], solution.critical_angle[[k]], DISTANCE)
+        found += [largest.swt, float(at_line.swt), means.volume[0, 0], means.line[0, 0, 0]]
     return np.array(found), np.full(len(found), np.inf)

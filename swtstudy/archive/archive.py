@@ -14,7 +14,7 @@ import xarray as xr
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
-from swtstudy.quantities import variables_of
+from swtstudy.quantities import columns_of
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -55,9 +55,9 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
-    arrays |= {name: records.quantity(name)[points.index] for name in variables_of(study.quantities)}
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
-    dataset = label(study.grid, arrays)
+    columns = {name: records.quantity(name)[points.index] for name in columns_of(study.asked.items)}
+    dataset = label(study.grid, arrays, study.asked, columns)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"

@@ -10,7 +10,7 @@ from typing import Any, TypedDict
 from swtstudy.grid.defined import kinds
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.named import Named
-from swtstudy.quantities import QUANTITIES, variables_of
+from swtstudy.quantities import every_variable, is_item
 from swtstudy.records.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
@@ -68,7 +68,7 @@ def read_figure(text: object) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        if reference(y) is None and y.strip() not in (*VARIABLES, *variables_of(QUANTITIES)):
+        if reference(y) is None and y.strip() not in (*VARIABLES, *every_variable()):
             raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 
@@ -94,7 +94,7 @@ def _run(raw: object) -> Run:
     for item in fields(Run):
         value = raw.get(item.name, item.default)
         if item.name == "quantities":
-            good = isinstance(value, list | tuple) and {*map(str, value)} <= QUANTITIES.keys()
+            good = isinstance(value, list | tuple) and all(map(is_item, value))
         else:
             good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf
         if not good:

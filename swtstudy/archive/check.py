@@ -16,9 +16,10 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES, attributes_of, variables_of
+from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of, every_variable, item_of
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.records.records import COMPUTED, STATES, made_by
+from swtstudy.records.requested import request_of
 
 #: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")
@@ -69,7 +70,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
             yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
     expected = {name: parameter.units for name, parameter in PARAMETERS.items()}
     expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    expected |= {name: attributes_of(name)["units"] for name in variables_of(QUANTITIES)}
+    expected |= {name: attributes_of(name)["units"] for name in every_variable()}
     for name, units in expected.items():
         found = dataset[name].attrs.get("units", units) if name in dataset else units
         if str(found) != units:
@@ -85,27 +86,34 @@ def _unread(name: str, text: object, read: Callable[[object], object]) -> Iterat
 
 def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     asked = _asked(dataset)
-    for name in asked:
+    for name in asked.variables:
         if name not in dataset:
             yield name, "nothing", "a quantity that the attribute runs says is there"
-    names = ["status", "run", *(item.name for item in fields(Solution)), *asked]
-    for name in (name for name in names if name in dataset):
+    own = dict.fromkeys(["status", "run", *(item.name for item in fields(Solution))], ())
+    for name, more in (own | asked.variables).items():
+        if name not in dataset:
+            continue
         variable = dataset[name]
-        if {*variable.dims} != {*dataset.s.dims}:
-            yield name, f"dimensions {variable.dims}", f"those of s, {dataset.s.dims}"
+        if {*variable.dims} != {*dataset.s.dims, *more}:
+            besides = f" and {', '.join(more)}" * bool(more)
+            yield name, f"dimensions {variable.dims}", f"those of s, {dataset.s.dims}{besides}"
         if variable.dtype.kind not in "fiu":
             yield name, f"values of type {variable.dtype}", "numbers"
 
 
-def _asked(dataset: xr.Dataset) -> tuple[str, ...]:
-    """Data variables of the quantities that runs have computed; none if the runs cannot be read."""
+def _asked(dataset: xr.Dataset) -> Request:
+    """The quantities that runs have computed; none if the runs cannot be read."""
     try:
-        return variables_of(made_by(read_runs(dataset.attrs["runs"])))
+        return request_of(dataset, made_by(read_runs(dataset.attrs["runs"])))
     except ValueError:
-        return ()  # reported with the attributes
+        return NOTHING  # reported with the attributes
 
 
 def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    known = {item_of(value) for value in np.atleast_1d(dataset.get(DISTANCE, [])).tolist()}
+    lacking = [item for item in map(item_of, _asked(dataset).distances) if item not in known]
+    if lacking:
+        yield DISTANCE, f"no {', '.join(lacking)}", "those that the attribute runs says are there"
     try:
         grid_of(dataset)
     except StudyError as error:

@@ -13,6 +13,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES, made_by
+from swtstudy.records.requested import request_of
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -37,9 +38,11 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
         elif name in dataset.coords and name not in dataset.dims:
             yield f"  sampled        {name}: {_range_words(name, dataset[name].values)}"
     yield f"  prescribed     {grid_of(dataset).control.name}"
-    asked = made_by(read_runs(attributes["runs"]))
-    if asked:
-        yield f"  quantities     {', '.join(asked)}"
+    asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
+    if asked.names:
+        yield f"  quantities     {', '.join(asked.names)}"
+    if asked.distances:
+        yield f"  distances      {', '.join(f'{value:.4g}' for value in asked.distances)}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"

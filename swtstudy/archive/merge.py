@@ -20,7 +20,8 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.quantities import DISTANCE, Request
 from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
@@ -78,10 +79,11 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
             )
         made += f", {gaps} in none of them"
     merged = matching(points.table, records, records.status != MISSING)
-    quantities = made_by(records.runs)
+    axis = any(DISTANCE in dataset.dims for dataset in datasets)
+    asked = Request.of(made_by(records.runs), axis)
     if not sparse:
-        _refuse_gaps_in_quantities(paths, merged, quantities, grid.definitions)
-    study = _study(paths, datasets, grid, quantities)
+        _refuse_gaps_in_quantities(paths, merged, asked.items, points.definitions)
+    study = _study(paths, datasets, grid, asked)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
@@ -171,18 +173,16 @@ def _distinct(values: list[Value]) -> tuple[Value, ...]:
     return tuple(sorted(keyed.values(), key=as_number))
 
 
-def _study(
-    paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, quantities: tuple[str, ...]
-) -> Study:
+def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, asked: Request) -> Study:
     """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
     if "figure" in datasets[0].attrs:
         layout = read_figure(datasets[0].attrs["figure"])
-        if {name for _, name in layout.roles()} == set(grid.dims):
+        if {name for _, name in layout.roles()} - {*QUANTITY_AXES} == set(grid.dims):
             figure = layout
-    text = to_toml(" + ".join(titles), rtol, grid, figure, quantities)
+    text = to_toml(" + ".join(titles), rtol, grid, figure, asked)
     try:
         return Study.from_text(text, "the merged study")
     except ValueError as error:

@@ -19,9 +19,9 @@ from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
 from swtstudy.parameters import PAIRS, PARAMETERS, Control, Parameter
-from swtstudy.quantities import variables_of
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.records import FAILED, Records, made_by
+from swtstudy.records.requested import columns_from
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -119,10 +119,7 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     }
     status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
     runs = read_runs(dataset.attrs["runs"])
-    quantities = {
-        name: dataset[name].transpose(*dataset.s.dims).values.reshape(-1)[at]
-        for name in variables_of(made_by(runs))
-    }
+    quantities = columns_from(dataset, made_by(runs), at)
     # Mirroring a second time gives the canonical point back.
     solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
     failures = read_failures(dataset.status.attrs["failures"])

@@ -57,8 +57,8 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
         f"  already computed   {distinct - todo}",
         f"  to be computed     {todo} ({shared} of them share another's contact solution)",
     ]
-    if study.quantities:
-        lines.insert(-3, f"  quantities         {', '.join(study.quantities)}")
+    if study.asked.items:
+        lines.insert(-3, f"  quantities         {', '.join(study.asked.items)}")
     if work.incomplete.any():
         lines.append(f"  without s          {int(work.incomplete.sum())} of them lack quantities alone")
     if work.outdated:

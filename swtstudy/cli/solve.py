@@ -4,15 +4,21 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from swtstudy.accuracy import DEFAULT_RTOL
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import SEVERAL
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES, variables_of
+from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.quantities import DISTANCE, NAMED
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from numpy.typing import NDArray
+
+_DISTANCE = QUANTITY_AXES[DISTANCE]
 
 
 def _short(value: object) -> str:
@@ -42,7 +48,12 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 )
 @with_parameters(SEVERAL)
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
-@click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(QUANTITIES)}.")
+@click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
+@click.option(
+    f"--{DISTANCE.replace('_', '-')}",
+    metavar=SEVERAL,
+    help=f"{_DISTANCE.meaning}, which are further columns; {_DISTANCE.allowed}",
+)
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
 
@@ -57,9 +68,9 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     dims = list(map(str, dataset.s.dims))
     places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
     columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
-    more = variables_of(asked)
+    more = _more(dataset, columns)
     click.echo("\t".join([*dims, *columns, *more]))
-    rows = zip(*(dataset[name].values.ravel() for name in (*columns, *more)), strict=True)
+    rows = zip(*(dataset[name].values.ravel() for name in columns), *more.values(), strict=True)
     for place, (s, error, surface, x, angle, regime, *others) in zip(places, rows, strict=True):
         numbers = (
             f"{s:.6f}",
@@ -71,6 +82,18 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
             *(f"{value:.6g}" for value in others),
         )
         click.echo("\t".join([*map(_short, place), *numbers]))
+
+
+def _more(dataset: xr.Dataset, columns: tuple[str, ...]) -> dict[str, NDArray]:
+    """Further columns: a quantity with dimensions of its own has one for each place in them."""
+    found = {}
+    for name in (str(name) for name in dataset.data_vars if name not in columns):
+        own = [str(dim) for dim in dataset[name].dims if dim not in dataset.s.dims]
+        values = dataset[name].transpose(*dataset.s.dims, *own).values.reshape(dataset.s.size, -1)
+        places = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in own))
+        for place, column in zip(places, values.T, strict=True):
+            found[f"{name}[{','.join(place)}]" if own else name] = column
+    return found
 
 
 def _values(text: str) -> str | list[str]:

@@ -71,9 +71,9 @@ class FatigueConstants:
 
         The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
-        averages over a volume, or from a critical distance (`swtstudy.nonlocal_swt`), whose size depends on
-        the material. The SWT parameter also has one fixed sensitivity to the mean stress, about 0.29, which
-        a material need not have.
+        averages over a volume, or from a critical distance (`swtstudy.solve` with critical_distance), whose
+        size depends on the material. The SWT parameter also has one fixed sensitivity to the mean stress,
+        about 0.29, which a material need not have.
 
         Parameters
         ----------

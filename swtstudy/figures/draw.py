@@ -14,7 +14,7 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.results.quantity import quantity
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import FigureLayout
@@ -95,7 +95,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
             found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
             continue
         sizes = {str(name): size for name, size in values.sizes.items()}
-        strange = [name for name in sizes if name not in (*PARAMETERS, SAMPLE)]
+        strange = [name for name in sizes if name not in (*AXES, SAMPLE)]
         if strange or values.dtype.kind not in "fiub":
             what = f"values over {', '.join(strange)}" if strange else f"values of type {values.dtype}"
             found.append(Mistake("figure.y", f"{y!r} with {what}", "numbers over parameters"))

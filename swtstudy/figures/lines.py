@@ -8,7 +8,7 @@ import numpy as np
 
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 from swtstudy.wording import place_words, tick_in_pi
@@ -78,5 +78,5 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) ->
         ratio = float(values.max()) / float(values.where(values > 0.0).min())
         if not words and float(values.min()) >= 0.0 and ratio > LOG_RATIO:
             axes.set_yscale("log")
-    if PARAMETERS[name].units == "rad":
+    if AXES[name].units == "rad":
         tick_in_pi(axes.xaxis, float(x.min()), float(x.max()))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from swtstudy.grid.values import as_number
-from swtstudy.quantities import QUANTITIES, attributes_of, variables_of
+from swtstudy.quantities import attributes_of, every_variable
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
 from swtstudy.wording import place_words
@@ -34,7 +34,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
         return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
-    known = {**ATTRIBUTES, **{name: attributes_of(name) for name in variables_of(QUANTITIES)}}
+    known = {**ATTRIBUTES, **{name: attributes_of(name) for name in every_variable()}}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"

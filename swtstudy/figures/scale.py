@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.regimes import in_equal_ratios
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.wording import axis_words, tick_in_pi
 
 if TYPE_CHECKING:
@@ -39,5 +39,5 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
 def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, name: str) -> None:
     """Add the colour bar of a parameter beside all panels."""
     bar = figure.colorbar(scale, ax=axes, label=axis_words(name), pad=0.02)
-    if PARAMETERS[name].units == "rad":
+    if AXES[name].units == "rad":
         tick_in_pi(bar.ax.yaxis, *bar.ax.get_ylim())

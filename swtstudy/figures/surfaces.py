@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.quantity_words import flag_words
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.results.extrema import extrema
 from swtstudy.wording import tick_in_pi, value_words
 
@@ -129,7 +129,7 @@ def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
 
 def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
     for axis, name in zip((axes.yaxis, axes.xaxis), map(str, surface.dims), strict=True):
-        if PARAMETERS[name].units == "rad":
+        if AXES[name].units == "rad":
             tick_in_pi(axis, float(surface[name].min()), float(surface[name].max()))
 
 
@@ -138,7 +138,7 @@ def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> No
     low, high = axes.get_xlim()
     for index in dict.fromkeys(chosen.tolist()):
         value = float(places[index])
-        words = f"{np.degrees(value):.0f}°" if PARAMETERS[x].units == "rad" else f"{value:.3g}"
+        words = f"{np.degrees(value):.0f}°" if AXES[x].units == "rad" else f"{value:.3g}"
         share = (value - low) / (high - low)
         side = "left" if share < 0.04 else "right" if share > 0.96 else "center"
         box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}

@@ -14,10 +14,11 @@ from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
-from swtstudy.grid.values import NOTHING, Value, read_exact, read_value
+from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, PAIRS, PARAMETERS
+from swtstudy.parameters import AXES, BUILT_IN, PAIRS, PARAMETERS
+from swtstudy.quantities import DISTANCE
 
 #: What the user has defined, by parameter and name.
 Known = Mapping[str, Mapping[str, Named]]
@@ -57,7 +58,8 @@ def read_grid(
     source
         Where the input comes from, for messages.
     others
-        Names that are known beside the parameters, and may be meant by an unknown one.
+        Names that are known beside the parameters: they are read elsewhere, and may be meant by an unknown
+        one.
     samples
         Checked values of the sampled parameters; None for those whose mistake is already reported.
     known
@@ -78,7 +80,7 @@ def read_grid(
     good_fixed: dict[str, Value] = {}
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
-        if name not in PARAMETERS:
+        if name not in PARAMETERS and name not in others:
             report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
     samples = samples or {}
     for one, other, words in (
@@ -109,6 +111,20 @@ def read_grid(
     return (None if mistakes else grid), mistakes
 
 
+def read_distances(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+) -> tuple[tuple[float, ...], bool]:
+    """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
+    key, raw = keys(DISTANCE), axes.get(DISTANCE)
+    if raw is not None:
+        return tuple(map(as_number, _read_axis(DISTANCE, raw, key, report, NOTHING_KNOWN))), True
+    single = _read(DISTANCE, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
+    return (() if single is None else (as_number(single),)), False
+
+
 def given_twice(
     names: Iterable[str], keys: Callable[[str], str] = lambda name: name
 ) -> Iterator[tuple[str, str, str]]:
@@ -121,16 +137,16 @@ def given_twice(
 
 def _read(name: str, raw: object, key: str, report: Report, known: Known) -> Value | None:
     try:
-        return read_value(PARAMETERS[name], raw, known.get(name, NOTHING))
+        return read_value(AXES[name], raw, known.get(name, NOTHING))
     except ValueError as error:
         report(key, f"{literal(raw)} ({error})", _allowed(name, raw, known))
         return None
 
 
 def _allowed(name: str, raw: object, known: Known) -> str:
-    if PARAMETERS[name].kind == "name" and isinstance(raw, str):
+    if AXES[name].kind == "name" and isinstance(raw, str):
         return nearest(raw, [*BUILT_IN[name], *known.get(name, ())])
-    return PARAMETERS[name].allowed
+    return AXES[name].allowed
 
 
 def _read_axis(

@@ -6,35 +6,63 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.control.force import unit_half_load
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.points import FloatArray, Points, Solution
 from swtstudy.mechanics.solver import _scenes
 from swtstudy.mechanics.stress import work
-from swtstudy.quantities import QUANTITIES, variables_of
+from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.quantities import NAMED, NONLOCAL, Request, columns_in, columns_of, error_of, item_of
 
 
-def quantities_of(points: Points, names: Sequence[str]) -> dict[str, FloatArray]:
+def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> dict[str, FloatArray]:
     """Quantities of points.
 
     Parameters
     ----------
     points
-        n points of one profile family.
-    names
-        Some of `swtstudy.quantities.QUANTITIES`.
+        n points of one profile family and control.
+    items
+        What is asked, as in `swtstudy.quantities.Request.items`.
+    solution
+        Their solution.
 
     Returns
     -------
     dict
-        By data variable, of shape (n,); NaN where there is no cycle.
+        By `swtstudy.quantities.columns_of`, of shape (n,); NaN where there is no cycle, and the nonlocal
+        ones where there is no critical point.
     """
-    found = {variable: np.full(len(points), np.nan) for variable in variables_of(names)}
+    asked = Request.of(items)
+    found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
     for index, scene in _scenes(points):
         some = points.take(index)
-        unit = unit_half_load(some.profile, some.shape, len(index))
-        for name in names:
-            row = QUANTITIES[name]
-            made = getattr(work, row.function)(scene, unit)
-            for variable, values in zip(row.variables, made if row.has_error else (made,), strict=True):
-                found[variable][index] = values
+        parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
+        if asked.distances:
+            place = solution.critical_x[index], solution.critical_angle[index]
+            parts |= _nonlocal(scene, *place, asked.distances)
+        for column, values in parts.items():
+            found[column][index] = values
+    return found
+
+
+def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str, FloatArray]:
+    found: dict[str, FloatArray] = {}
+    for name in names:
+        row = NAMED[name]
+        made = getattr(work, row.function)(scene, unit)
+        found |= zip(row.variables, made if row.has_error else (made,), strict=True)
+    return found
+
+
+def _nonlocal(
+    scene: Scene, position: FloatArray, angle: FloatArray, distances: Sequence[float]
+) -> dict[str, FloatArray]:
+    made = nonlocal_swt(scene, position, angle, np.array(distances))
+    found: dict[str, FloatArray] = {}
+    for row in NONLOCAL.values():
+        for variable, function in zip(row.variables, (row.function, error_of(row.function)), strict=True):
+            for values, distance in zip(np.moveaxis(getattr(made, function), 1, 0), distances, strict=True):
+                columns = columns_in(row, variable, item_of(distance))
+                found |= zip(columns, values.reshape(len(values), -1).T, strict=True)
     return found

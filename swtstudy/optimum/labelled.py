@@ -11,7 +11,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.optimum.box import Box
 from swtstudy.optimum.least import Least
-from swtstudy.quantities import QUANTITIES
+from swtstudy.quantities import NAMED
 from swtstudy.records.labelled import ATTRIBUTES
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.
 MINIMISED = (
     *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in ("s_error", "run")),
-    *QUANTITIES,
+    *NAMED,
 )
 #: Steps of the neighbourhood, as fractions of a range.
 _STEPS = np.linspace(-0.1, 0.1, 41)

@@ -14,7 +14,7 @@ from swtstudy.optimum.box import read_box
 from swtstudy.optimum.labelled import MINIMISED, dataset_of
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
-from swtstudy.quantities import QUANTITIES
+from swtstudy.quantities import NAMED, Request
 from swtstudy.solving import solve_grid
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def optimise(
         Ranges by name, ``(low, high)``, of parameters that are numbers. Ends may be texts such as "2*pi".
     minimise
         The data variable that is made least, "s" by default; or a quantity of
-        `swtstudy.quantities.QUANTITIES`.
+        `swtstudy.quantities.NAMED`.
     rtol
         Relative accuracy asked of s.
     seed
@@ -81,7 +81,7 @@ def optimise(
         raise StudyError([*error.mistakes, *mistakes]) from None
     if mistakes:
         raise StudyError(mistakes)
-    asked = (minimise,) if minimise in QUANTITIES else ()
+    asked = Request((minimise,) if minimise in NAMED else ())
     solve = partial(solve_grid, rtol=float(rtol), asked=asked)
     objectives = [Objective(box, solve, minimise, sign) for sign in CASES.values()]
     found = {

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -14,7 +16,8 @@ from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.named import Named
 from swtstudy.parameters import CONTROLS, PARAMETERS
-from swtstudy.quantities import attributes_of
+from swtstudy.quantities import NOTHING, Request, attributes_of
+from swtstudy.records import requested
 from swtstudy.records.records import STATES
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -79,7 +82,12 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
 }
 
 
-def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
+def label(
+    grid: Grid,
+    arrays: dict[str, NDArray],
+    asked: Request = NOTHING,
+    columns: Mapping[str, NDArray] = MappingProxyType({}),
+) -> xr.Dataset:
     """The Dataset of a grid.
 
     Parameters
@@ -88,6 +96,10 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
         Names and values of the dimensions.
     arrays
         Data variables by name, each of shape (grid.size,) in C order.
+    asked
+        What was asked beside s.
+    columns
+        Its values by `swtstudy.quantities.columns_of`, each of shape (grid.size,).
 
     Returns
     -------
@@ -108,9 +120,12 @@ def label(grid: Grid, arrays: dict[str, NDArray]) -> xr.Dataset:
             coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {
-        name: (grid.dims, array.reshape(grid.shape), _attributes_of(name)) for name, array in arrays.items()
+        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
     }
-    return xr.Dataset(variables, coordinates)
+    for name, (dims, values) in requested.variables(asked, columns).items():
+        shaped = values.reshape((*grid.shape, *values.shape[1:]))
+        variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
+    return xr.Dataset(variables, coordinates | requested.coordinates(asked))
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:
@@ -131,10 +146,6 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
         "regime": solution.regime,
         "s_surface": solution.s_surface,
     }
-
-
-def _attributes_of(variable: str) -> dict[str, Any]:
-    return dict(ATTRIBUTES[variable]) if variable in ATTRIBUTES else attributes_of(variable)
 
 
 def _values(values: tuple[Value, ...]) -> NDArray:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
-from swtstudy.quantities import variables_of
+from swtstudy.quantities import columns_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
 
@@ -39,7 +39,7 @@ class Run:
     seconds
         Computing time in seconds, summed over all workers.
     quantities
-        What its points have beside s.
+        What its points have beside s, as in `swtstudy.quantities.Request.items`.
     """
 
     solver_version: str
@@ -79,8 +79,8 @@ class Records:
     messages
         Why a point failed, by its index.
     quantities
-        What some of the points have beside s, by data variable, each of shape (n,); a point's run says
-        whether it is known.
+        What some of the points have beside s, by `swtstudy.quantities.columns_of`, each of shape (n,); a
+        point's run says whether it is known.
     """
 
     table: FloatArray
@@ -113,7 +113,7 @@ class Records:
         share = result.seconds / len(self)
         counts = np.bincount(self.run, minlength=len(self.runs))
         runs = tuple(
-            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *result.names})))
+            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *result.items})))
             for run, count in zip(self.runs, counts.tolist(), strict=True)
         )
         status = np.where(result.failed, FAILED, self.status).astype(np.int8)
@@ -153,9 +153,9 @@ class Records:
         worst = COMPUTED if retry_failed else FAILED
         return np.array([*good, False])[self.run] & (self.status <= worst)
 
-    def quantity(self, variable: str) -> FloatArray:
-        """Values of a quantity's data variable, NaN where it is not known, shape (n,)."""
-        return self.quantities.get(variable, np.full(len(self), np.nan))
+    def quantity(self, column: str) -> FloatArray:
+        """A column of the quantities, NaN where it is not known, shape (n,)."""
+        return self.quantities.get(column, np.full(len(self), np.nan))
 
     def lacking(self, names: Sequence[str]) -> NDArray[np.bool_]:
         """Which quantities are not known of which computed points, shape (n, len(names))."""
@@ -168,7 +168,7 @@ class Records:
         """These records with no quantities but the named ones."""
         if {*made_by(self.runs)} <= {*names}:
             return self
-        kept = {name: self.quantities[name] for name in variables_of(names) if name in self.quantities}
+        kept = {name: self.quantities[name] for name in columns_of(names) if name in self.quantities}
         runs = [
             replace(run, quantities=tuple(name for name in run.quantities if name in names))
             for run in self.runs
@@ -194,7 +194,7 @@ class Records:
 
 
 def made_by(runs: Iterable[Run]) -> tuple[str, ...]:
-    """Names of the quantities that some of the runs have computed, in alphabetical order."""
+    """Quantities that some of the runs have computed, in alphabetical order."""
     return tuple(sorted({name for run in runs for name in run.quantities}))
 
 

@@ -28,10 +28,10 @@ class Result:
         Time that the worker took.
     solver_version
         Version of the solver on the worker.
-    names
-        Names of the quantities that were asked beside s.
+    items
+        The quantities that were asked beside s, as in `swtstudy.quantities.Request.items`.
     quantities
-        Their values by data variable, each of shape (n,); NaN for points that failed.
+        Their values by `swtstudy.quantities.columns_of`, each of shape (n,); NaN for points that failed.
     """
 
     rows: IntArray
@@ -40,7 +40,7 @@ class Result:
     messages: dict[int, str]
     seconds: float
     solver_version: str
-    names: tuple[str, ...] = ()
+    items: tuple[str, ...] = ()
     quantities: dict[str, FloatArray] = field(default_factory=dict)
 
     def __len__(self) -> int:

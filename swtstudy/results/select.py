@@ -11,7 +11,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.nearest import TOLERANCE, index_of
 from swtstudy.grid.values import read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import AXES
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
@@ -50,8 +50,8 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
     chosen: dict[str, Any] = {}
     rows = np.ones(dataset.sizes.get(SAMPLE, 0), bool)
     for name, raw in places.items():
-        if name not in dataset.coords or name not in PARAMETERS:
-            known = [str(known) for known in dataset.coords if known in PARAMETERS]
+        if name not in dataset.coords or name not in AXES:
+            known = [str(known) for known in dataset.coords if known in AXES]
             mistakes.append(Mistake(name, "not a parameter of these results", nearest(name, known)))
             continue
         several = isinstance(raw, list | tuple | range | np.ndarray) and np.ndim(raw) > 0
@@ -81,12 +81,10 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mi
     name = str(there.name)
     try:
         # A name is known by its place in the results, whatever it stood for.
-        named = (
-            PARAMETERS[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
-        )
-        value = str(raw) if named else read_value(PARAMETERS[name], raw)
+        named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
+        value = str(raw) if named else read_value(AXES[name], raw)
     except ValueError as error:
-        mistakes.append(Mistake(name, f"{literal(raw)} ({error})", PARAMETERS[name].allowed))
+        mistakes.append(Mistake(name, f"{literal(raw)} ({error})", AXES[name].allowed))
         return 0
     known = np.atleast_1d(there.values).tolist()
     index = index_of(value, known, tolerance)

@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
-from swtstudy.quantities import variables_of
+from swtstudy.quantities import columns_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
 
@@ -26,7 +26,7 @@ class Asked:
     Attributes
     ----------
     quantities
-        Names of the quantities.
+        As in `swtstudy.quantities.Request.items`.
     known
         The solution of the points, if that is known and the quantities alone are asked.
     """
@@ -104,11 +104,11 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     messages = {start: message for start, message in zip(starts, words, strict=False) if message}
     failed = np.zeros(len(chunk), bool)
     failed[list(messages)] = True
-    names = chunk.asked.quantities
-    values = {name: np.concatenate([part[name] for part in quantities]) for name in variables_of(names)}
+    items = chunk.asked.quantities
+    values = {name: np.concatenate([part[name] for part in quantities]) for name in columns_of(items)}
     seconds = time.perf_counter() - begin
     solution = joined(list(solutions))
-    return Result(chunk.rows, solution, failed, messages, seconds, SOLVER_VERSION, names, values)
+    return Result(chunk.rows, solution, failed, messages, seconds, SOLVER_VERSION, items, values)
 
 
 def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, dict[str, FloatArray], str]]:
@@ -129,8 +129,8 @@ def given_up(chunk: Chunk, message: str) -> Result:
     size = len(chunk)
     messages = dict.fromkeys(range(size), message)
     solution, values = _nothing(chunk)
-    names = chunk.asked.quantities
-    return Result(chunk.rows, solution, np.ones(size, bool), messages, 0.0, SOLVER_VERSION, names, values)
+    items = chunk.asked.quantities
+    return Result(chunk.rows, solution, np.ones(size, bool), messages, 0.0, SOLVER_VERSION, items, values)
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
@@ -143,7 +143,7 @@ def solve_points(points: Points, rtol: float) -> Solution:
 def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
     """What is known of points that failed: no quantity, and s if it was known before."""
     size, known = len(chunk), chunk.asked.known
-    values = {name: np.full(size, np.nan) for name in variables_of(chunk.asked.quantities)}
+    values = {name: np.full(size, np.nan) for name in columns_of(chunk.asked.quantities)}
     return blank(size) if known is None else known, values
 
 
@@ -159,4 +159,4 @@ def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[
         return solution, {}
     from swtstudy.mechanics.quantities import quantities_of
 
-    return solution, quantities_of(points, asked.quantities)
+    return solution, quantities_of(points, asked.quantities, solution)

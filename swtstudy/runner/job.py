@@ -131,7 +131,7 @@ def _words(work: Work) -> str:
     """What a run does, in the past tense, for the history."""
     words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
     more = int(work.incomplete.sum())
-    return f"{words}, and {', '.join(work.quantities)} of {more} others" if more else words
+    return f"{words}, and quantities that {more} others lacked" if more else words
 
 
 def _log_known(work: Work) -> None:
@@ -163,7 +163,7 @@ def _compute(
         return work.records
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    asked = tuple(sorted(study.quantities))
+    asked = tuple(sorted(study.asked.items))
     own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, quantities=asked)
     collector = Collector(work.records, own, writer, work.todo)
     weight = collector.pace.chunk_weight

@@ -29,7 +29,7 @@ class Work:
     records
         Records of these points, "missing" where no known one can be used; a run fills them in place.
     quantities
-        What the study asks beside s.
+        What the study asks beside s, as in `swtstudy.quantities.Request.items`.
     dropped
         Known records of points, or with quantities, that the study does not have.
     outdated, coarse
@@ -75,9 +75,10 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     known = known_records(path)
     records = matching(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     outdated, coarse = _unusable(points.table[records.status == MISSING], known, study.rtol)
-    dropped = _dropped(points.table, known, records, study.quantities)
-    records = records.without_others(study.quantities)
-    return Work(points, records, study.quantities, dropped, outdated, coarse)
+    items = study.asked.items
+    dropped = _dropped(points.table, known, records, items)
+    records = records.without_others(items)
+    return Work(points, records, items, dropped, outdated, coarse)
 
 
 def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.reading import Known, Range, read_grid
+from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import read_quantities, variables_of
+from swtstudy.parameters import AXES
+from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -42,8 +42,8 @@ class Study:
         Its points.
     rtol
         Relative accuracy asked of s.
-    quantities
-        Names of what is asked beside s, of `swtstudy.quantities.QUANTITIES`.
+    asked
+        What is asked beside s.
     figure
         Layout of the figure, or None.
     text
@@ -66,7 +66,7 @@ class Study:
     title: str
     grid: Grid
     rtol: float
-    quantities: tuple[str, ...]
+    asked: Request
     figure: FigureLayout | None
     text: str
     sample: Sample | None = None
@@ -164,21 +164,22 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     def keys(name: str) -> str:
         return f"{places.get(name, 'fixed')}.{name}"
 
-    grid, found = read_grid(fixed, axes, keys, source, known=known, samples=samples)
+    distances = read_distances(fixed, axes, keys, report)
+    asked = Request(read_quantities(raw.get("quantities", []), "quantities", report), *distances)
+    grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)
     mistakes += found
-    quantities = read_quantities(raw.get("quantities", []), "quantities", report)
     figure = _figure_from(raw)
     if figure is not None:
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
-        names = [name if name in PARAMETERS else meant(name, PARAMETERS) or name for name in axis_names]
+        names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
         dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
-        check_figure(figure, dims, grid, variables_of(quantities), report)
+        check_figure(figure, dims, grid, asked, report)
     if mistakes or table is None or grid is None:
         raise StudyError(list(dict.fromkeys(mistakes)))
     if table.sample is not None and table.sample.file is not None:
-        text = to_toml(table.title, table.rtol, grid, figure, quantities)
-    return Study(table.title, grid, table.rtol, quantities, figure, text, sample)
+        text = to_toml(table.title, table.rtol, grid, figure, asked)
+    return Study(table.title, grid, table.rtol, asked, figure, text, sample)
 
 
 def _sample(

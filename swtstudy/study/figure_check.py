@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES, variables_of
+from swtstudy.parameters import AXES, DIRECTIONS, QUANTITY_AXES
+from swtstudy.quantities import DISTANCE, Request, every_variable
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 
 
@@ -41,8 +41,9 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     if surface and layout.hue is not None:
         yield "figure.hue", literal(layout.hue), f"none for {kind}"
     for role, name in layout.roles():
-        if role in ("x", "vertical") and name == "profile" and layout.kind != "heatmap":
-            yield f"figure.{role}", "'profile'", "an axis of numbers"
+        named = name in AXES and AXES[name].kind == "name"
+        if role in ("x", "vertical") and named and layout.kind != "heatmap":
+            yield f"figure.{role}", literal(name), "an axis of numbers"
         if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
             yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
     if layout.kind not in SAMPLE_KINDS:
@@ -76,7 +77,7 @@ def wrong_axes(
             yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
     roles = dict(layout.roles())
     for name in sizes:
-        if name not in roles.values() and name in (*PARAMETERS, SAMPLE):
+        if name not in roles.values() and name in (*AXES, SAMPLE):
             yield (
                 "figure",
                 f"no place for the axis {name}",
@@ -85,7 +86,7 @@ def wrong_axes(
 
 
 def check_figure(
-    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report
+    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request, report: Report
 ) -> None:
     """Report everything in a figure that does not fit its study.
 
@@ -98,16 +99,32 @@ def check_figure(
     grid
         The grid, to look up the places used for normalisation; None if it has mistakes itself.
     asked
-        Data variables that the study asks for beside those of every study.
+        What the study asks for beside s.
     report
         Called with key, found and allowed of each mistake.
     """
-    known = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
-    sizes = {name: known.get(name) for name in dims}
-    for key, found, allowed in (*wrong_layout(layout), *wrong_axes(layout, sizes, "this study")):
-        report(key, found, allowed)
+    of = "{} in this study" if asked.distances else "this study"
+    found = [*wrong_layout(layout)]
+    for y in layout.y or ("s",):
+        found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
+    if layout.regimes and layout.x in QUANTITY_AXES:
+        found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
+    for mistake in dict.fromkeys(found):
+        report(*mistake)
     for y in layout.y:
         _check_quantity(y, dims, grid, asked, report)
+
+
+def _sizes(
+    y: str, layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request
+) -> dict[str, int | None]:
+    """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
+    lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
+    known = y.strip() in VARIABLES or not y.strip().isidentifier()
+    used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
+    return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
 
 
 def _wrong_formula(text: str) -> str | None:
@@ -129,8 +146,8 @@ def _wrong_formula(text: str) -> str | None:
     return None
 
 
-def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Sequence[str], report: Report) -> None:
-    known = (*VARIABLES, *asked)
+def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
+    known = (*VARIABLES, *asked.variables)
     try:
         place = reference(y)
     except ValueError as error:
@@ -138,9 +155,9 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Sequence[
         return
     if place is None:
         name = y.strip()
-        if name in variables_of(QUANTITIES) and name not in asked:
+        if name in every_variable() and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
-            report("figure.y", found, f"what is among its quantities, {', '.join(known)}, or {QUANTITY}")
+            report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
         elif name not in known:
             report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
         return

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import Value
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES
+from swtstudy.parameters import AXES
+from swtstudy.quantities import DISTANCE, QUANTITIES
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -33,7 +33,11 @@ def as_html(study: Study) -> str:
         ("sampled", name, _values(values), _meaning(name, roles.get(SAMPLE)))
         for name, values in study.grid.samples.items()
     ]
-    rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in study.quantities]
+    asked = study.asked
+    if asked.distances:
+        meaning = _meaning(DISTANCE, roles.get(DISTANCE))
+        rows.append(("axis" if asked.is_axis else "fixed", DISTANCE, _values(asked.distances), meaning))
+    rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
     rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
@@ -63,7 +67,7 @@ def _cost(study: Study) -> str:
 
 
 def _meaning(name: str, role: str | None = None) -> str:
-    return PARAMETERS[name].meaning + (f"; figure: {role}" if role else "")
+    return AXES[name].meaning + (f"; figure: {role}" if role else "")
 
 
 def _values(values: tuple[Value, ...]) -> str:

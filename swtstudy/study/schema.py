@@ -7,8 +7,8 @@ from typing import Any
 
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
-from swtstudy.quantities import QUANTITIES
+from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
@@ -82,16 +82,17 @@ def study_schema() -> dict[str, Any]:
     keys["quantities"] = {
         "description": keys["quantities"]["description"],
         "type": "array",
-        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in QUANTITIES.values()]},
+        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in NAMED.values()]},
         "uniqueItems": True,
         "default": [],
     }
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     sample = parts["SampleTable"]["properties"]
+    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]}
     for table, part, entry_of, names in (
-        (keys, "fixed", _value, PARAMETERS),
-        (keys, "axes", _axis, PARAMETERS),
+        (keys, "fixed", _value, given),
+        (keys, "axes", _axis, given),
         (sample, "ranges", _range, NUMERIC),
         (sample, "points", _values, PARAMETERS),
     ):
@@ -99,13 +100,13 @@ def study_schema() -> dict[str, Any]:
         table[part] = {
             "description": table[part]["description"],
             "type": "object",
-            "properties": {name: entry_of(PARAMETERS[name]) for name in names},
+            "properties": {name: entry_of(given[name]) for name in names},
             "additionalProperties": False,
         }
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
         roles[role] = {
-            "enum": [*PARAMETERS, *_SAMPLED.get(role, ())],
+            "enum": [*PARAMETERS, *QUANTITY_AXES, *_SAMPLED.get(role, ())],
             "description": roles[role]["description"],
         }
     return schema

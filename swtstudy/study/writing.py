@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from fractions import Fraction
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.named import Named
+from swtstudy.quantities import DISTANCE, NOTHING, Request
 from swtstudy.study.figure import FigureLayout
 
 
 def to_toml(
-    title: str, rtol: float, grid: Grid, figure: FigureLayout | None, quantities: Sequence[str] = ()
+    title: str, rtol: float, grid: Grid, figure: FigureLayout | None, asked: Request = NOTHING
 ) -> str:
     """The text of a study file that gives exactly this grid.
 
@@ -31,11 +31,14 @@ def to_toml(
     <BLANKLINE>
     """
     lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
-    if quantities:
-        lines.append(f"quantities = [{', '.join(map(quoted, quantities))}]")
+    if asked.names:
+        lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
+    single, several = ((), asked.distances) if asked.is_axis else (asked.distances, ())
     lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
+    lines += [f"{DISTANCE} = {value!r}" for value in single]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
+    lines += [f"{DISTANCE} = {[*several]}"] * bool(several)
     if grid.samples:
         lines += ["", "[sample.points]"]
         lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]

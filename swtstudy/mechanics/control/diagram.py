@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
@@ -68,4 +66,4 @@ def _mapped(load: Load, normal_map: NormalMap) -> Load:
             "a loop whose normal load is not constant needs two displacements or two forces: "
             "with one of each its straight sides are curved in the memory diagram"
         )
-    return replace(load, corner_normal=normal_map.value(load.corner_normal))
+    return load.with_normal(normal_map.value)

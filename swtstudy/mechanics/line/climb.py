@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import FirstLook, local_maxima
-from swtstudy.mechanics.line.look import Resolution
+from swtstudy.mechanics.line.look import LEVEL, Resolution
 from swtstudy.mechanics.line.positions import PositionBrackets, Positions
 from swtstudy.mechanics.line.value import hot_intervals
 from swtstudy.mechanics.numerics.arrays import gather
@@ -93,12 +93,18 @@ class Climb:
         return self.take(height >= share * largest[self.point])
 
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
-        """Without those that have just moved to a position around which another one searches."""
+        """Without those that have just moved to a position around which another one searches no lower.
+
+        On another plane the position itself may be higher than the other one has seen.
+        """
         order = np.lexsort((moved, self.column, self.side, self.point))
         key = np.stack([self.point, self.side, self.column])[:, order]
         same = np.zeros(len(order), dtype=bool)
         same[1:] = (key[:, 1:] == key[:, :-1]).all(axis=0)
-        return self.take(order[~(same & moved[order])])
+        first = np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))
+        seen = self.seen[order]
+        higher = seen > (1.0 + LEVEL) * seen[first]
+        return self.take(order[~(same & moved[order]) | higher])
 
     @classmethod
     def joined(cls, several: list[Climb]) -> Climb:

@@ -107,7 +107,7 @@ def climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accu
     seen = _look_around(scene, positions, climb, accuracy)
     moved = _moved(positions, climb, seen, _vertex(climb, seen, accuracy), accuracy.tolerance)
     peaks = _other_peaks(climb, seen, accuracy.tolerance)
-    return moved, Climb.joined([peaks, _behind_corners(climb, seen, accuracy)])
+    return moved, Climb.joined([peaks, _beside_corners(climb, seen, accuracy)])
 
 
 def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> _Seen:
@@ -180,15 +180,22 @@ def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
     return climb.twins(at[0], seen.c[at], seen.values[at], seen.angles[at])
 
 
-def _behind_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
-    """Climbs to maxima beside corners that a first round took no value of, behind lower ones across them."""
+def _beside_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
+    """Climbs to maxima beside corners that a first round took no value of.
+
+    They are on the other side than its largest value, or on either side where that is at the corner and the
+    climb stays there.
+    """
     middle = len(OFFSETS) // 2
-    row = np.flatnonzero((climb.rounds == 0) & (climb.centre == 0.0) & (seen.best != middle))
+    corner = seen.brackets.is_corner
+    row = np.flatnonzero((climb.rounds == 0) & (climb.centre == 0.0) & ((seen.best != middle) | corner))
     largest = seen.largest[row]
-    corner = seen.brackets.is_corner[row]
-    place, height = vertex_near(seen.c[row], seen.values[row], np.full(len(row), middle), corner)
-    behind = (seen.place[row] * place < 0.0) & (height > (1.0 + accuracy.tolerance) * largest)
-    row, place, largest = row[behind], place[behind], largest[behind]
+    place, height = vertex_near(seen.c[row], seen.values[row], np.full(len(row), middle), corner[row])
+    at_corner = seen.best[row] == middle
+    share = np.where(at_corner, SETTLED, 1.0) * accuracy.tolerance
+    beside = (at_corner & (place != 0.0)) | (seen.place[row] * place < 0.0)
+    beside &= height > (1.0 + share) * largest
+    row, place, largest = row[beside], place[beside], largest[beside]
     some = climb.take(row)
     if not row.size:
         return some

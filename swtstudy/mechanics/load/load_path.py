@@ -115,7 +115,7 @@ class LoadPath(Named):
     def turn_count(self) -> int:
         """How many turning instants its loads have at most."""
         # As many again where contact is made or lost.
-        return 2 * len(self.vertices)
+        return len(self.vertices)
 
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
         """The n loads with these amplitudes, each of shape (n,)."""

@@ -6,7 +6,7 @@ leaves a line of the diagram, and every passage is the root of a linear function
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,15 +31,18 @@ class PolygonLoad(Load):
     Attributes
     ----------
     corner_normal, corner_tangential
-        Shape (n, k + 1): both components at the vertices in the order of time. The first vertex follows the
-        last one; shorter rows are filled up with it.
+        Shape (m, k + 1): both components of m polygons at the vertices in the order of time. The first vertex
+        follows the last one; shorter rows are filled up with it.
     sides
         Shape (n,): number of sides of each, k at most.
+    row
+        Shape (n,): which of the m polygons each is. Loads are taken often, and vertices are many.
     """
 
     corner_normal: FloatArray
     corner_tangential: FloatArray
     sides: IntArray
+    row: NDArray[np.intp]
 
     @classmethod
     def of(cls, loops: Sequence[FloatArray]) -> PolygonLoad:
@@ -61,13 +64,18 @@ class PolygonLoad(Load):
         corners = np.empty((len(lean), int(sides.max(initial=1)) + 1, 2))
         for row, loop in zip(corners, lean, strict=True):
             row[: len(loop)], row[len(loop) :] = loop, loop[0]
-        return cls(corners[..., 0], corners[..., 1], sides)
+        return cls(corners[..., 0], corners[..., 1], sides, np.arange(len(lean)))
 
     def __len__(self) -> int:
         return len(self.sides)
 
     def take(self, index: NDArray[np.intp]) -> PolygonLoad:
-        return PolygonLoad(self.corner_normal[index], self.corner_tangential[index], self.sides[index])
+        return PolygonLoad(self.corner_normal, self.corner_tangential, self.sides[index], self.row[index])
+
+    def with_normal(self, function: Callable[[FloatArray], FloatArray]) -> PolygonLoad:
+        """The same loads with a function of each one's normal load, (n, …) to (n, …), in its place."""
+        normal, tangential = self.corner_normal[self.row], self.corner_tangential[self.row]
+        return PolygonLoad(function(normal), tangential, self.sides, np.arange(len(self)))
 
     def normal(self, instant: FloatArray) -> FloatArray:
         return self._at(self.corner_normal, instant)
@@ -83,19 +91,20 @@ class PolygonLoad(Load):
 
     @property
     def least_normal(self) -> FloatArray:
-        return self.corner_normal.min(axis=1)
+        return self.corner_normal.min(axis=1)[self.row]
 
     @property
     def largest_normal(self) -> FloatArray:
-        return self.corner_normal.max(axis=1)
+        return self.corner_normal.max(axis=1)[self.row]
 
     @property
     def motion(self) -> FloatArray:
-        return np.asarray(0.5 * (np.ptp(self.corner_normal, axis=1) + np.ptp(self.corner_tangential, axis=1)))
+        spans = np.ptp(self.corner_normal, axis=1) + np.ptp(self.corner_tangential, axis=1)
+        return np.asarray(0.5 * spans[self.row])
 
     @property
     def moves_tangentially(self) -> NDArray[np.bool_]:
-        return np.asarray(np.ptp(self.corner_tangential, axis=1) > 0.0)
+        return np.asarray(np.ptp(self.corner_tangential, axis=1)[self.row] > 0.0)
 
     @property
     def oscillations(self) -> tuple[int, int]:
@@ -110,10 +119,11 @@ class PolygonLoad(Load):
         return True
 
     def turning_instants(self) -> FloatArray:
-        number = np.arange(self.corner_normal.shape[1], dtype=np.float64)
-        columns = [self._corner_instant(np.broadcast_to(number, self.corner_normal.shape))]
-        if np.any(self.least_normal < 0.0):
-            before, after = self.corner_normal[:, :-1], self.corner_normal[:, 1:]
+        corner = self.corner_normal[self.row]
+        number = np.arange(corner.shape[1], dtype=np.float64)
+        columns = [self._corner_instant(np.broadcast_to(number, corner.shape))]
+        if np.any(corner < 0.0):
+            before, after = corner[:, :-1], corner[:, 1:]
             crosses = before * after < 0.0
             share = np.divide(before, before - after, out=np.zeros_like(before), where=crosses)
             columns.append(np.where(crosses, self._corner_instant(number[:-1] + share), PERIOD))
@@ -173,8 +183,8 @@ class PolygonLoad(Load):
 
     def _ends(self, corner: FloatArray, side: IntArray) -> tuple[FloatArray, FloatArray]:
         """A component at both ends of sides."""
-        n, k = corner.shape
-        place = (np.arange(n) * k).reshape((n,) + (1,) * (side.ndim - 1)) + side
+        first = (self.row * corner.shape[1]).reshape((-1,) + (1,) * (side.ndim - 1))
+        place = first + side
         return corner.take(place), corner.take(place + 1)
 
     def _at(self, corner: FloatArray, instant: FloatArray) -> FloatArray:

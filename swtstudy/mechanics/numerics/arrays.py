@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
+#: Longest rows that are counted column by column. Halving takes 0.7 to 2 times as long at 16, 0.3 at 48.
+SHORT = 24
+
 T = TypeVar("T", bound=np.generic)
 
 
@@ -42,16 +45,22 @@ def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) ->
     Parameters
     ----------
     values
-        Shape (…, k).
+        Shape (…, k), each row ascending.
     row
         Shape (m,) or broadcast to it: rows of the flattened leading axes.
     level
         Shape (m,).
     """
-    count = np.zeros(level.shape, dtype=np.intp)
-    # One column after the other: sums of short rows are slow.
-    for column in values.reshape(-1, values.shape[-1]).T:
-        count += column.take(row) < level
+    count, k = np.zeros(level.shape, dtype=np.intp), values.shape[-1]
+    if k <= SHORT:
+        # One column after the other: sums of short rows are slow.
+        for column in values.reshape(-1, k).T:
+            count += column.take(row) < level
+        return count
+    flat, place = np.ascontiguousarray(values).reshape(-1), row * k - 1
+    for step in 1 << np.arange(k.bit_length())[::-1]:
+        more = np.minimum(count + step, k)
+        count = np.where(flat.take(place + more) < level, more, count)
     return count
 
 

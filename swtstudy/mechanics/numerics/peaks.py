@@ -78,13 +78,13 @@ def vertex_near(
         middle = np.clip(middle, 1, last - 1)
         index = middle[:, None] + np.array([-1, 0, 1])
         x, y = gather(c, index), gather(values, index)
-        vertex, height = _parabola_maximum(x, y)
+        vertex, height = parabola_maximum(x, y)
         higher = height > top
         position, top = np.where(higher, vertex, position), np.where(higher, height, top)
     return position, top
 
 
-def _parabola_maximum(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
+def parabola_maximum(x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Maximum of the parabolas through three points within their range, shapes (m, 3); else the largest y."""
     left, right = x[:, 1] - x[:, 0], x[:, 2] - x[:, 1]
     proper = (left > 0.0) & (right > 0.0)

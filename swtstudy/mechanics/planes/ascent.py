@@ -226,6 +226,12 @@ def _move(normal: FloatArray, tangent: FloatArray, step: FloatArray) -> FloatArr
 def _tangent_basis(normal: FloatArray) -> FloatArray:
     """Two unit vectors normal to each normal and to one another, shape (n, 2, 3)."""
     least = np.argmin(np.abs(normal), axis=-1)
-    first = np.cross(normal, np.eye(3)[least])
+    first = _cross(normal, np.eye(3)[least])
     first /= np.linalg.norm(first, axis=-1, keepdims=True)
-    return np.stack([first, np.cross(normal, first)], axis=1)
+    return np.stack([first, _cross(normal, first)], axis=1)
+
+
+def _cross(left: FloatArray, right: FloatArray) -> FloatArray:
+    """``np.cross`` of vectors of shape (n, 3), several times as fast."""
+    (a, b, c), (d, e, f) = left.T, right.T
+    return np.stack([b * f - c * e, c * d - a * f, a * e - b * d], axis=-1)

@@ -1,0 +1,86 @@
+"""Quantities beside s as labelled arrays, and back: columns of points, and data variables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.parameters import DIRECTIONS, QUANTITY_AXES
+from swtstudy.quantities import (
+    DISTANCE,
+    NAMED,
+    NONLOCAL,
+    QUANTITIES,
+    Request,
+    columns_in,
+    distance_of,
+    item_of,
+)
+
+
+def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple[tuple[str, ...], NDArray]]:
+    """Data variables of n points with their own dimensions, of shape (n, …).
+
+    Parameters
+    ----------
+    asked
+        What was asked.
+    columns
+        By `swtstudy.quantities.columns_of`, each of shape (n,).
+    """
+    found: dict[str, tuple[tuple[str, ...], NDArray]] = {}
+    for name, dims in asked.variables.items():
+        row = next(row for row in QUANTITIES.values() if name in row.variables)
+        items = [row.name] if not row.dims else [item_of(distance) for distance in asked.distances]
+        parts = [np.stack([columns[key] for key in columns_in(row, name, item)], axis=-1) for item in items]
+        values = np.stack(parts, axis=1)
+        sizes = [values.shape[1 if dim == DISTANCE else 2] for dim in dims]
+        found[name] = dims, values.reshape((len(values), *sizes))
+    return found
+
+
+def coordinates(asked: Request) -> dict[str, Any]:
+    """The coordinates of the quantities' own dimensions."""
+    if not asked.distances:
+        return {}
+    values = np.array(asked.distances)
+    return {
+        DISTANCE: (DISTANCE, values, _meaning(DISTANCE))
+        if asked.is_axis
+        else ((), values[0], _meaning(DISTANCE)),
+        "direction": ("direction", np.array(DIRECTIONS, dtype=object), _meaning("direction", units=False)),
+    }
+
+
+def request_of(dataset: xr.Dataset, items: Iterable[str]) -> Request:
+    """What was asked for a Dataset whose points have these items."""
+    return Request.of(items, DISTANCE in dataset.dims)
+
+
+def columns_from(dataset: xr.Dataset, items: Iterable[str], at: NDArray[np.intp]) -> dict[str, FloatArray]:
+    """The columns of items, from the data variables of a Dataset, at some of its points in C order."""
+    found: dict[str, FloatArray] = {}
+    for item in items:
+        distance = distance_of(item)
+        part = dataset
+        if distance is not None and DISTANCE in dataset.dims:
+            known = [item_of(value) for value in dataset[DISTANCE].values.tolist()]
+            part = dataset.isel({DISTANCE: known.index(item)})
+        for row in [NAMED[item]] if distance is None else NONLOCAL.values():
+            for variable in row.variables:
+                keys = columns_in(row, variable, item)
+                own = [dim for dim in row.dims if dim != DISTANCE]
+                values = part[variable].transpose(*dataset.s.dims, *own).values.reshape(-1, len(keys))[at]
+                found |= zip(keys, values.T, strict=True)
+    return found
+
+
+def _meaning(name: str, units: bool = True) -> dict[str, str]:
+    row = QUANTITY_AXES[name]
+    words = {"long_name": name.replace("_", " "), "comment": row.meaning}
+    return words | ({"units": row.units, "symbol": row.symbol} if units else {})
