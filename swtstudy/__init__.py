@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
     from swtstudy.optimum.optimise import optimise
+    from swtstudy.results.sensitivity import sensitivity
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
@@ -45,6 +46,7 @@ __all__ = [
     "physical",
     "run",
     "run_suite",
+    "sensitivity",
     "slip_map",
     "solve",
     "stress_field",
@@ -68,6 +70,7 @@ _HOMES = {
     "physical": "swtstudy.contacts.physical",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
+    "sensitivity": "swtstudy.results.sensitivity",
     "slip_map": "swtstudy.fields.slip",
     "solve": "swtstudy.solving",
     "stress_field": "swtstudy.fields.stress",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.runner.run import Finished
     from swtstudy.study.definition import Study
 
 
@@ -49,22 +50,41 @@ def run_suite(
     folder = shipped_folder() if folder is None else folder
     studies = read_studies([str(folder)])
     targets = archive_paths(studies, results)
-    return {
-        Path(path).stem: run_and_draw(study, targets[path], formats, **options)
-        for path, study in studies.items()
-    }
+    found: dict[str, xr.Dataset] = {}
+
+    def done(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        found[path.stem] = dataset
+
+    run_and_draw([(study, targets[path]) for path, study in studies.items()], formats, done, **options)
+    return found
 
 
-def run_and_draw(study: Study, path: Path, formats: Iterable[str], **options: Any) -> xr.Dataset:
-    """Run a study and draw its figure, if it has one, beside the archive; `options` go to `swtstudy.run`."""
-    from swtstudy.runner.run import run
+def run_and_draw(
+    studies: Iterable[tuple[Study, Path]], formats: Iterable[str], done: Finished, **options: Any
+) -> None:
+    """Run studies with the same workers, and draw the figures of those that have one beside their archives.
 
-    dataset = run(study, path, **options)
-    if study.figure is not None:
-        from swtstudy.figures.draw import draw
-        from swtstudy.figures.save import save_figure
+    Parameters
+    ----------
+    studies
+        Studies and the paths of their archives.
+    formats
+        Formats of the figures.
+    done
+        Called with every archive once its figure is drawn; not always in this thread.
+    **options
+        Further arguments of `swtstudy.run`.
+    """
+    from swtstudy.runner.run import run_several
 
-        figure = draw(dataset)
-        for ending in formats:
-            save_figure(figure, path.with_suffix(f".{ending}"))
-    return dataset
+    def finished(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        if study.figure is not None:
+            from swtstudy.figures.draw import draw
+            from swtstudy.figures.save import save_figure
+
+            figure = draw(dataset)
+            for ending in formats:
+                save_figure(figure, path.with_suffix(f".{ending}"))
+        done(study, path, dataset)
+
+    run_several(studies, finished, **options)

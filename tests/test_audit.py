@@ -8,12 +8,13 @@ from click.testing import CliRunner
 from made_up import made_up_audit, made_up_point
 
 from swtstudy.archive.write import save
-from swtstudy.audit.audit import audit_study, sample_rows
+from swtstudy.audit.audit import audit_study
 from swtstudy.audit.point import VERDICTS
 from swtstudy.audit.report import report
 from swtstudy.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
 from swtstudy.cli import main
 from swtstudy.grid.canonical import COLUMNS
+from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.definition import Study
 
 PARAMETER_BOX = Path(__file__).parent.parent / "studies" / "audit" / "parameter_box.toml"
@@ -29,13 +30,13 @@ phase = [0.6, "0.6 + 2*pi"]
 
 
 def test_points_are_distinct():
-    rows = sample_rows(Study.from_text(STUDY).grid, points=10, seed=1)
+    rows = drawn_rows(Study.from_text(STUDY).grid, points=10, seed=1)
     assert rows.shape == (2, len(COLUMNS))
 
 
 def test_a_larger_sample_extends_a_smaller_one():
     grid = Study.from_toml(PARAMETER_BOX).grid
-    few, many = (sample_rows(grid, points, seed=0) for points in (5, 12))
+    few, many = (drawn_rows(grid, points, seed=0) for points in (5, 12))
     assert many.shape == (12, len(COLUMNS))
     np.testing.assert_array_equal(many[:5], few)
 
@@ -185,9 +186,9 @@ def test_the_report_counts_every_point():
 def test_a_sample_has_every_point_at_most_once():
     """Of a small grid a permutation, of a large one draws; physically the same points count once."""
     small = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 9}\n').grid
-    rows = sample_rows(small, 9, seed=3)
+    rows = drawn_rows(small, 9, seed=3)
     assert sorted(rows[:, COLUMNS.index("friction")]) == pytest.approx(np.linspace(0.1, 0.9, 9))
     large = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 401}\n').grid
-    rows = sample_rows(large, 40, seed=3)
+    rows = drawn_rows(large, 40, seed=3)
     assert len(np.unique(rows, axis=0)) == len(rows) == 40
-    assert not np.array_equal(rows, sample_rows(large, 40, seed=4))
+    assert not np.array_equal(rows, drawn_rows(large, 40, seed=4))

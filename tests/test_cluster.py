@@ -94,7 +94,7 @@ def test_a_cluster_without_workers_is_said_and_so_is_one_that_is_gone(tmp_path):
     code = (
         "import swtstudy.runner.cluster as cluster\ncluster._CHECK_SECONDS = 0.5\nimport stand_in\n"
         "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
-        "run.run.__kwdefaults__['solver'] = stand_in.slow\n"
+        "run.run_several.__kwdefaults__['solver'] = stand_in.slow\n"
         f"main(['run', 'line.toml', '--scheduler', '{address}'])"
     )
     options = {"cwd": tmp_path, "env": os.environ | {"PYTHONPATH": here}, "text": True}

@@ -4,7 +4,7 @@ import stand_in
 
 import swtstudy
 from swtstudy import StudyError, optimise
-from swtstudy.optimum.box import SEARCHABLE
+from swtstudy.grid.values import NUMERIC
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
 from swtstudy.parameters import PARAMETERS
@@ -90,8 +90,17 @@ def test_another_quantity():
     assert found.critical_x.sel(case="worst") >= grid.critical_x.max() - 1e-6
 
 
+def test_a_quantity_beside_s():
+    found = optimise(over={"tangential_amplitude": (0.2, 0.9)}, minimise="dissipation", rtol=1e-2)
+    # A contact that sticks dissipates nothing, and the larger of two oscillations more.
+    assert found.dissipation.sel(case="best") == pytest.approx(0.0, abs=1e-12)
+    assert found.tangential_amplitude.sel(case="worst") == 0.9
+    there = swtstudy.solve(tangential_amplitude=0.9, quantities=["dissipation"], rtol=1e-2)
+    assert found.dissipation.sel(case="worst") == pytest.approx(there.dissipation.item(), rel=1e-9)
+
+
 def test_every_number_may_be_searched_over():
-    assert {*SEARCHABLE} == {name for name, row in PARAMETERS.items() if row.kind == "number"}
+    assert {*NUMERIC} == {name for name, row in PARAMETERS.items() if row.kind == "number"}
 
 
 def test_points_without_a_finite_value_are_left_out_and_counted():

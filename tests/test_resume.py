@@ -21,7 +21,7 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read
 from swtstudy.cli import main
 from swtstudy.records import records
 from swtstudy.runner import collector, work
-from swtstudy.runner import run as run_module
+from swtstudy.runner import job as job_module
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -171,7 +171,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.version.SOLVER_VERSION", "next")
-    for module in (run_module, collector, work):
+    for module in (job_module, collector, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
@@ -328,7 +328,7 @@ def command_of(folder, text, before=""):
     code = (
         f"{before}import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\n"
         "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
-        "run.run.__kwdefaults__['solver'] = stand_in.slow\n"
+        "run.run_several.__kwdefaults__['solver'] = stand_in.slow\n"
         "main(['run', sys.argv[2], '--results', sys.argv[3]])"
     )
     return [sys.executable, "-c", code, os.path.dirname(__file__), str(folder / "line.toml"), str(folder)]

@@ -2,6 +2,7 @@ import io
 import os
 import subprocess
 import sys
+import threading
 import types
 from dataclasses import replace
 from functools import partial
@@ -14,6 +15,7 @@ import stand_in
 
 import swtstudy
 from swtstudy import Study, StudyError, run
+from swtstudy.archive.error import ArchiveError
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.grid.cost import SECONDS_PER_WEIGHT, duration, weights
 from swtstudy.grid.unique import unique_points
@@ -24,6 +26,7 @@ from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
 from swtstudy.runner.estimate import estimate
 from swtstudy.runner.pace import CHUNK_SECONDS, Pace
 from swtstudy.runner.progress import ProgressBar
+from swtstudy.runner.run import run_several
 from swtstudy.runner.workers import LocalPool, _clean_start
 
 WIDE = """
@@ -315,3 +318,43 @@ def test_long_cycles_weigh_more():
     text = 'title = "t"\n[axes]\nfrequency_ratio = [1, "2/3", "5/2"]\n'
     table = unique_points(Study.from_text(text).grid).table
     assert sorted(weights(table).tolist()) == [2, 5, 7]
+
+
+def test_studies_share_their_workers_and_finish_one_after_the_other(tmp_path):
+    studies = [
+        Study.from_text(f'title = "{n}"\naxes.friction = {{ start = 0.1, stop = 0.{n}, num = 150 }}\n')
+        for n in (3, 4, 5)
+    ]
+    paths = [tmp_path / f"{n}.nc" for n in range(3)]
+    found, threads = [], []
+
+    def finished(study, path, dataset):
+        assert path.exists()
+        threads.append(threading.current_thread())
+        found.append((study.title, path.name, frozenset(dataset.critical_x.values.tolist())))
+
+    run_several(zip(studies, paths, strict=True), finished, workers=2, solver=stand_in.process)
+    assert [each[:2] for each in found] == [("3", "0.nc"), ("4", "1.nc"), ("5", "2.nc")]
+    processes = {each[2] for each in found}
+    assert len(frozenset.union(*processes)) == 2
+    assert os.getpid() not in frozenset.union(*processes)
+    # Another thread writes while the workers compute the next study; at the end there is none.
+    assert threads[0] is threads[1] is not threads[2] is threading.main_thread()
+    assert not list(tmp_path.glob("*.parts"))
+
+
+def test_an_error_in_one_study_leaves_the_others_whole(tmp_path):
+    studies = [Study.from_text(f'title = "{n}"\naxes.friction = [0.1, 0.{n}]\n') for n in (3, 4, 5)]
+    paths = [tmp_path / f"{n}.nc" for n in range(3)]
+    paths[1].write_text("no archive")
+    titles = []
+    with pytest.raises(ArchiveError, match=r"1.nc"):
+        run_several(
+            zip(studies, paths, strict=True),
+            lambda study, path, dataset: titles.append(study.title),
+            solver=stand_in.smooth,
+        )
+    assert titles == ["3"]
+    assert paths[0].exists()
+    assert not paths[2].exists()
+    assert not list(tmp_path.glob("*.parts"))

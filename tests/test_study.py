@@ -7,9 +7,9 @@ from fractions import Fraction
 import pytest
 
 from swtstudy import Study, StudyError
-from swtstudy.audit.audit import sample_rows
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
+from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.figure import VARIABLES, FigureLayout
 from swtstudy.study.writing import to_toml
 
@@ -57,7 +57,7 @@ def test_the_size_of_a_grid_has_no_end():
     with pytest.raises(ValueError, match="18446744073709551616 points are too many to compute"):
         unique_points(grid)
     with pytest.raises(ValueError, match="18446744073709551616 points are too many to sample"):
-        sample_rows(grid, points=5, seed=0)
+        drawn_rows(grid, points=5, seed=0)
 
 
 def test_a_range_with_rational_ends_has_the_nearest_floats():

@@ -60,6 +60,8 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     columns = {name: records.quantity(name)[points.index] for name in columns_of(study.asked.items)}
     dataset = label(study.grid, arrays, study.asked, columns)
+    if study.sample is not None and study.sample.design is not None:
+        dataset.sample.attrs |= study.sample.design.attributes()
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
     dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
     return dataset.assign_attrs(_provenance(study, records, history, seconds))

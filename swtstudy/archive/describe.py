@@ -9,6 +9,7 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.recall import grid_of
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import COMPUTED, STATES, made_by
@@ -27,10 +28,15 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     for line in attributes["history"].splitlines():
         yield f"  history        {line}"
     for name in map(str, dataset.s.dims):
-        yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}"
+        if name == SAMPLE:
+            yield f"  sample         {_sample_words(dataset[SAMPLE])}"
+        else:
+            yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}"
     for name in PARAMETERS:
         if name in dataset.coords and not dataset[name].ndim:
             yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
+        elif name in dataset.coords and name not in dataset.dims:
+            yield f"  sampled        {name}: {_range_words(name, dataset[name].values)}"
     yield f"  prescribed     {grid_of(dataset).control.name}"
     asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
     if asked.names:
@@ -66,6 +72,19 @@ def _axis_words(name: str, values: np.ndarray) -> str:
     if len(words) <= _LISTED:
         return ", ".join(words)
     return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
+
+
+def _sample_words(sample: xr.DataArray) -> str:
+    design = sample.attrs.get("design")
+    words = f" ({design.replace('_', ' ')} design, seed {sample.attrs.get('seed')})" if design else ""
+    return f"{sample.size} points{words}"
+
+
+def _range_words(name: str, values: np.ndarray) -> str:
+    known = list(dict.fromkeys(values.tolist()))
+    if isinstance(known[0], str) or len(known) <= 2:
+        return _axis_words(name, np.array(known, dtype=object))
+    return f"from {value_words(name, min(known))} to {value_words(name, max(known))}"
 
 
 def _completeness(dataset: xr.Dataset) -> str:

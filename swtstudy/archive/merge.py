@@ -143,12 +143,26 @@ def _refuse_gaps_in_quantities(
 
 
 def _union(grids: list[Grid]) -> Grid:
-    """The grid that the values of all grids span; dimensions in the order of the first."""
+    """The grid that the values of all grids span; dimensions in the order of the first.
+
+    The points of samples of the same parameters are one sample.
+    """
+    sampled = [tuple(sorted(grid.samples)) for grid in grids]
+    if len({*sampled}) > 1 or any({*sampled[0]} & {*grid.axes} for grid in grids):
+        found = "; ".join(", ".join(names) or "none" for names in sampled)
+        raise ValueError(
+            f"found samples of different parameters ({found}); allowed: samples of the same ones"
+        )
+    points = dict.fromkeys(
+        point for grid in grids for point in zip(*(grid.samples[name] for name in sampled[0]), strict=True)
+    )
+    samples = dict(zip(sampled[0], zip(*points, strict=True), strict=True)) if points else {}
     names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
     values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in PARAMETERS}
-    names += [name for name in PARAMETERS if name not in names and len(values[name]) > 1]
-    fixed = {name: values[name][0] for name in PARAMETERS if name not in names and values[name]}
-    return Grid(fixed, {name: values[name] for name in names})
+    others = [name for name in PARAMETERS if name not in (*names, *samples)]
+    names += [name for name in others if len(values[name]) > 1]
+    fixed = {name: values[name][0] for name in others if name not in names and values[name]}
+    return Grid(fixed, {name: values[name] for name in names}, samples)
 
 
 def _distinct(values: list[Value]) -> tuple[Value, ...]:

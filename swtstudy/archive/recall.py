@@ -10,7 +10,7 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_definitions, read_failures, read_runs
 from swtstudy.archive.error import ArchiveError
-from swtstudy.grid.grid import Grid, complete
+from swtstudy.grid.grid import SAMPLE, Grid, complete
 from swtstudy.grid.reading import given_twice
 from swtstudy.grid.shapes import shapes_needed
 from swtstudy.grid.unique import unique_points
@@ -34,16 +34,22 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     """
     values: dict[str, tuple[Value, ...]] = {}
     mistakes: list[Mistake] = []
+    axes: list[str] = []
+    sampled: list[str] = []
     dims = [str(name) for name in dataset.s.dims]
     for name in dims:
-        if name not in PARAMETERS or name not in dataset.coords:
+        if name != SAMPLE and (name not in PARAMETERS or name not in dataset.coords):
             mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
     known = read_definitions(dataset.attrs.get("definitions", "[]"))
     for name, parameter in PARAMETERS.items():
         if name not in dataset.coords:
             continue
         coordinate = dataset[name]
-        if coordinate.dims != ((name,) if name in dims else ()):
+        if name in dims and coordinate.dims == (name,):
+            axes.append(name)
+        elif SAMPLE in dims and coordinate.dims == (SAMPLE,):
+            sampled.append(name)
+        elif name in dims or coordinate.dims:
             mistakes.append(Mistake(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value"))
             continue
         raw = np.atleast_1d(coordinate.values).tolist()
@@ -51,10 +57,13 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
     mistakes += _lacking({*values, *dims}, shapes_needed(profiles))
     mistakes += _wrong_control(dataset, {*values, *dims})
+    if SAMPLE in dims and not sampled:
+        mistakes.append(Mistake(SAMPLE, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
     if mistakes:
         raise StudyError(mistakes)
-    fixed = {name: value[0] for name, value in values.items() if name not in dims}
-    return complete(fixed, {name: values[name] for name in dims})
+    fixed = {name: value[0] for name, value in values.items() if name not in (*axes, *sampled)}
+    samples = {name: values[name] for name in sampled}
+    return complete(fixed, {name: values[name] for name in dims if name != SAMPLE}, samples)
 
 
 def _lacking(given: set[str], shape: Sequence[str]) -> Iterator[Mistake]:

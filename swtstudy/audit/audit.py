@@ -8,19 +8,13 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from swtstudy.grid.grid import Grid
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.definition import Study, require_study
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.audit.point import AuditedPoint
-
-#: The largest index that NumPy's random numbers can be.
-LARGEST_SAMPLED = 2**63 - 1
 
 #: Seconds between two saves of what is audited so far: short enough to lose, long against a save.
 _SAVE_EVERY = 20.0
@@ -69,7 +63,7 @@ def audit_study(
     from swtstudy.audit.table import audit_dataset, audited_points, open_audit
     from swtstudy.runner.workers import start_workers
 
-    rows = sample_rows(study.grid, points, seed)
+    rows = drawn_rows(study.grid, points, seed)
     keys = list(map(tuple, rows.tolist()))
     known: dict[tuple[float, ...], AuditedPoint] = {}
     if Path(path).exists():
@@ -95,26 +89,3 @@ def audit_study(
     finally:
         save(dataset(), path)
     return dataset()
-
-
-def sample_rows(grid: Grid, points: int, seed: int) -> FloatArray:
-    """Canonical rows of random points of a grid, without repetition, shape (n, columns).
-
-    Raises
-    ------
-    ValueError
-        If it has more than `LARGEST_SAMPLED` points.
-    """
-    if grid.size > LARGEST_SAMPLED:
-        raise ValueError(f"{grid.size} points are too many to sample, at most {LARGEST_SAMPLED}")
-    rng = np.random.default_rng(seed)
-    # More than asked for: two points of the grid can be physically the same.
-    many = 2 * points
-    if grid.size <= 2 * many:
-        index = rng.permutation(grid.size)
-    else:
-        _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
-        index = index[np.sort(first)]
-    rows = np.concatenate([grid.canonical(i, i + 1)[0] for i in map(int, index)])
-    _, first = np.unique(rows, axis=0, return_index=True)
-    return rows[np.sort(first)[:points]]

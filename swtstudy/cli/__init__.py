@@ -22,6 +22,7 @@ from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.run import run
 from swtstudy.cli.schema import schema
+from swtstudy.cli.sensitivity import sensitivity
 from swtstudy.cli.show import show
 from swtstudy.cli.solve import solve
 from swtstudy.cli.validate import validate
@@ -85,6 +86,21 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-_COMMANDS = (run, plan, validate, plot, check, info, merge, solve, show, audit, list_studies, new, schema)
+_COMMANDS = (
+    run,
+    plan,
+    validate,
+    plot,
+    check,
+    info,
+    merge,
+    solve,
+    show,
+    audit,
+    sensitivity,
+    list_studies,
+    new,
+    schema,
+)
 for _command in _COMMANDS:
     main.add_command(_command)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
+    from swtstudy.study.definition import Study
+
 #: Exit code of a run in which points failed.
 POINTS_FAILED = 3
 
@@ -92,20 +94,20 @@ def run(
         check_writable(target)
 
     client = _connect(scheduler) if scheduler else None
-    failed = False
+    before = {target: _written(target) for target in targets.values()}
+    failed: list[bool] = []
+
+    def done(study: Study, target: Path, dataset: xr.Dataset) -> None:
+        seconds = dataset.attrs["wall_time_seconds"]
+        effort = "already computed" if _written(target) == before[target] else f"in {seconds:.1f} s"
+        failed.append(_summarize(dataset, target, effort))
+        for ending in formats if study.figure is not None else ():
+            click.echo(str(target.with_suffix(f".{ending}")))
+
+    pairs = [(study, targets[source]) for source, study in defined.items()]
     with _terminable():
-        for source, study in defined.items():
-            target = targets[source]
-            before = _written(target)
-            dataset = run_and_draw(
-                study, target, formats, workers=workers, client=client, retry_failed=retry_failed
-            )
-            seconds = dataset.attrs["wall_time_seconds"]
-            effort = "already computed" if _written(target) == before else f"in {seconds:.1f} s"
-            failed |= _summarize(dataset, target, effort)
-            for ending in formats if study.figure is not None else ():
-                click.echo(str(target.with_suffix(f".{ending}")))
-    if failed:
+        run_and_draw(pairs, formats, done, workers=workers, client=client, retry_failed=retry_failed)
+    if any(failed):
         sys.exit(POINTS_FAILED)
 
 

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import AXES
 from swtstudy.results.quantity import quantity
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Panel size, and width of a colour bar, inches.
 _PANEL_WIDTH, _PANEL_HEIGHT, _SCALE_WIDTH = 4.0, 3.2, 1.5
+#: Kinds of figures that are drawn elsewhere.
+_DRAWN = {"scatter": draw_scatter, "histogram": draw_histogram}
 
 
 def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style | None = None) -> Figure:
@@ -58,7 +62,7 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
     if mistakes:
         raise StudyError(mistakes)
     with styled(style):
-        return _draw_rows(dataset.compute(), layout)
+        return _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout)
 
 
 def layout_of(dataset: xr.Dataset) -> FigureLayout:
@@ -91,7 +95,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
             found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
             continue
         sizes = {str(name): size for name, size in values.sizes.items()}
-        strange = [name for name in sizes if name not in AXES]
+        strange = [name for name in sizes if name not in (*AXES, SAMPLE)]
         if strange or values.dtype.kind not in "fiub":
             what = f"values over {', '.join(strange)}" if strange else f"values of type {values.dtype}"
             found.append(Mistake("figure.y", f"{y!r} with {what}", "numbers over parameters"))

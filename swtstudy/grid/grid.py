@@ -87,17 +87,22 @@ class Grid:
 
     def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
-        indices = np.arange(start, self.size if stop is None else stop)
-        places = np.unravel_index(indices, self.shape) if self.dims else ()
-        position = dict(zip(self.dims, places, strict=True))
-        columns: dict[str, NDArray] = {}
-        for name, codes in self._codes.items():
-            along = self.dimension(self._source(name))
-            columns[name] = codes if along is None else codes[position[along]]
+        stop = self.size if stop is None else stop
+        columns = self.columns(start, stop)
         force = (self.control.normal_force, self.control.tangential_force)
         columns["control"] = control_code(*map(np.array, force))
-        columns["profile"] = np.broadcast_to(columns["profile"], indices.shape)
+        columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
         return canonical_points(columns)
+
+    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+        """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
+        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
+        position = dict(zip(self.dims, places, strict=True))
+        along = {name: self.dimension(self._source(name)) for name in COLUMNS}
+        return {
+            name: codes if (dim := along[name]) is None else codes[position[dim]]
+            for name, codes in self._codes.items()
+        }
 
     @cached_property
     def _codes(self) -> dict[str, NDArray]:
@@ -134,7 +139,8 @@ def complete(
     filled, samples = dict(fixed), samples or {}
     given = {*fixed, *axes, *samples}
     given |= {PAIRS[name] for name in given if name in PAIRS}
-    loops = any(isinstance(value, Named) for value in axes.get("load", (fixed.get("load"),)))
+    loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
+    loops = any(isinstance(value, Named) for value in loads)
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
             default = LOOP_AMPLITUDE if loops and name in AMPLITUDES else parameter.default

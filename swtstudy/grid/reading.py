@@ -44,6 +44,7 @@ def read_grid(
     keys: Callable[[str], str] = lambda name: name,
     source: str = "",
     others: Sequence[str] = (),
+    samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
 ) -> tuple[Grid | None, list[Mistake]]:
     """The grid spanned by fixed values and axes.
@@ -59,6 +60,8 @@ def read_grid(
     others
         Names that are known beside the parameters: they are read elsewhere, and may be meant by an unknown
         one.
+    samples
+        Checked values of the sampled parameters; None for those whose mistake is already reported.
     known
         What the user has defined, by parameter and name.
 
@@ -79,8 +82,14 @@ def read_grid(
     for name in (*fixed, *axes):
         if name not in PARAMETERS and name not in others:
             report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
-    for name in sorted(fixed.keys() & axes.keys()):
-        report(keys(name), "both a fixed value and an axis", "one of the two")
+    samples = samples or {}
+    for one, other, words in (
+        (fixed, axes, "both a fixed value and an axis"),
+        (fixed, samples, "both a fixed value and sampled"),
+        (axes, samples, "both an axis and sampled"),
+    ):
+        for name in sorted(one.keys() & other.keys()):
+            report(keys(name), words, "one of the two")
     for name, single in fixed.items():
         value = _read(name, single, keys(name), report, known) if name in PARAMETERS else None
         if value is not None:
@@ -88,13 +97,15 @@ def read_grid(
     for name, raw in axes.items():
         if name in PARAMETERS and raw is not None:
             good_axes[name] = _read_axis(name, raw, keys(name), report, known)
-    for key, found, allowed in given_twice((*fixed, *axes), keys):
+    for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
         report(key, found, allowed)
-    check_amplitudes(good_fixed, good_axes, keys, report)
-    check_shapes_given(fixed, axes, good_fixed, good_axes, keys, report)
-    if mistakes:
+    good_samples = {name: values for name, values in samples.items() if values is not None}
+    along = good_axes | good_samples
+    check_amplitudes(good_fixed, along, keys, report)
+    check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
+    if mistakes or len(good_samples) < len(samples):
         return None, mistakes
-    grid = complete(good_fixed, good_axes)
+    grid = complete(good_fixed, good_axes, good_samples)
     check_loops(grid, keys, report)
     check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes

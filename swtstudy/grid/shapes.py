@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +39,7 @@ def check_shapes_given(
         profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
         # A profile that could not be read may be the one that has the others.
         sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
+        profiles = list(dict.fromkeys(profiles))
     else:
         profiles, sound = [str(PARAMETERS["profile"].default)], True
     needed = shapes_needed(profiles)
@@ -62,64 +62,93 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
 
 def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    profile: Any
-    for profile in grid.values("profile"):
-        names = family_of(profile).shape
-        axes = [np.array(grid.values(name), float) for name in names]
+    for profile in dict.fromkeys(grid.values("profile")):
         if isinstance(profile, Named):
             _check_table(grid, profile, keys, report)
+            continue
+        profile = str(profile)
+        names = family_of(profile).shape
         if not names:
             continue
-        count = math.prod(map(len, axes))
-        if count > MOST_SHAPES:
-            report(", ".join(map(keys, names)), f"{count} shapes of the {profile}", f"at most {MOST_SHAPES}")
+        shapes = _shapes_of(grid, profile)
+        if shapes.size > MOST_SHAPES:
+            found = f"{shapes.size} shapes of the {profile}"
+            report(", ".join(map(keys, names)), found, f"at most {MOST_SHAPES}")
             continue
-        refused, first = _refused(grid, profile, axes)
+        refused, first = _refused(grid, profile, shapes)
         if first is not None:
             from swtstudy.mechanics.indenter import check_shape
 
-            shape = {name: float(values[0]) for name, values in first.items()}
+            shape, depth = first
             found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
             more = f"; {refused - 1} more like it" if refused > 1 else ""
-            allowed = check_shape(profile, shape, _largest_depths(grid, profile, first).item()) or ""
-            report(", ".join(map(keys, names)), found + more, allowed)
+            report(", ".join(map(keys, names)), found + more, check_shape(profile, shape, depth) or "")
 
 
 def _check_table(grid: Grid, profile: Any, keys: Callable[[str], str], report: Report) -> None:
     """A profile that the user has defined, up to the largest depth."""
     from swtstudy.mechanics.indenter import check_shape
 
-    wrong = check_shape(profile, {}, _largest_depths(grid, profile, {}).item())
+    depth = _largest_depths(grid, profile, {}, 1.0 + np.maximum(np.array([_largest_course(grid)]), 0.0))
+    wrong = check_shape(profile, {}, depth.item())
     if wrong is not None:
         report(keys("profile"), str(profile), wrong)
 
 
-def _refused(grid: Grid, profile: Any, axes: list[FloatArray]) -> tuple[int, dict[str, FloatArray] | None]:
-    """How many of the shapes are not admissible, and the first of these."""
+def _largest_course(grid: Grid) -> float:
+    """Largest deviation of the normal load from its mean."""
+    return max(map(as_number, grid.values(grid.control.given_for("normal_amplitude")))) * _reach(grid)
+
+
+def _reach(grid: Grid) -> float:
+    """By how many amplitudes the normal load rises at most."""
+    from swtstudy.mechanics.load.loop import Loop
+
+    return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
+
+
+def _shapes_of(grid: Grid, profile: str) -> Grid:
+    """The grid of the shapes of a profile; with the normal amplitude where both are sampled."""
+    names = family_of(profile).shape
+    sampled = {name: grid.samples[name] for name in names if name in grid.samples}
+    amplitude = grid.control.given_for("normal_amplitude")
+    if sampled and amplitude in grid.samples:
+        sampled[amplitude] = grid.samples[amplitude]
+    if "profile" in grid.samples:
+        own = np.flatnonzero(np.array(grid.samples["profile"]) == profile).tolist()
+        sampled = {name: tuple(values[row] for row in own) for name, values in sampled.items()}
+    axes = {name: values for name, values in grid.axes.items() if name in names}
+    return Grid({name: value for name, value in grid.fixed.items() if name in names}, axes, sampled)
+
+
+def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
+    """How many of the shapes are not admissible; the first of these, and its largest depth."""
     from swtstudy.mechanics.indenter import compact_shapes
 
-    lengths, refused, first = tuple(map(len, axes)), 0, None
-    for start in range(0, math.prod(lengths), _SLAB):
-        places = np.unravel_index(np.arange(start, min(start + _SLAB, math.prod(lengths))), lengths)
-        values = [axis[place] for axis, place in zip(axes, places, strict=True)]
-        shape = dict(zip(family_of(profile).shape, values, strict=True))
-        depth = _largest_depths(grid, profile, shape)
+    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
+    refused, first = 0, None
+    # The largest contact of a shape is the hardest to keep compact.
+    largest, reach = max(map(as_number, grid.values(amplitude))), _reach(grid)
+    for start in range(0, shapes.size, _SLAB):
+        stop = min(start + _SLAB, shapes.size)
+        columns = shapes.columns(start, stop)
+        shape = {name: np.broadcast_to(columns[name], stop - start) for name in names}
+        own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
+        depth = _largest_depths(
+            grid, profile, shape, np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), stop - start)
+        )
         wrong = np.flatnonzero(~compact_shapes(profile, shape, depth))
         if wrong.size and first is None:
-            first = {name: value[wrong[:1]] for name, value in shape.items()}
+            first = {name: float(values[wrong[0]]) for name, values in shape.items()}, float(depth[wrong[0]])
         refused += wrong.size
     return refused, first
 
 
-def _largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray]) -> FloatArray:
-    """Largest depth of each shape in the grid, (n,): the largest contact is the hardest to keep compact."""
+def _largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray], normal: FloatArray) -> FloatArray:
+    """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes
-    from swtstudy.mechanics.load.loop import Loop
 
-    amplitude = max(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
-    reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
-    normal = np.full(len(next(iter(shape.values()), (0,))), 1.0 + max(amplitude * reach, 0.0))
     if not grid.control.normal_force:
         return normal
     # The depth at a force is known for shapes that carry the force at δ0.

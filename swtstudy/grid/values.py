@@ -10,13 +10,16 @@ from numbers import Rational
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, Parameter
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter
 
 #: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
 Value = float | Fraction | str | Named
 
 #: No definitions.
 NOTHING: Mapping[str, Named] = {}
+
+#: Names of the parameters that are numbers: those that can have any value between two others.
+NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
 
 #: How far, relatively, a float may be from the small fraction that it stands for.
 _FRACTION_TOLERANCE = 1e-9

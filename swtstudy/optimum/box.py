@@ -9,12 +9,9 @@ import numpy as np
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.reading import read_grid
+from swtstudy.grid.values import NUMERIC
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.parameters import PARAMETERS
-
-#: Names of the parameters that may be searched over.
-SEARCHABLE = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
 
 
 @dataclass(frozen=True)
@@ -64,14 +61,14 @@ def read_box(over: object, fixed: Mapping[str, object]) -> Box:
     for name, ends in over.items():
         key = f"over.{name}"
         axes[name] = None
-        if name not in SEARCHABLE:
-            allowed = nearest(str(name), SEARCHABLE)
+        if name not in NUMERIC:
+            allowed = nearest(str(name), NUMERIC)
             mistakes.append(Mistake(key, "not a parameter that is a number", allowed))
         elif not isinstance(ends, list | tuple | np.ndarray) or np.shape(ends) != (2,):
             mistakes.append(Mistake(key, literal(ends), "both ends of a range, (low, high)"))
         else:
             axes[name] = list(ends)
-    known = {name: ends for name, ends in axes.items() if name in SEARCHABLE}
+    known = {name: ends for name, ends in axes.items() if name in NUMERIC}
     places = {name: f"over.{name}" for name in known}
     corners, found = read_grid(fixed, known, lambda name: places.get(name, name))
     if corners is None or mistakes:

@@ -11,6 +11,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.optimum.box import Box
 from swtstudy.optimum.least import Least
+from swtstudy.quantities import NAMED
 from swtstudy.records.labelled import ATTRIBUTES
 
 if TYPE_CHECKING:
@@ -18,11 +19,10 @@ if TYPE_CHECKING:
 
     from swtstudy.grid.grid import Grid
 
-#: The data variables that may be made least: those with values that are not flags.
-QUANTITIES = tuple(
-    name
-    for name, words in ATTRIBUTES.items()
-    if "flag_values" not in words and name not in ("s_error", "run")
+#: The data variables that may be made least: those with values that are not flags, and what may be asked.
+MINIMISED = (
+    *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in ("s_error", "run")),
+    *NAMED,
 )
 #: Steps of the neighbourhood, as fractions of a range.
 _STEPS = np.linspace(-0.1, 0.1, 41)
@@ -35,7 +35,7 @@ def dataset_of(
     units = np.array([each.unit for each in found.values()])
     cases = solve(box.sample(units)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
     cases = cases.assign_coords(case=list(found))
-    own = {key: words for key, words in ATTRIBUTES[quantity].items() if key in ("units", "symbol")}
+    own = {key: words for key, words in cases[quantity].attrs.items() if key in ("units", "symbol")}
     progress = np.full((len(found), max(len(each.progress) for each in found.values())), np.nan)
     for row, each in zip(progress, found.values(), strict=True):
         row[: len(each.progress)] = each.progress

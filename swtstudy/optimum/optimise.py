@@ -11,9 +11,10 @@ import numpy as np
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.optimum.box import read_box
-from swtstudy.optimum.labelled import QUANTITIES, dataset_of
+from swtstudy.optimum.labelled import MINIMISED, dataset_of
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
+from swtstudy.quantities import NAMED, Request
 from swtstudy.solving import solve_grid
 
 if TYPE_CHECKING:
@@ -42,7 +43,8 @@ def optimise(
     over
         Ranges by name, ``(low, high)``, of parameters that are numbers. Ends may be texts such as "2*pi".
     minimise
-        The data variable that is made least, "s" by default.
+        The data variable that is made least, "s" by default; or a quantity of
+        `swtstudy.quantities.NAMED`.
     rtol
         Relative accuracy asked of s.
     seed
@@ -79,7 +81,8 @@ def optimise(
         raise StudyError([*error.mistakes, *mistakes]) from None
     if mistakes:
         raise StudyError(mistakes)
-    solve = partial(solve_grid, rtol=float(rtol))
+    asked = Request((minimise,) if minimise in NAMED else ())
+    solve = partial(solve_grid, rtol=float(rtol), asked=asked)
     objectives = [Objective(box, solve, minimise, sign) for sign in CASES.values()]
     found = {
         case: least(each, len(box.names), int(seed)) for case, each in zip(CASES, objectives, strict=True)
@@ -91,8 +94,8 @@ def optimise(
 
 def _mistakes(minimise: object, rtol: object, seed: object) -> list[Mistake]:
     found = []
-    if minimise not in QUANTITIES:
-        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), QUANTITIES)))
+    if minimise not in MINIMISED:
+        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), MINIMISED)))
     if not is_rtol(rtol):
         found.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:

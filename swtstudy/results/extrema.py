@@ -41,8 +41,10 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
         ("minimum", dataset.s.fillna(np.inf).argmin(dim)),
         ("maximum", dataset.s.fillna(-np.inf).argmax(dim)),
     ):
-        value = dataset.s.isel({dim: index}).drop_vars(dim)
-        place = dataset[dim].isel({dim: index}).drop_vars(dim)
+        # Parameters of a sample, too, are along the dimension, and differ between the two places.
+        along = [str(name) for name, values in dataset.coords.items() if dim in values.dims]
+        value = dataset.s.isel({dim: index}).drop_vars(along)
+        place = dataset[dim].isel({dim: index}).drop_vars(along)
         place = place.where(value.notnull()) if place.dtype.kind == "f" else place
         words = {"long_name": f"{name} of s", "comment": f"along {dim}", "units": "1", "symbol": "s"}
         parts[name] = value.drop_attrs().assign_attrs(words)

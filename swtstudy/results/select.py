@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.nearest import TOLERANCE, index_of
 from swtstudy.grid.values import read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
@@ -29,7 +30,8 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
         Results, as from `solve`, `run` or `open_results`.
     places
         By name: a single value, whose dimension becomes a scalar coordinate, or a sequence of values, whose
-        dimension is kept. Values are written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
+        dimension is kept; of a sample those points remain that have one of the values. Values are written as
+        in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
     tolerance
         Largest distance from the nearest value of the axis, relative to the larger of the two.
 
@@ -46,6 +48,7 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
     require_points(dataset)
     mistakes: list[Mistake] = []
     chosen: dict[str, Any] = {}
+    rows = np.ones(dataset.sizes.get(SAMPLE, 0), bool)
     for name, raw in places.items():
         if name not in dataset.coords or name not in AXES:
             known = [str(known) for known in dataset.coords if known in AXES]
@@ -58,9 +61,12 @@ def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float
         found = [_index(dataset[name], element, tolerance, mistakes) for element in elements]
         if name in dataset.dims:
             chosen[name] = found if several else found[0]
+        elif dataset[name].dims == (SAMPLE,):
+            values = dataset[name].values
+            rows &= np.isin(values, values[found])
     if mistakes:
         raise StudyError(mistakes)
-    return dataset.isel(chosen)
+    return dataset.isel(chosen if rows.all() else {**chosen, SAMPLE: np.flatnonzero(rows)})
 
 
 def require_points(dataset: xr.Dataset) -> None:

@@ -22,15 +22,16 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Columns: the dimensions in their order, the parameters with a single value, and the results.
+        Columns: the dimensions in their order, the other parameters, and the results.
     """
     import pandas as pd
 
     dims = list(map(str, dataset.dims))
-    fixed = [str(name) for name, values in dataset.coords.items() if not values.dims]
+    # Those of a sample are along its dimension, single values along none.
+    others = [str(name) for name in dataset.coords if name not in dims]
     shape = tuple(dataset.sizes.values())
     columns = {}
-    for name in [*dims, *fixed, *map(str, dataset.data_vars)]:
+    for name in [*dims, *others, *map(str, dataset.data_vars)]:
         values = dataset[name].broadcast_like(dataset) if dims else dataset[name]
         flat = np.broadcast_to(values.transpose(*dims).values, shape).ravel()
         meanings = dataset[name].attrs.get("flag_meanings")

@@ -1,41 +1,31 @@
-"""Run a study: look up known points, compute the missing ones, write the archive."""
+"""Run studies: look up known points, compute the missing ones, write the archives."""
 
 from __future__ import annotations
 
-import logging
-import time
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
-from datetime import UTC, datetime
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.files import check_writable
-from swtstudy.grid.cost import SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, weights
-from swtstudy.quantities import Request
-from swtstudy.records.records import Records, Run
 from swtstudy.runner.chunk import Solver, solve_points
-from swtstudy.runner.collector import Collector
-from swtstudy.runner.cutting import chunks
-from swtstudy.runner.engine import Pool, WorkerError, solve
-from swtstudy.runner.work import Work, assess
+from swtstudy.runner.engine import Pool
+from swtstudy.runner.job import Job, Stopped
 from swtstudy.runner.workers import LocalPool
-from swtstudy.study.definition import Study, require_study
-from swtstudy.version import SOLVER_VERSION
+from swtstudy.study.definition import Study
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-_log = logging.getLogger(__name__)
+__all__ = ["Stopped", "run", "run_several"]
 
 #: Seconds of work that one process does alone: worker processes take as long to start.
 _SMALL_SECONDS = 1.0
 
-
-class Stopped(KeyboardInterrupt):
-    """A run that was stopped by Ctrl-C; the message says what is saved and how to go on."""
+#: Receives the study, the path and the content of an archive as soon as it is written.
+Finished = Callable[[Study, Path, "xr.Dataset"], None]
 
 
 def run(
@@ -93,143 +83,83 @@ def run(
     -----
     In each of these cases everything computed so far is saved.
     """
-    from swtstudy.archive.archive import build
-    from swtstudy.archive.lock import locked
-    from swtstudy.archive.names import check_archive_path
-    from swtstudy.archive.parts import clear_unfinished, parts_folder
-
-    require_study(study)
-    path = Path(path)
-    check_archive_path(path)
-    check_writable(path)
-    with locked(parts_folder(path)):
-        clear_unfinished(parts_folder(path))
-        begin = time.perf_counter()
-        work = assess(study, path, retry_failed)
-        finished = _finished(work, study, path)
-        if finished is not None:
-            return finished
-        _log_known(work)
-        what = _words(work)
-        with _reporting_what_is_saved(work, path):
-            records = _compute(work, study, path, _pool(work, workers, client), solver)
-            history, seconds = _history(what, path), time.perf_counter() - begin
-            return _leave(build(study, work.points, records.trimmed(), history, seconds), work.dropped, path)
+    found: list[xr.Dataset] = []
+    run_several(
+        [(study, Path(path))],
+        lambda study, path, dataset: found.append(dataset),
+        workers=workers,
+        client=client,
+        retry_failed=retry_failed,
+        solver=solver,
+    )
+    return found[0]
 
 
-def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
-    """The archive, if it is that of exactly this study and nothing is left to do."""
-    from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
-    from swtstudy.archive.read import read_archive
+def run_several(
+    studies: Iterable[tuple[Study, Path]],
+    finished: Finished,
+    *,
+    workers: int = 2,
+    client: Client | None = None,
+    retry_failed: bool = False,
+    solver: Solver = solve_points,
+) -> None:
+    """Compute studies with the same workers, and write their archives.
 
-    if work.todo or not path.exists() or len(read_parts(parts_folder(path))):
-        return None
-    archive = read_archive(path)
-    if archive.attrs["study"] != study.text:
-        return None
-    clear_parts(parts_folder(path))  # parts that could not be read
-    return archive
+    While the workers compute a study, the archive of the one before is written in another thread: netCDF is
+    not thread-safe, but computing only writes parts. An error in one study ends all; what is computed of the
+    others is saved.
 
-
-def _words(work: Work) -> str:
-    """What a run does, in the past tense, for the history."""
-    words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
-    more = int(work.incomplete.sum())
-    return f"{words}, and quantities that {more} others lacked" if more else words
-
-
-def _log_known(work: Work) -> None:
-    if work.outdated:
-        _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
-    if work.coarse:
-        _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
-    if work.incomplete.any():
-        _log.info("%d points are computed, but lack quantities that the study asks", work.incomplete.sum())
-    if 0 < work.todo < len(work.records):
-        known = len(work.records) - work.todo
-        _log.info("%d of %d distinct points are already computed", known, len(work.records))
-
-
-@contextmanager
-def _reporting_what_is_saved(work: Work, path: Path) -> Iterator[None]:
-    """However the block is stopped, its error says what is saved and how to go on."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        raise Stopped(f"stopped; {_saved(work, path)}; the same command continues from there") from None
-    except OSError as error:
-        kind = WorkerError if isinstance(error, WorkerError) else OSError
-        reason = error.strerror or str(error)
-        advice = "once that is fixed, the same command continues from there"
-        raise kind(f"{reason}; {_saved(work, path)}; {advice}") from error
-
-
-def _saved(work: Work, path: Path) -> str:
-    # A run fills its records in place.
-    saved = len(work.records) - work.todo
-    return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
+    Parameters
+    ----------
+    studies
+        Studies and the paths of their archives.
+    finished
+        Called with every archive, one after the other, not always in this thread.
+    workers, client, retry_failed, solver
+        As for `run`.
+    """
+    with ExitStack() as held:
+        background = held.enter_context(ThreadPoolExecutor(1))
+        local = held.enter_context(LocalPool(workers))
+        before: Job | None = None
+        for study, path in studies:
+            try:
+                job = Job(study, path, retry_failed)
+            except BaseException:
+                if before is not None:
+                    _finish(before, finished)
+                raise
+            held.callback(job.__exit__)
+            writing = None if before is None else background.submit(_finish, before, finished)
+            try:
+                job.compute(_pool(job, local, client), solver)
+            finally:
+                _wait(writing, before)
+            before = job
+        if before is not None:
+            _finish(before, finished)
 
 
-def _pool(work: Work, workers: int, client: Client | None) -> AbstractContextManager[Pool | None]:
-    """The workers of a run; none if this process alone is faster."""
+def _finish(job: Job, finished: Finished) -> None:
+    """Write the archive of a job, and release it."""
+    dataset = job.finish()
+    job.__exit__()
+    finished(job.study, job.path, dataset)
+
+
+def _wait(writing: Future[None] | None, job: Job | None) -> None:
+    """Wait for an archive that is being written; its error counts."""
+    if writing is not None and job is not None:
+        with job.reporting():
+            writing.result()
+
+
+def _pool(job: Job, local: LocalPool, client: Client | None) -> AbstractContextManager[Pool | None]:
+    """The workers for a study; none if this process alone is faster."""
     if client is not None:
         from swtstudy.runner.cluster import ClusterPool
 
         return ClusterPool(client)
-    wanted = work.missing | work.incomplete
-    seconds = weights(work.points.table[wanted]).sum() * SECONDS_PER_WEIGHT
-    if Request.of(work.quantities).distances:
-        seconds += wanted.sum() * SECONDS_NONLOCAL
-    if workers < 2 or seconds < _SMALL_SECONDS:
-        return nullcontext()
-    return LocalPool(workers)
-
-
-def _compute(
-    work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
-) -> Records:
-    """The records, with the missing points computed."""
-    from swtstudy.archive.archive import versions
-    from swtstudy.archive.parts import PartsWriter, parts_folder
-
-    if not work.todo:
-        return work.records
-    writer = PartsWriter(parts_folder(path))
-    now = datetime.now(UTC).isoformat(timespec="seconds")
-    asked = tuple(sorted(study.asked.items))
-    own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, quantities=asked)
-    collector = Collector(work.records, own, writer, work.todo)
-    weight = collector.pace.chunk_weight
-    todo = (
-        chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, weight, asked)
-    )
-    with collector, workers as pool:
-        solve(todo, study.rtol, solver, collector.add, pool)
-    return collector.records
-
-
-def _history(what: str, path: Path) -> str:
-    """What was done, followed by the history of the archive that is replaced."""
-    from swtstudy.archive.archive import history_line
-    from swtstudy.archive.read import read_archive
-
-    before = [read_archive(path).attrs["history"]] if path.exists() else []
-    return "\n".join([history_line(what), *before])
-
-
-def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
-    """Write the archive, which replaces the parts, and keep the records that are not in it."""
-    from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
-    from swtstudy.archive.read import read_archive
-    from swtstudy.archive.write import save
-
-    folder, kept = parts_folder(path), kept_folder(path)
-    try:
-        with keeping(kept, dropped):
-            save(dataset, path, beside=folder)
-    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
-        raise OSError(f"cannot write the archive ({error})") from error
-    clear_parts(folder)
-    if len(dropped):
-        _log.info("%d points are not in this study: %s keeps them", len(dropped), kept)
-    return read_archive(path)
+    alone = local.size() < 2 or (not local.started and job.seconds < _SMALL_SECONDS)
+    return nullcontext(None if alone else local)

@@ -21,6 +21,8 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"
 class LocalPool:
     """Worker processes on this machine, inside a with block; the `Pool` of a run without a cluster.
 
+    They start with the first task.
+
     Parameters
     ----------
     count
@@ -31,12 +33,19 @@ class LocalPool:
 
     def __init__(self, count: int) -> None:
         self._count = count
+        self._executor: ProcessPoolExecutor | None = None
 
     def __enter__(self) -> LocalPool:
-        self._executor = start_workers(self._count)
         return self
 
+    @property
+    def started(self) -> bool:
+        """Whether the processes have been started."""
+        return self._executor is not None
+
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if self._executor is None:
+            return
         if kind is not None:
             # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
             kill_workers(self._executor)
@@ -49,11 +58,14 @@ class LocalPool:
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """See `Pool`."""
+        if self._executor is None:
+            self._executor = start_workers(self._count)
         return self._executor.submit(function, *arguments)
 
     def renew(self) -> None:
         """See `Pool`; one lost worker breaks the executor for all."""
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        if self._executor is not None:
+            self._executor.shutdown(wait=False, cancel_futures=True)
         self._executor = start_workers(self._count)
 
 

@@ -7,17 +7,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.reading import Range, read_distances, read_grid
-from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
+from swtstudy.grid.grid import SAMPLE, Grid
+from swtstudy.grid.reading import Known, Range, read_distances, read_grid
+from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
 from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
+from swtstudy.study.writing import to_toml
+
+if TYPE_CHECKING:
+    from swtstudy.sampling.reading import Sample
 
 
 def require_study(study: object) -> None:
@@ -43,7 +47,9 @@ class Study:
     figure
         Layout of the figure, or None.
     text
-        The study file as it was read; it is stored in the archive.
+        The study file as it was read, with the points of a file in it; it is stored in the archive.
+    sample
+        Where the sample of the grid comes from, or None.
 
     Examples
     --------
@@ -63,6 +69,7 @@ class Study:
     asked: Request
     figure: FigureLayout | None
     text: str
+    sample: Sample | None = None
 
     def __repr__(self) -> str:
         from swtstudy.study.overview import in_one_line
@@ -91,8 +98,9 @@ class Study:
         if not isinstance(path, str | PathLike):
             raise StudyError([Mistake("path", literal(path), "the path or the name of a study")])
         source = str(path)
+        file = find_study(source)
         try:
-            text = find_study(source).read_text(encoding="utf-8")
+            text = file.read_text(encoding="utf-8")
         except FileNotFoundError:
             allowed = "a study file (TOML)"
             if not Path(path).suffix:
@@ -105,7 +113,7 @@ class Study:
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise StudyError([Mistake("", reason, "a readable study file (TOML)", source)]) from None
-        return cls.from_text(text, source, find_study(source).parent)
+        return cls.from_text(text, source, file.parent)
 
     @classmethod
     def from_text(cls, text: str, source: str = "study", folder: str | PathLike[str] = ".") -> Study:
@@ -142,30 +150,47 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)
-    fixed, axes = _parts(raw)
-    places = {name: "fixed" for name in fixed} | {name: "axes" for name in axes}
-    known, found = _definitions(raw, folder, source)
-    mistakes += found
-
-    def keys(name: str) -> str:
-        return f"{places.get(name, 'fixed')}.{name}"
 
     def report(key: str, found: str, allowed: str) -> None:
         mistakes.append(Mistake(key, found, allowed, source))
 
+    fixed, axes = _parts(raw)
+    known, found = _definitions(raw, folder, source)
+    mistakes += found
+    sample, sampled = _sample(raw, folder, known, report)
+    places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
+    samples = {name: sample.values[name] if sample else None for name in sampled}
+
+    def keys(name: str) -> str:
+        return f"{places.get(name, 'fixed')}.{name}"
+
     distances = read_distances(fixed, axes, keys, report)
     asked = Request(read_quantities(raw.get("quantities", []), "quantities", report), *distances)
-    grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known)
+    grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
-        check_figure(figure, names, grid, asked, report)
+        dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
+        check_figure(figure, dims, grid, asked, report)
     if mistakes or table is None or grid is None:
-        raise StudyError(mistakes)
-    return Study(table.title, grid, table.rtol, asked, figure, text)
+        raise StudyError(list(dict.fromkeys(mistakes)))
+    if table.sample is not None and table.sample.file is not None:
+        text = to_toml(table.title, table.rtol, grid, figure, asked)
+    return Study(table.title, grid, table.rtol, asked, figure, text, sample)
+
+
+def _sample(
+    raw: Mapping[str, Any], folder: Path, known: Known, report: Report
+) -> tuple[Sample | None, list[str]]:
+    """The sample, and the names of the parameters that are sampled."""
+    if not isinstance(raw.get("sample"), dict):
+        return None, []
+    from swtstudy.sampling.reading import read_sample
+
+    return read_sample(raw["sample"], folder, report, known)
 
 
 def _definitions(

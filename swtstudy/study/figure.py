@@ -13,8 +13,10 @@ from swtstudy.parameters import LETTERS, PARAMETERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
-#: Kinds of figures: lines over x, or a surface over x and vertical.
-KINDS = ("lines", "contour", "heatmap")
+#: Kinds of figures of a sample: points over each of its parameters, or how often there are which values.
+SAMPLE_KINDS = ("scatter", "histogram")
+#: Kinds of figures: lines over x, a surface over x and vertical, or those of a sample.
+KINDS = ("lines", "contour", "heatmap", *SAMPLE_KINDS)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
@@ -30,7 +32,7 @@ class FigureLayout:
     Attributes
     ----------
     x
-        Dimension along the horizontal axis.
+        Dimension along the horizontal axis; "sample" for a figure of a sample.
     hue
         Dimension whose values are the lines, or None for one line.
     panels
@@ -42,7 +44,8 @@ class FigureLayout:
         Title over the figure, or None.
     kind
         "lines"; "contour", which for s also shows where it is least and greatest along x; or "heatmap", with
-        a cell for each point.
+        a cell for each point; or, of a sample, "scatter", with a panel for each of its parameters, or
+        "histogram".
     vertical
         Dimension along the vertical axis of a contour or heat map, None for lines.
     regimes

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swtstudy.grid.grid import Grid
+from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameters import AXES, DIRECTIONS, QUANTITY_AXES
 from swtstudy.quantities import DISTANCE, Request, every_variable
-from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, FigureLayout, reference
+from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 
 
 def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
@@ -21,24 +21,39 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         used.setdefault(name, role)
     if layout.kind not in KINDS:
         yield "figure.kind", literal(layout.kind), nearest(layout.kind, KINDS)
-    elif layout.kind == "lines":
-        if layout.vertical is not None:
-            allowed = 'none for kind = "lines", whose vertical axis is y'
-            yield "figure.vertical", literal(layout.vertical), allowed
     else:
-        if layout.vertical is None:
-            yield "figure.vertical", "nothing", f'the name of an axis (kind = "{layout.kind}" needs it)'
-        if layout.hue is not None:
-            yield "figure.hue", literal(layout.hue), f'none for kind = "{layout.kind}"'
-    for role in ("x", "vertical"):
-        name = getattr(layout, role)
-        if name in AXES and AXES[name].kind == "name" and layout.kind != "heatmap":
-            yield f"figure.{role}", literal(name), "an axis of numbers"
+        yield from _wrong_roles(layout)
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
     problem = _wrong_formula(layout.title or "")
     if problem:
         yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
+
+
+def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+    """What does not go with the kind of figure."""
+    kind = f'kind = "{layout.kind}"'
+    surface = layout.kind in ("contour", "heatmap")
+    if surface and layout.vertical is None:
+        yield "figure.vertical", "nothing", f"the name of an axis ({kind} needs it)"
+    elif not surface and layout.vertical is not None:
+        yield "figure.vertical", literal(layout.vertical), f"none for {kind}, whose vertical axis is y"
+    if surface and layout.hue is not None:
+        yield "figure.hue", literal(layout.hue), f"none for {kind}"
+    for role, name in layout.roles():
+        named = name in AXES and AXES[name].kind == "name"
+        if role in ("x", "vertical") and named and layout.kind != "heatmap":
+            yield f"figure.{role}", literal(name), "an axis of numbers"
+        if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
+            yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
+    if layout.kind not in SAMPLE_KINDS:
+        return
+    if layout.x != SAMPLE:
+        yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {kind}'
+    if layout.kind == "scatter" and layout.panels is not None:
+        yield "figure.panels", literal(layout.panels), f"none for {kind}: every sampled parameter has its own"
+    if layout.regimes:
+        yield "figure.regimes", "True", f"False for {kind}"
 
 
 def wrong_axes(
@@ -62,7 +77,7 @@ def wrong_axes(
             yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
     roles = dict(layout.roles())
     for name in sizes:
-        if name not in roles.values() and name in AXES:
+        if name not in roles.values() and name in (*AXES, SAMPLE):
             yield (
                 "figure",
                 f"no place for the axis {name}",
@@ -104,9 +119,8 @@ def _sizes(
     y: str, layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request
 ) -> dict[str, int | None]:
     """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
-    sizes = {
-        name: None if grid is None else len(grid.values(name)) for name in dims if name not in QUANTITY_AXES
-    }
+    lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
     known = y.strip() in VARIABLES or not y.strip().isidentifier()
     used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
     lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}

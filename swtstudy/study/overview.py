@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import Value
 from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, QUANTITIES
@@ -28,6 +29,10 @@ def as_html(study: Study) -> str:
         ("axis", name, _values(values), _meaning(name, roles.get(name)))
         for name, values in study.grid.axes.items()
     ]
+    rows += [
+        ("sampled", name, _values(values), _meaning(name, roles.get(SAMPLE)))
+        for name, values in study.grid.samples.items()
+    ]
     asked = study.asked
     if asked.distances:
         meaning = _meaning(DISTANCE, roles.get(DISTANCE))
@@ -46,7 +51,7 @@ def as_html(study: Study) -> str:
 
 
 def _size(study: Study) -> str:
-    axes = " × ".join(f"{len(values)} {name}" for name, values in study.grid.axes.items())
+    axes = " × ".join(f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True))
     points = f"{study.grid.size} point{'s' * (study.grid.size != 1)}"
     return f"{points} = {axes}" if axes else points
 

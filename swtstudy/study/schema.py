@@ -5,8 +5,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.grid.values import NUMERIC
 from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
 from swtstudy.quantities import DISTANCE, NAMED
+from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 
@@ -20,6 +23,7 @@ _DESCRIPTIONS = {
     "quantities": "What is computed beside s, as data variables of the results.",
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
+    "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
     "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
     "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
     "figure": "What the figure puts where; every axis needs a place.",
@@ -36,6 +40,14 @@ _PROFILE_DESCRIPTIONS = {
     "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
     "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
 }
+_SAMPLE_DESCRIPTIONS = {
+    "design": "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).",
+    "size": "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).",
+    "seed": "Seed of the random numbers.",
+    "ranges": "Sampled parameters: both ends, [low, high], or a distribution.",
+    "file": "CSV file of points: a row with names of parameters, then a row for each point.",
+    "points": "Points given here: a list of values for each parameter, all of one length.",
+}
 _LOAD_DESCRIPTIONS = {
     "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
     "amplitude times c_t.",
@@ -44,8 +56,8 @@ _LOAD_DESCRIPTIONS = {
     "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, or contours or a heat map over x and vertical.",
-    "x": "Axis along the horizontal axis.",
+    "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
+    "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",
     "panels": "Axis whose values are the panels side by side.",
@@ -58,6 +70,8 @@ _FIGURE_DESCRIPTIONS = {
 }
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
+#: Where a sample may be beside axes.
+_SAMPLED = {"x": (SAMPLE,)}
 
 
 def study_schema() -> dict[str, Any]:
@@ -68,6 +82,7 @@ def study_schema() -> dict[str, Any]:
     for table, descriptions in (
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
+        (parts["SampleTable"]["properties"], _SAMPLE_DESCRIPTIONS),
         (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
         (parts["ProfileTable"]["properties"], _PROFILE_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
@@ -83,18 +98,27 @@ def study_schema() -> dict[str, Any]:
     }
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
+    sample = parts["SampleTable"]["properties"]
     given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]}
-    for part, entry_of in (("fixed", _value), ("axes", _axis)):
+    for table, part, entry_of, names in (
+        (keys, "fixed", _value, given),
+        (keys, "axes", _axis, given),
+        (sample, "ranges", _range, NUMERIC),
+        (sample, "points", _values, PARAMETERS),
+    ):
         # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
-        keys[part] = {
-            "description": keys[part]["description"],
+        table[part] = {
+            "description": table[part]["description"],
             "type": "object",
-            "properties": {name: entry_of(row) for name, row in given.items()},
+            "properties": {name: entry_of(given[name]) for name in names},
             "additionalProperties": False,
         }
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
-        roles[role] = {"enum": [*PARAMETERS, *QUANTITY_AXES], "description": roles[role]["description"]}
+        roles[role] = {
+            "enum": [*PARAMETERS, *QUANTITY_AXES, *_SAMPLED.get(role, ())],
+            "description": roles[role]["description"],
+        }
     return schema
 
 
@@ -116,15 +140,41 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
 
 
-def _axis(parameter: Parameter) -> dict[str, Any]:
-    """Schema of several values: a list, or a range of numbers."""
+def _values(parameter: Parameter) -> dict[str, Any]:
+    """Schema of a list of values."""
     value = _value(parameter)
     description = value.pop("description")
     value.pop("default", None)
-    values = {"type": "array", "items": value, "minItems": 1}
+    return {"description": description, "type": "array", "items": value, "minItems": 1}
+
+
+def _axis(parameter: Parameter) -> dict[str, Any]:
+    """Schema of several values: a list, or a range of numbers."""
+    values = _values(parameter)
+    description = values.pop("description")
     if parameter.kind == "name":
         return {"description": description, **values}
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+
+
+def _range(parameter: Parameter) -> dict[str, Any]:
+    """Schema of the range of a sampled parameter: both ends, or a distribution."""
+    ends = _values(parameter)
+    description = ends.pop("description")
+    number = {"type": ["number", "string"]}
+    numbers = {name: number for names in KINDS.values() for name in names}
+    distribution = {
+        "type": "object",
+        "properties": {
+            "distribution": {"enum": list(KINDS)},
+            "low": ends["items"],
+            "high": ends["items"],
+            **numbers,
+        },
+        "required": ["distribution"],
+        "additionalProperties": False,
+    }
+    return {"description": description, "anyOf": [ends | {"minItems": 2, "maxItems": 2}, distribution]}
 
 
 def _description(parameter: Parameter) -> str:

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 from swtstudy.accuracy import ALLOWED_RTOL
 from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.study.tables import FigureTable, LoadTable, ProfileTable, RangeTable, StudyTable
+from swtstudy.study.tables import FigureTable, LoadTable, ProfileTable, RangeTable, SampleTable, StudyTable
 
 #: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {
@@ -17,10 +17,17 @@ _ALLOWED = {
     "rtol": ALLOWED_RTOL,
     "fixed": "a table of single values",
     "axes": "a table of axes",
+    "sample": "a table with design, size and ranges, or with file",
+    "sample.design": '"sobol", "latin_hypercube", "random" or "saltelli"',
+    "sample.size": "a whole number",
+    "sample.seed": "a whole number",
+    "sample.ranges": "a table of ranges",
+    "sample.file": "the path of a CSV file",
+    "sample.points": "a table of lists of values",
     "loads": "a table of loops, [loads.NAME]",
     "profiles": "a table of profiles, [profiles.NAME]",
     "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
-    "figure.kind": '"lines", "contour" or "heatmap"',
+    "figure.kind": '"lines", "contour", "heatmap", "scatter" or "histogram"',
     "figure.vertical": "the name of an axis",
     "figure.x": "the name of an axis",
     "figure.hue": "the name of an axis",
@@ -70,9 +77,10 @@ def _mistake(detail: Any, source: str) -> Mistake:
 def _known(path: list[Any]) -> list[str]:
     inner: dict[str, type[BaseModel]] = {
         "axes": RangeTable,
-        "figure": FigureTable,
+        "sample": SampleTable,
         "loads": LoadTable,
         "profiles": ProfileTable,
+        "figure": FigureTable,
     }
     model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable
     return list(model.model_fields)

@@ -31,10 +31,21 @@ Axis = Annotated[
 ]
 
 
+class SampleTable(_Table):
+    """Parameters that vary together: a design of points in ranges, or given points."""
+
+    design: Literal["sobol", "latin_hypercube", "random", "saltelli"] | None = None
+    size: int | None = None
+    seed: int = 0
+    ranges: dict[str, Any] = {}
+    file: str | None = None
+    points: dict[str, list[Any]] = {}
+
+
 class FigureTable(_Table):
     """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    kind: Literal["lines", "contour", "heatmap"] = "lines"
+    kind: Literal["lines", "contour", "heatmap", "scatter", "histogram"] = "lines"
     x: str
     vertical: str | None = None
     hue: str | None = None
@@ -71,6 +82,7 @@ class StudyTable(_Table):
     quantities: Any = []
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
+    sample: SampleTable | None = None
     loads: dict[str, LoadTable] = {}
     profiles: dict[str, ProfileTable] = {}
     figure: FigureTable | None = None

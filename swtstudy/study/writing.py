@@ -39,6 +39,9 @@ def to_toml(
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
     lines += [f"{DISTANCE} = {[*several]}"] * bool(several)
+    if grid.samples:
+        lines += ["", "[sample.points]"]
+        lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
     for defined in grid.definitions.values():
         lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
         lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]

@@ -1,0 +1,76 @@
+"""Bar charts of Sobol indices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.figures.figure import Figure
+from swtstudy.figures.legend import add_legend
+from swtstudy.figures.style import COLOURS, Style, styled
+from swtstudy.wording import parameter_words, place_words
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+#: Size of a panel, inches: its width grows with the number of parameters.
+_BAR_WIDTH, _MARGIN, _PANEL_HEIGHT = 0.75, 1.0, 3.0
+_WORDS = {"first_order": "alone (first order)", "total": "alone and with others (total)"}
+
+
+def draw_sensitivity(indices: xr.Dataset, style: Style | None = None) -> Figure:
+    """Bars of the indices of every parameter with their confidence intervals.
+
+    Parameters
+    ----------
+    indices
+        From `swtstudy.sensitivity`.
+    style
+        As for `swtstudy.figures.draw.draw`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A row of panels for every quantity, a column for every place on the axes.
+    """
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
+    columns = indices.stack(place=axes).transpose("place", ...) if axes else indices.expand_dims("place")
+    rows, across = indices.sizes["quantity"], columns.sizes["place"]
+    width = _MARGIN + _BAR_WIDTH * indices.sizes["parameter"]
+    with styled(style):
+        layout = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05)
+        figure = Figure((width * across, _PANEL_HEIGHT * rows), layout=layout)
+        panels = figure.subplots(rows, across, sharex=True, sharey=True, squeeze=False)
+        for row, line in enumerate(panels):
+            for column, panel in enumerate(line):
+                _draw_one(panel, columns.isel(quantity=row, place=column), column == 0)
+                places = (
+                    [place_words(name, columns[name].values[column]) for name in axes] if row == 0 else []
+                )
+                panel.set_title(", ".join(places), loc="left")
+        figure.suptitle(indices.attrs["title"])
+        add_legend(figure, panels, below=True)
+    return figure
+
+
+def _draw_one(axes: Axes, indices: xr.Dataset, first: bool) -> None:
+    names = indices.parameter.values.tolist()
+    places = np.arange(len(names))
+    for number, (key, words) in enumerate(_WORDS.items()):
+        value, low, high = (indices[f"{key}{end}"].values for end in ("", "_low", "_high"))
+        error = np.maximum([value - low, high - value], 0.0)
+        at = places + 0.4 * (number - 0.5)
+        # Of a container of bars a legend would not know the line style.
+        axes.bar(at, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
+        axes.errorbar(
+            at, value, error, linestyle="none", marker="", color="black", elinewidth=1.2, capsize=2.5
+        )
+    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
+    axes.set_xticks(places, [parameter_words(name) for name in names])
+    axes.grid(False, axis="x")
+    if first:
+        axes.set_ylabel(f"share of the variance of {indices.quantity.item()}".replace("_", " "))

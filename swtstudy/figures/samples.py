@@ -1,0 +1,156 @@
+"""Figures of a sample: a quantity over each of its parameters, and how often it has which values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.figures.figure import Figure
+from swtstudy.figures.legend import add_legend
+from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.style import COLOURS
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.parameters import PARAMETERS
+from swtstudy.results.quantity import quantity
+from swtstudy.study.figure import FigureLayout
+from swtstudy.wording import axis_words, place_words, tick_in_pi, value_words
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+#: Panel size, inches, and the most panels side by side: a page.
+_PANEL_WIDTH, _PANEL_HEIGHT, _ACROSS = 4.0, 3.2, 3
+#: Points of a cloud are the fainter the more there are: so many are drawn without transparency.
+_OPAQUE = 100
+#: Percentiles that a histogram marks.
+PERCENTILES = (5, 50, 95)
+_DASHES = (":", "-", "--")
+
+
+def draw_scatter(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
+    """Points of the quantities over every sampled parameter, a panel each."""
+    names = [str(name) for name in dataset.coords if name in PARAMETERS and dataset[name].dims == (SAMPLE,)]
+    across = min(_ACROSS, len(names))
+    rows = -(-len(names) // across)
+    figure = _figure(across, rows * len(layout.y))
+    axes = figure.subplots(rows * len(layout.y), across, squeeze=False, sharey="row")
+    for row, y in enumerate(layout.y):
+        for index, name in enumerate(names):
+            one = axes[row * rows + index // across, index % across]
+            for label, part in _by(dataset, layout.hue):
+                values = quantity(part, y).values
+                x, at = _numbers(part[name])
+                faint = min(1.0, (_OPAQUE / len(values)) ** 0.5)
+                one.plot(
+                    x, values, linestyle="none", marker="o", markersize=3, alpha=faint, mew=0, label=label
+                )
+                if at is not None:
+                    one.set_xticks(range(len(at)), at)
+            one.set_xlabel(axis_words(name))
+            _scale_axes(one, dataset, name, quantity(dataset, y))
+        for first in axes[row * rows : (row + 1) * rows, 0]:
+            first.set_ylabel(quantity_words(quantity(dataset, y), y))
+    for unused in axes.flat:
+        if not unused.lines:
+            unused.set_axis_off()
+    return _finished(figure, axes, layout)
+
+
+def draw_histogram(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
+    """How many points have which values of the quantities, with percentiles."""
+    panels = _by(dataset, layout.panels)
+    figure = _figure(len(panels), len(layout.y))
+    axes = figure.subplots(len(layout.y), len(panels), squeeze=False, sharex="row", sharey="row")
+    for row, y in enumerate(layout.y):
+        whole = quantity(dataset, y)
+        edges = _edges(whole)
+        for one, (title, panel) in zip(axes[row], panels, strict=True):
+            lines = [title]
+            for index, (label, part) in enumerate(_by(panel, layout.hue)):
+                values = quantity(part, y)
+                _draw_one(one, values, edges, label, COLOURS[index % len(COLOURS)])
+                lines.append(_percentile_words(values, label))
+            one.set_title("\n".join(filter(None, lines)), loc="left")
+            one.set_xlabel(quantity_words(whole, y))
+            flags = flag_words(whole)
+            if flags:
+                one.set_xticks(range(len(flags)), flags, rotation=30, ha="right")
+        axes[row, 0].set_ylabel("points")
+    return _finished(figure, axes, layout)
+
+
+def _draw_one(axes: Axes, values: xr.DataArray, edges: list[float], label: str | None, colour: str) -> None:
+    """One histogram, with lines at its percentiles."""
+    known = _finite(values)
+    axes.hist(known, edges, histtype="stepfilled", color=colour, alpha=0.35)
+    axes.hist(known, edges, histtype="step", color=colour, linestyle="-", label=label)
+    for place, dashes in zip(_percentiles(values), _DASHES, strict=False):
+        axes.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
+
+
+def _percentiles(values: xr.DataArray) -> list[float]:
+    """The values at `PERCENTILES`; none of flags."""
+    known = _finite(values)
+    return [] if flag_words(values) or not len(known) else np.percentile(known, PERCENTILES).tolist()
+
+
+def _percentile_words(values: xr.DataArray, label: str | None) -> str:
+    places = zip(PERCENTILES, _percentiles(values), strict=False)
+    words = ", ".join(f"{percent} %: {place:.3g}" for percent, place in places)
+    return f"{label}, {words}" if label and words else words
+
+
+def _finite(values: xr.DataArray) -> NDArray[Any]:
+    flat = values.values.ravel()
+    return flat[np.isfinite(flat)]
+
+
+def _edges(values: xr.DataArray) -> list[float]:
+    """Edges of bins: those of NumPy's rule, one for each flag."""
+    words = flag_words(values)
+    if words:
+        return [place - 0.5 for place in range(len(words) + 1)]
+    known = _finite(values)
+    return np.histogram_bin_edges(known if len(known) else [0.0, 1.0], "auto").tolist()
+
+
+def _scale_axes(axes: Axes, dataset: xr.Dataset, name: str, values: xr.DataArray) -> None:
+    words = flag_words(values)
+    if words:
+        axes.set_yticks(range(len(words)), words)
+        axes.set_ylim(-0.5, len(words) - 0.5)
+    if PARAMETERS[name].units == "rad":
+        tick_in_pi(axes.xaxis, float(dataset[name].min()), float(dataset[name].max()))
+
+
+def _numbers(values: xr.DataArray) -> tuple[NDArray[Any], list[str] | None]:
+    """Places along an axis, and the names there of values that are no numbers."""
+    if values.dtype.kind in "fiu":
+        return values.values, None
+    names, places = np.unique(values.values.astype(str), return_inverse=True)
+    return places, [value_words(str(values.name), str(name)) for name in names]
+
+
+def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:
+    """The parts of a Dataset at each value of a dimension, in words."""
+    if name is None:
+        return [(None, dataset)]
+    parts = [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
+    return [(place_words(name, part[name].item()), part) for part in parts]
+
+
+def _figure(columns: int, rows: int) -> Figure:
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    size = (_PANEL_WIDTH * columns, _PANEL_HEIGHT * rows)
+    return Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
+
+
+def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:
+    if layout.title:
+        figure.suptitle(layout.title)
+    add_legend(figure, axes, below=layout.kind == "scatter")
+    return figure

@@ -1,0 +1,177 @@
+"""Sobol indices: the share of a quantity's variance that each sampled parameter is responsible for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal
+from swtstudy.results.quantity import quantity
+from swtstudy.wording import value_words
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Bootstrap samples: the ends of a confidence interval of 95 % are then known to a tenth of its width.
+_RESAMPLES = 999
+
+_MEANINGS = {
+    "first_order": "share of the variance by this parameter alone",
+    "total": "share of the variance by this parameter, alone and with others",
+}
+#: The index itself, and the ends of its interval, as in the names of variables.
+_ENDS = {"": "", "_low": ", lower end", "_high": ", upper end"}
+
+
+def sensitivity(
+    dataset: xr.Dataset, y: str | Sequence[str] = "s", confidence: float = 0.95, seed: int = 0
+) -> xr.Dataset:
+    """Sobol indices of quantities over the parameters of a sample.
+
+    Parameters
+    ----------
+    dataset
+        Results of a study with a sample of the design "saltelli".
+    y
+        Quantities: names of data variables, or "s/s(name=value)".
+    confidence
+        Level of the confidence intervals, between 0 and 1.
+    seed
+        Seed of the bootstrap that gives these.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``first_order`` and ``total`` over ``quantity``, ``parameter`` and the axes of the results, with the
+        ends of their confidence intervals, ``first_order_low``, ``first_order_high``, ``total_low`` and
+        ``total_high``; and the ``mean`` and ``variance`` of each quantity.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if the sample is of another design or only a part of one, or if a quantity has no number
+        at some of the points: left out, they would change what the others mean.
+
+    Notes
+    -----
+    Computed by `scipy.stats.sobol_indices`, the confidence intervals by `scipy.stats.bootstrap`.
+    """
+    import xarray as xr
+
+    if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
+        raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
+    names, size = _design(dataset)
+    quantities = [y] if isinstance(y, str) else list(y)
+    values = [quantity(dataset, each) for each in quantities]
+    mistakes = [
+        m for name, each in zip(quantities, values, strict=True) for m in _mistakes(name, each, dataset)
+    ]
+    if mistakes:
+        raise StudyError(mistakes)
+    parts = []
+    for each in values:
+        axes = [str(dim) for dim in each.dims if dim != SAMPLE]
+        flat = each.transpose(*axes, SAMPLE).values.astype(float)
+        found = np.array(
+            [
+                _indices(row.reshape(len(names) + 2, size), float(confidence), seed)
+                for row in flat.reshape(-1, flat.shape[-1])
+            ]
+        )
+        shape = flat.shape[:-1]
+        keys = [(name, end) for end in _ENDS for name in _MEANINGS]
+        indices = {
+            f"{name}{end}": ((*axes, "parameter"), found[:, i].reshape(*shape, -1), _words(name, end))
+            for i, (name, end) in enumerate(keys)
+        }
+        both = flat[..., : 2 * size]  # independent points; the others are mixed from these
+        moments = {
+            "mean": (axes, both.mean(-1), {"long_name": "mean of the quantity"}),
+            "variance": (axes, both.var(-1), {"long_name": "variance of the quantity"}),
+        }
+        coordinates = {axis: each[axis] for axis in axes}
+        parts.append(xr.Dataset({**indices, **moments}, {"parameter": names, **coordinates}))
+    whole = xr.concat(parts, xr.Variable("quantity", quantities))
+    title = f"Sobol indices: {dataset.attrs['title']}" if "title" in dataset.attrs else "Sobol indices"
+    return whole.assign_attrs(title=title, size=size, confidence=float(confidence), seed=seed)
+
+
+def _words(name: str, end: str) -> dict[str, str]:
+    return {
+        "long_name": f"Sobol index, {name}{_ENDS[end]}".replace("_", " "),
+        "comment": _MEANINGS[name],
+        "units": "1",
+    }
+
+
+def _design(dataset: xr.Dataset) -> tuple[list[str], int]:
+    """The sampled parameters and the size of the base of a Saltelli design."""
+    attributes = dataset[SAMPLE].attrs if SAMPLE in dataset.coords else {}
+    if attributes.get("design") != "saltelli":
+        found = f"the design {attributes['design']}" if "design" in attributes else "no design"
+        raise StudyError([Mistake("sample.design", found, '"saltelli": Sobol indices need its points')])
+    names, size = str(attributes["parameters"]).split(), int(attributes["size"])
+    if len(names) < 2:
+        raise StudyError([Mistake("sample.ranges", names[0], "at least two parameters")])
+    if dataset.sizes.get(SAMPLE) == size * (len(names) + 2):
+        table = np.stack([dataset[name].values for name in names], axis=-1)
+        a, b, *mixed = table.reshape(len(names) + 2, size, len(names))
+        expected = [np.where(np.arange(len(names)) == i, b, a) for i in range(len(names))]
+        if np.array_equal(mixed, expected):
+            return names, size
+    found = f"{dataset.sizes.get(SAMPLE)} of its points, or in another order"
+    raise StudyError([Mistake("sample", found, "all points of a saltelli design, as they were computed")])
+
+
+def _mistakes(name: str, values: xr.DataArray, dataset: xr.Dataset) -> list[Mistake]:
+    """What stands against a quantity: that it is no number, or not everywhere."""
+    if SAMPLE not in values.dims or "flag_values" in values.attrs or values.dtype.kind not in "fiu":
+        return [
+            Mistake("y", f"{literal(name)}, which is no number over the sample", "a quantity such as 's'")
+        ]
+    wrong = np.argwhere(~np.isfinite(values.values))
+    if not len(wrong):
+        return []
+    place = values.isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
+    varying = [*str(dataset[SAMPLE].attrs["parameters"]).split(), *(d for d in values.dims if d != SAMPLE)]
+    where = ", ".join(f"{name}={value_words(str(name), place[name].item())}" for name in varying)
+    regime = dataset["regime"].isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
+    state = dataset["regime"].attrs["flag_meanings"].split()[int(regime)].replace("_", " ")
+    found = f"no number at {len(wrong)} of {values.size} points, such as {where} ({state})"
+    return [Mistake(name, found, "a number at every point: other ranges, or another quantity")]
+
+
+def _indices(rows: NDArray[Any], confidence: float, seed: int) -> NDArray[Any]:
+    """First-order and total indices, and the lower and upper ends of their intervals, shape (6, d).
+
+    Parameters
+    ----------
+    rows
+        Shape (d + 2, n): values at the two samples, and at the first with one parameter of the second.
+    confidence, seed
+        As for `sensitivity`.
+    """
+    from scipy.stats import bootstrap, sobol_indices
+
+    n = rows.shape[1]
+
+    def both(chosen: NDArray[np.int64]) -> NDArray[Any]:
+        some = rows[:, chosen]
+        found = sobol_indices(func={"f_A": some[0], "f_B": some[1], "f_AB": some[2:, None]}, n=n)
+        return np.array([found.first_order, found.total_order])
+
+    every = np.arange(n)
+    spread = bootstrap(
+        (every,),
+        both,
+        n_resamples=_RESAMPLES,
+        vectorized=False,
+        confidence_level=confidence,
+        method="percentile",
+        random_state=seed,
+    ).confidence_interval
+    return np.concatenate([both(every), spread.low, spread.high])

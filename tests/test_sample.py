@@ -1,0 +1,421 @@
+import csv
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import stand_in
+from scipy import stats
+
+from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.merge import merge
+from swtstudy.archive.recall import grid_of
+from swtstudy.figures.draw import draw
+from swtstudy.grid.unique import unique_points
+from swtstudy.runner.run import Stopped
+from swtstudy.sampling.design import DESIGNS, Design
+from swtstudy.sampling.distribution import Distribution
+from swtstudy.sampling.drawn import drawn_rows
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.writing import to_toml
+
+SAMPLED = """
+title = "A sample"
+rtol = 1e-3
+[sample]
+design = "{design}"
+size = {size}
+seed = 3
+[sample.ranges]
+phase = [0, "2*pi"]
+friction = {{ distribution = "normal", mean = 0.3, deviation = 0.1, low = 0.1, high = "1/2" }}
+[axes]
+profile = ["paraboloid", "rounded_punch"]
+[fixed]
+flat_radius = 0.5
+[figure]
+kind = "scatter"
+x = "sample"
+hue = "profile"
+"""
+
+
+def sampled(design="sobol", size=16):
+    return Study.from_text(SAMPLED.format(design=design, size=size))
+
+
+@pytest.mark.parametrize("design", DESIGNS)
+def test_the_points_are_in_the_ranges_and_reproducible(design):
+    grid, again = sampled(design).grid, sampled(design).grid
+    assert grid == again
+    n = 64 if design == "saltelli" else 16
+    assert grid.dims == ("sample", "profile")
+    assert grid.shape == (n, 2)
+    phase, friction = (np.array(grid.samples[name]) for name in ("phase", "friction"))
+    assert 0.0 <= phase.min() < 1.0 < 5.0 < phase.max() <= 2 * np.pi
+    assert 0.1 <= friction.min() < 0.25 < 0.35 < friction.max() <= 0.5
+
+
+@pytest.mark.parametrize("design", ["sobol", "random"])
+def test_a_doubled_design_begins_with_the_points_of_the_single_one(design):
+    single, doubled = sampled(design).grid.samples, sampled(design, 32).grid.samples
+    for name, values in single.items():
+        assert doubled[name][: len(values)] == values
+
+
+def test_a_sobol_design_is_balanced():
+    unit = Design("sobol", 64, 5).points(3)
+    for column in unit.T:
+        assert sorted(np.floor(64 * column)) == list(range(64))
+    assert not np.array_equal(unit, Design("sobol", 64, 6).points(3))
+
+
+def test_a_latin_hypercube_has_one_point_in_each_slice():
+    unit = Design("latin_hypercube", 50, 0).points(2)
+    for column in unit.T:
+        assert sorted(np.floor(50 * column)) == list(range(50))
+
+
+def test_a_saltelli_design_mixes_two_samples():
+    unit = Design("saltelli", 8, 1).points(3).reshape(5, 8, 3)
+    a, b = unit[:2]
+    assert not (a == b).any()
+    for i in range(3):
+        for j in range(3):
+            assert np.array_equal(unit[2 + i, :, j], (b if i == j else a)[:, j])
+
+
+def test_distributions_have_their_quantiles():
+    unit = np.array([0.0, 0.1, 0.5, 0.9, 1.0])
+    normal = Distribution("normal", {"mean": 2.0, "deviation": 0.5}, 1.0, 3.0)
+    cut = stats.truncnorm(-2.0, 2.0, 2.0, 0.5)
+    assert normal.values(unit) == pytest.approx(cut.ppf(unit), rel=1e-12)
+    assert normal.values(unit)[[0, -1]].tolist() == [1.0, 3.0]
+    # (x - low)² / ((high - low)(mode - low)) below the mode.
+    triangular = Distribution("triangular", {"mode": 2.0}, 1.0, 5.0)
+    assert triangular.values(unit)[1] == pytest.approx(1.0 + np.sqrt(0.1 * 4.0 * 1.0))
+    lognormal = Distribution("lognormal", {"median": 0.3, "deviation": 0.2}, 0.0, 10.0)
+    assert lognormal.values(unit)[1:4] == pytest.approx(0.3 * np.exp(0.2 * stats.norm.ppf(unit[1:4])))
+    assert Distribution("uniform", {}, 0.1, 0.7).values(unit)[[0, -1]].tolist() == [0.1, 0.7]
+
+
+def test_each_point_is_solved_with_its_own_parameters(tmp_path):
+    study = sampled()
+    found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    assert found.s.dims == ("sample", "profile")
+    for name in ("phase", "friction"):
+        assert found[name].dims == ("sample",)
+        assert found[name].values.tolist() == list(study.grid.samples[name])
+    # The stand-in's formula; a phase beyond π is that of the mirrored point.
+    amplitude, tangential, ν, ratio = 0.75, 5 / 6, 0.3, 1.0
+    cosine = np.cos(np.mod(found.phase, np.pi))
+    plain = 0.1 + 0.01 * amplitude * cosine + found.friction + ratio + 0.1 * tangential + ν
+    assert found.s.sel(profile="paraboloid").values == pytest.approx(plain.values, rel=1e-9)
+    assert found.s.sel(profile="rounded_punch").values == pytest.approx(plain.values + 0.5, rel=1e-9)
+
+
+def test_an_archive_is_read_back_as_it_was(tmp_path):
+    study = sampled("saltelli", 4)
+    found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    assert grid_of(found).samples == study.grid.samples
+    assert grid_of(found).axes == study.grid.axes
+    assert found.sample.attrs["design"] == "saltelli"
+    assert (found.sample.attrs["size"], found.sample.attrs["seed"]) == (4, 3)
+    counting = stand_in.Counting()
+    assert run(study, tmp_path / "a.nc", workers=1, solver=counting).identical(found)
+    assert counting.points == 0
+
+
+@pytest.mark.parametrize("design", ["sobol", "random", "saltelli"])
+def test_a_doubled_design_computes_only_the_new_half(tmp_path, design):
+    path, counting = tmp_path / "a.nc", stand_in.Counting()
+    small = run(sampled(design, 16), path, workers=1, solver=counting)
+    first = counting.points
+    large = run(sampled(design, 32), path, workers=1, solver=counting)
+    assert counting.points == 2 * first == large.s.size
+    known = dict(
+        zip(zip(small.phase.values, small.friction.values, strict=True), small.s.values, strict=True)
+    )
+    points = zip(large.phase.values.tolist(), large.friction.values.tolist(), strict=True)
+    kept = [known[point] for point in points if point in known]
+    assert len(kept) == small.sizes["sample"]
+
+
+def test_a_stopped_run_goes_on(tmp_path):
+    path, study = tmp_path / "a.nc", sampled("sobol", 1024)
+    with pytest.raises(Stopped):
+        run(study, path, workers=1, solver=stand_in.Interrupting(after=900))
+    partial = open_results(path)
+    missing = int((partial.status == 2).sum())
+    assert 0 < missing < 2048
+    counting = stand_in.Counting()
+    found = run(study, path, workers=1, solver=counting)
+    assert counting.points == missing
+    undisturbed = run(study, tmp_path / "b.nc", workers=1, solver=stand_in.smooth)
+    assert np.array_equal(found.s, undisturbed.s)
+
+
+def test_worker_processes_give_the_same(tmp_path):
+    study = sampled("sobol", 256)
+    here, there = (run(study, tmp_path / f"{n}.nc", workers=n, solver=stand_in.slow).s.values for n in (1, 2))
+    assert np.array_equal(here, there)
+
+
+def test_points_from_a_file(tmp_path):
+    (tmp_path / "points.csv").write_text(
+        "profile, frequency_ratio, phase, flat_radius\n"
+        "rounded_punch, 3/2, pi/2, 0.5\n"
+        "paraboloid, 1, 0.25, 0.5\n"
+        "\n"
+        "rounded_punch, 1.5, 2, 0.25\n"
+    )
+    (tmp_path / "mine.toml").write_text(
+        'title = "Mine"\nsample.file = "points.csv"\naxes.friction = [0.1, 0.2]\n'
+    )
+    study = Study.from_toml(tmp_path / "mine.toml")
+    assert study.grid.shape == (3, 2)
+    assert study.grid.samples["phase"] == (np.pi / 2, 0.25, 2.0)
+    assert list(map(str, study.grid.samples["frequency_ratio"])) == ["3/2", "1", "3/2"]
+    found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    assert found.profile.values.tolist() == ["rounded_punch", "paraboloid", "rounded_punch"]
+    # What is stored does not need the file, which may change.
+    (tmp_path / "points.csv").unlink()
+    assert Study.from_text(found.attrs["study"]).grid == study.grid
+    assert grid_of(open_results(tmp_path / "a.nc")).samples == study.grid.samples
+
+
+def test_the_text_of_a_sample_gives_the_same_sample():
+    study = sampled("random", 9)
+    assert Study.from_text(to_toml("t", 1e-4, study.grid, study.figure)).grid == study.grid
+
+
+def test_samples_of_the_same_parameters_are_merged(tmp_path):
+    for size in (16, 32):
+        run(sampled("random", size), tmp_path / f"{size}.nc", workers=1, solver=stand_in.smooth)
+    both = merge([tmp_path / "16.nc", tmp_path / "32.nc"])
+    assert both.s.shape == (32, 2)
+    assert (both.status == 0).all()
+    plain = Study.from_text('title = "t"\naxes.phase = [0, 1]\n')
+    run(plain, tmp_path / "plain.nc", workers=1, solver=stand_in.smooth)
+    with pytest.raises(ValueError, match="samples of different parameters"):
+        merge([tmp_path / "16.nc", tmp_path / "plain.nc"])
+
+
+def test_results_of_a_sample_are_sliced_listed_and_searched(tmp_path):
+    study = Study.from_text(
+        'title = "t"\n[sample.points]\nphase = [0, 1, 2, 1]\nfriction = [0.1, 0.2, 0.3, 0.4]\n'
+        "[axes]\nnormal_amplitude = [0.25, 0.5]\n"
+    )
+    found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    assert found.swt.slice(phase=1).friction.values.tolist() == [0.2, 0.4]
+    assert found.swt.slice(phase=[0, 2], normal_amplitude=0.5).friction.values.tolist() == [0.1, 0.3]
+    with pytest.raises(StudyError, match=r"friction: found 0.25, which is not in these results"):
+        found.swt.slice(friction=0.25)
+    table = found.swt.to_table()
+    assert len(table) == 8
+    assert table.friction.tolist() == [0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.4, 0.4]
+    assert table.phase[2] == 1.0
+    extrema = found.swt.extrema("sample")
+    assert extrema.at_maximum.values.tolist() == [3, 3]
+    assert extrema.at_minimum.values.tolist() == [0, 0]
+    html = study._repr_html_()
+    assert "<b>friction</b>" in html
+    assert "sampled" in html
+
+
+def test_shapes_are_checked_row_by_row():
+    # This waviness has a full disc up to the depth δ0, not up to 1.9 δ0.
+    rows = (
+        'title = "t"\nfixed.profile = "wavy_paraboloid"\n[sample.points]\nwavelength = [3.52, 5]\n'
+        "waviness_amplitude = [5, 0.02]\nnormal_amplitude = {}\n"
+    )
+    assert Study.from_text(rows.format([0, 0.9])).grid.size == 2
+    with pytest.raises(
+        StudyError, match=r"sample.waviness_amplitude, sample.wavelength: found .* = 3.52"
+    ) as error:
+        Study.from_text(rows.format([0.9, 0]))
+    assert "more like it" not in str(error.value)
+
+
+def test_the_audit_draws_from_a_sample():
+    grid = sampled("sobol", 16).grid
+    rows = drawn_rows(grid, 10, 0)
+    table = unique_points(grid).table
+    assert len(rows) == 10
+    assert all((table == row).all(axis=1).any() for row in rows)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    return run(sampled(), tmp_path_factory.mktemp("r") / "a.nc", workers=1, solver=stand_in.smooth)
+
+
+def test_a_scatter_has_a_panel_for_each_parameter(results):
+    figure = draw(results)
+    assert [axes.get_xlabel() for axes in figure.axes] == [r"$\psi$ (rad)", r"$\mu$"]
+    for axes, name in zip(figure.axes, ("phase", "friction"), strict=True):
+        for line, profile in zip(axes.lines, ("paraboloid", "rounded_punch"), strict=True):
+            assert line.get_xdata().tolist() == results[name].values.tolist()
+            assert line.get_ydata().tolist() == results.s.sel(profile=profile).values.tolist()
+    assert [text.get_text() for text in figure.legends[0].texts] == ["paraboloid", "rounded punch"]
+
+
+def test_a_histogram_counts_and_has_percentiles(results):
+    figure = draw(results, FigureLayout("sample", panels="profile", kind="histogram"))
+    for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):
+        values = results.s.sel(profile=profile).values
+        assert [line.get_xdata()[0] for line in axes.lines] == np.percentile(values, [5, 50, 95]).tolist()
+        assert f"50 %: {np.median(values):.3g}" in axes.get_title(loc="left")
+        top = max(path.get_extents().y1 for path in (patch.get_path() for patch in axes.patches))
+        counts, _ = np.histogram(values, np.histogram_bin_edges(results.s.values, "auto"))
+        assert top == counts.max()
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("layout", "words"),
+    [
+        ({"x": "phase", "kind": "scatter"}, 'figure.x: found .phase.; allowed: "sample"'),
+        ({"x": "sample", "hue": "profile"}, "figure.x: found 'sample'; allowed: an axis"),
+        ({"x": "sample", "kind": "scatter", "panels": "profile"}, "figure.panels: found 'profile'"),
+        ({"x": "sample", "kind": "histogram", "vertical": "profile"}, "figure.vertical: found 'profile'"),
+        ({"x": "sample", "kind": "scatter", "hue": "profile", "regimes": True}, "figure.regimes: found True"),
+        ({"x": "sample", "kind": "scatter"}, "no place for the axis profile"),
+        ({"x": "profile", "kind": "heatmap", "vertical": "sample"}, "figure.vertical: found 'sample'"),
+    ],
+)
+def test_layouts_that_do_not_fit_a_sample(results, layout, words):
+    with pytest.raises(StudyError, match=words):
+        draw(results, FigureLayout(**layout))
+
+
+HEAD = 'title = "t"\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("sample = {}", "sample: found nothing; allowed: one of: design"),
+        ("sample.design = 'sobl'\nsample.size = 4\nsample.ranges.phase=[0,1]", "sample.design: found 'sobl'"),
+        (
+            "sample.design = 'sobol'\nsample.size = 5\nsample.ranges.phase=[0,1]",
+            "size: found 5; allowed: a power of 2",
+        ),
+        (
+            "sample.design = 'random'\nsample.size = 0\nsample.ranges.phase=[0,1]",
+            "size: found 0; allowed: a whole",
+        ),
+        ("sample.design = 'random'\nsample.ranges.phase=[0,1]", "sample.size: found nothing"),
+        ("sample.design = 'random'\nsample.size=2", "sample.ranges: found nothing"),
+        (
+            "sample.design = 'random'\nsample.size=2\nsample.seed=-1\nsample.ranges.phase=[0,1]",
+            "sample.seed: found -1",
+        ),
+        (
+            "sample.file = 'a.csv'\nsample.size=2",
+            "sample.size: found 2 beside file; allowed: only with a design",
+        ),
+        ("sample.file = 'none.csv'", "sample.file: found .*No such file"),
+        ("sample.points = {}", "sample.points: found no points"),
+        ("sample.points = {phase=[1,2], friction=[0.1]}", "sample.points: found 2 of phase, 1 of friction"),
+        (
+            "sample.points = {phase=[1,'x','y']}",
+            r"sample.points.phase: found 'x' .* at \[1\]; 1 more like it",
+        ),
+        ("sample.points = {phas=[1]}", "sample.points.phas: .*did you mean phase"),
+        (
+            "sample.desgin = 'sobol'",
+            "sample.desgin: found unknown key 'desgin'; allowed: did you mean design",
+        ),
+    ],
+)
+def test_wrong_samples_are_named(text, words):
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(HEAD + text)
+
+
+@pytest.mark.parametrize(
+    ("entry", "words"),
+    [
+        ("phase = 1", "sample.ranges.phase: found 1; allowed: both ends"),
+        ("phase = [2, 1]", "sample.ranges.phase: found the bounds 2 and 1; allowed: the lower bound first"),
+        ("friction = [0, 11]", "sample.ranges.friction.high: found 11 .out of range."),
+        ("phas = [0, 1]", "sample.ranges.phas: found unknown parameter 'phas'; allowed: did you mean phase"),
+        ("profile = ['paraboloid']", "sample.ranges.profile: found profile, which is not a number"),
+        ("frequency_ratio = [1, 2]", "which is not a number; allowed: an axis, or points from a file"),
+        (
+            "friction = {distribution='norml', mean=1}",
+            "friction.distribution: found 'norml'; .*did you mean normal",
+        ),
+        ("friction = {distribution='normal', mean=1}", "friction.deviation: found nothing"),
+        (
+            "friction = {distribution='normal', mean=1, deviation=0}",
+            "friction.deviation: found 0; .* greater than 0",
+        ),
+        (
+            "friction = {distribution='normal', mean=1, deviation=1, sd=2}",
+            "friction.sd: found unknown key 'sd'",
+        ),
+        ("friction = {distribution='triangular', low=0, high=1, mode=2}", "friction.mode: found 2"),
+        (
+            "friction = {distribution='normal', mean=9, deviation=0.1, high=1}",
+            "which hold none of the distribution",
+        ),
+        ("flat_radius = [0.1, 1]", "flat_radius: found an axis, which no profile here has"),
+    ],
+)
+def test_wrong_ranges_are_named(entry, words):
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(f"{HEAD}[sample]\ndesign = 'random'\nsize = 2\n[sample.ranges]\n{entry}\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("fixed.phase = 1", "phase: found both a fixed value and sampled"),
+        ("axes.phase = [1, 2]", "phase: found both an axis and sampled"),
+        ("fixed.normal_force_amplitude = 0.1", "normal_amplitude.*found both; allowed: one of the two"),
+    ],
+)
+def test_a_parameter_is_given_once(text, words):
+    sample = "sample.points = {phase = [1, 2], normal_amplitude = [0.1, 0.2]}\n"
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(HEAD + sample + text)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("", "without points"),
+        ("phase,friction\n", "without points"),
+        ("phase,phase\n1,2\n", "phase twice in the first row"),
+        (
+            "phase,friction\n1,0.1\n2\n3,4,5\n",
+            "line 3 and 1 more with another number of values; allowed: 2 values",
+        ),
+        ("phase,frictoin\n1,0.1\n", "sample.file.frictoin: .*did you mean friction"),
+        ("phase,friction\n1,0.1\n1,x\n", r"sample.file.friction: found 'x' .* at \[1\]"),
+        (b"\xff\xfe\x00", "sample.file: found"),
+    ],
+)
+def test_wrong_files_are_named(tmp_path, content, words):
+    (tmp_path / "points.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
+    (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
+    with pytest.raises(StudyError, match=words):
+        Study.from_toml(tmp_path / "mine.toml")
+
+
+def test_a_file_of_many_points_is_read_fast_enough_to_be_read(tmp_path):
+    rng = np.random.default_rng(0)
+    with open(tmp_path / "points.csv", "w", newline="") as file:
+        csv.writer(file).writerows([["phase", "friction"], *rng.random((20_000, 2)).tolist()])
+    (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
+    grid = Study.from_toml(tmp_path / "mine.toml").grid
+    assert grid.size == 20_000
+    assert len(unique_points(grid).table) == 20_000
+
+
+def test_forces_may_be_sampled():
+    text = f"{HEAD}[sample]\ndesign='sobol'\nsize=4\n[sample.ranges]\nnormal_force_amplitude=[0.1, 0.5]\n"
+    grid = Study.from_text(text).grid
+    assert grid.control.normal_force
+    assert "normal_amplitude" not in grid.fixed

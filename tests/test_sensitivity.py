@@ -1,0 +1,179 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import stand_in
+from click.testing import CliRunner
+
+from swtstudy import Study, StudyError, open_results, run, sensitivity
+from swtstudy.cli import main
+from swtstudy.figures.bars import draw_sensitivity
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.statements.influence import SAYS, table
+
+STUDY = """
+title = "Ishigami"
+[sample]
+design = "saltelli"
+size = {size}
+seed = 2
+[sample.ranges]
+friction = [0, 1]
+poisson_ratio = [0, 0.5]
+tangential_amplitude = [0, 2]
+[axes]
+normal_amplitude = [0.25, 0.5]
+"""
+
+
+def ishigami(points, rtol):
+    """Ishigami's function of three parameters mapped to [-π, π], times 4 normal_amplitude, and positive."""
+    one, two, three = (
+        np.pi * (2.0 * np.asarray(unit) - 1.0)
+        for unit in (points.friction, points.poisson_ratio / 0.5, points.tangential_amplitude / 2.0)
+    )
+    value = np.sin(one) + 7.0 * np.sin(two) ** 2 + 0.1 * three**4 * np.sin(one)
+    value = 4.0 * points.normal_amplitude * value
+    plain = stand_in.smooth(points, rtol)
+    return replace(plain, s=value + 60.0, critical_x=2.0 * points.friction + points.poisson_ratio)
+
+
+#: Variance 1/2 + 7²/8 + 0.1 π⁴/5 + 0.1² π⁸/18 and its parts.
+PARTS = np.array([0.5 * (1.0 + 0.1 * np.pi**4 / 5.0) ** 2, 49.0 / 8.0, 0.0])
+BOTH = 0.01 * np.pi**8 * (1.0 / 18.0 - 1.0 / 50.0)
+VARIANCE = PARTS.sum() + BOTH
+FIRST = PARTS / VARIANCE
+TOTAL = (PARTS + np.array([BOTH, 0.0, BOTH])) / VARIANCE
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    path = tmp_path_factory.mktemp("r") / "ishigami.nc"
+    run(Study.from_text(STUDY.format(size=1024)), path, workers=1, solver=ishigami)
+    return open_results(path)
+
+
+@pytest.fixture(scope="module")
+def indices(results):
+    return sensitivity(results, ["s", "critical_x"])
+
+
+def test_the_indices_of_a_function_whose_indices_are_known(indices):
+    of_s = indices.sel(quantity="s")
+    assert of_s.first_order.dims == ("normal_amplitude", "parameter")
+    assert of_s.parameter.values.tolist() == ["friction", "poisson_ratio", "tangential_amplitude"]
+    # 1,024 points have a standard error of 0.02 to 0.05: the widths of the confidence intervals.
+    for place in range(2):
+        assert of_s.first_order[place].values == pytest.approx(FIRST, abs=0.03)
+        assert of_s.total[place].values == pytest.approx(TOTAL, abs=0.03)
+    # The size of a quantity does not matter, that of its variance is known.
+    assert np.allclose(of_s.first_order[0], of_s.first_order[1], rtol=1e-6)
+    assert of_s.variance.values == pytest.approx([VARIANCE, 4.0 * VARIANCE], rel=0.02)
+    assert of_s["mean"].values == pytest.approx([63.5, 67.0], rel=0.005)
+
+
+def test_the_indices_of_another_data_variable(indices):
+    # 2 μ + ν, of which the ranges are 1 and 1/2: variances as 2² and (1/2)².
+    of_x = indices.sel(quantity="critical_x").isel(normal_amplitude=0)
+    share = np.array([4.0, 0.25, 0.0]) / 4.25
+    assert of_x.first_order.values == pytest.approx(share, abs=0.01)
+    assert of_x.total.values == pytest.approx(share, abs=0.01)
+
+
+def test_the_known_indices_are_in_the_confidence_intervals(indices, results):
+    of_s = indices.sel(quantity="s").isel(normal_amplitude=0)
+    for name, known in (("first_order", FIRST), ("total", TOTAL)):
+        low, high = of_s[f"{name}_low"].values, of_s[f"{name}_high"].values
+        assert (low <= of_s[name]).all()
+        assert (of_s[name] <= high).all()
+        assert (low <= known + 1e-12).all()
+        assert (known - 1e-12 <= high).all()
+        assert (high - low).max() < 0.25
+    half = sensitivity(results, confidence=0.5).isel(quantity=0, normal_amplitude=0)
+    width, wide = (each.total_high - each.total_low for each in (half, of_s))
+    assert (width < 0.6 * wide).isel(parameter=[0, 1]).all()
+
+
+def test_the_same_seed_gives_the_same(results, indices):
+    again = sensitivity(results, ["s", "critical_x"])
+    assert again.identical(indices)
+    other = sensitivity(results, seed=1).isel(quantity=0)
+    assert np.array_equal(other.first_order, indices.first_order.isel(quantity=0))
+    assert not np.array_equal(other.first_order_low, indices.first_order_low.isel(quantity=0))
+
+
+def test_points_without_a_number_are_refused_by_name(results):
+    broken = results.copy(deep=True)
+    broken.s[7, 1] = np.inf
+    broken.s[9, 1] = np.nan
+    broken.regime[7, 1] = REGIMES.index("not_finite")
+    friction = float(broken.friction[7])
+    with pytest.raises(StudyError) as error:
+        sensitivity(broken, ["critical_x", "s"])
+    assert f"s: found no number at 2 of {results.s.size} points, such as friction={friction:.4g}, " in str(
+        error.value
+    )
+    assert "normal_amplitude=0.5 (not finite)" in str(error.value)
+    assert len(error.value.mistakes) == 1
+    assert sensitivity(broken, "critical_x").first_order.notnull().all()
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"y": "regime"}, "y: found 'regime', which is no number"),
+        ({"y": "t"}, "figure.y: found 't'"),
+        ({"confidence": 95}, "confidence: found 95"),
+    ],
+)
+def test_wrong_arguments_are_named(results, given, words):
+    with pytest.raises(StudyError, match=words):
+        sensitivity(results, **given)
+
+
+def test_other_samples_are_refused(results, tmp_path):
+    for part in (results.isel(sample=slice(100)), results.isel(sample=slice(None, None, -1))):
+        with pytest.raises(StudyError, match="all points of a saltelli design"):
+            sensitivity(part)
+    other = Study.from_text(STUDY.format(size=8).replace("saltelli", "sobol"))
+    with pytest.raises(StudyError, match=r"sample.design: found the design sobol"):
+        sensitivity(run(other, tmp_path / "a.nc", workers=1, solver=ishigami))
+    plain = Study.from_text('title = "t"\naxes.phase = [0, 1]\n')
+    with pytest.raises(StudyError, match=r"sample.design: found no design"):
+        sensitivity(run(plain, tmp_path / "b.nc", workers=1, solver=ishigami))
+
+
+def test_the_bars_are_the_indices(indices):
+    figure = draw_sensitivity(indices)
+    panels = np.array(figure.axes).reshape(2, 2)
+    for row, quantity in enumerate(("s", "critical_x")):
+        for column in range(2):
+            one = indices.sel(quantity=quantity).isel(normal_amplitude=column)
+            heights = [bar.get_height() for bar in panels[row, column].patches]
+            assert heights == [*one.first_order.values, *one.total.values]
+    assert panels[0, 1].get_title(loc="left") == r"$\delta_A/\delta_0$ = 0.5"
+    assert [text.get_text() for text in panels[1, 0].get_xticklabels()][:2] == [r"$\mu$", r"$\nu$"]
+
+
+def test_the_table_has_what_the_paper_says(indices):
+    lines = table(indices).splitlines()
+    of_s = indices.sel(quantity="s").isel(normal_amplitude=0)
+    line = next(line for line in lines if "ν poisson_ratio" in line)
+    assert f"| {float(of_s.first_order[1]):.3f} |" in line
+    assert SAYS["poisson_ratio"] in line
+    assert "## critical_x, normal_amplitude = 0.5" in lines
+
+
+def test_the_command_computes_and_writes(tmp_path):
+    text = STUDY.format(size=2).replace("tangential_amplitude = [0, 2]", "").replace("[0.25, 0.5]", "[0.25]")
+    (tmp_path / "mine.toml").write_text("rtol = 1e-2\n" + text)
+    command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
+    result = CliRunner().invoke(main, [*command, "--y", "s", "--y", "s_surface"])
+    assert result.exit_code == 0, result.output
+    assert "| μ friction |" in result.output
+    for name in ("mine.nc", "mine_indices.nc", "mine_indices.md", "mine_indices.png"):
+        assert (tmp_path / name).stat().st_size > 0
+    (tmp_path / "mine.toml").write_text(text.replace("saltelli", "sobol"))
+    result = CliRunner().invoke(main, command)
+    assert result.exit_code == 2
+    assert 'found the design sobol; allowed: "saltelli"' in result.output
