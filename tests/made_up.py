@@ -68,4 +68,4 @@ def made_up_audit(on_line: int = 3, off_line: int = 0) -> xr.Dataset:
     rows = np.zeros((len(points), len(COLUMNS)))
     rows[:, COLUMNS.index("phase")] = np.arange(len(points))
     rows[:, COLUMNS.index("poisson_ratio")] = [0.3] * on_line + [0.45] * off_line
-    return audit_dataset(rows, points).assign_attrs(title="made up")
+    return audit_dataset(rows, points, {}).assign_attrs(title="made up")

@@ -60,7 +60,7 @@ def test_audited_points_are_read_as_they_were_written(tmp_path):
     written = made_up_audit(on_line=2, off_line=1)
     save(written, tmp_path / "audit.nc")
     read = audited_points(open_audit(tmp_path / "audit.nc"))
-    again = audit_dataset(np.array(list(read)), list(read.values()))
+    again = audit_dataset(np.array(list(read)), list(read.values()), {})
     for name in written.variables:
         np.testing.assert_array_equal(again[name], written[name])
     np.testing.assert_array_equal(list(read), canonical_rows(written))
@@ -152,7 +152,7 @@ def test_the_report_counts_every_point():
     rows = np.zeros((6, len(COLUMNS)))
     rows[:, COLUMNS.index("phase")] = np.arange(6)
     rows[:, COLUMNS.index("poisson_ratio")] = 0.0, 0.1, 0.35, 0.36, 0.5, 0.2
-    lines = report(audit_dataset(rows, audited).assign_attrs(title="six")).splitlines()
+    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
     assert lines[0] == "# six"
     assert lines[2].startswith("6 points, each solved")
     assert "counts from 0.1%" in lines[2]

@@ -56,7 +56,7 @@ studies = st.fixed_dictionaries(
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_tables_are_a_study_or_a_study_error(raw):
     try:
-        study = _study_from(raw, "", "fuzz")
+        study = _study_from(raw, "", "fuzz", Path("."))
     except StudyError as error:
         assert error.mistakes
         assert all(

@@ -297,3 +297,13 @@ def test_a_mangled_definition_is_refused(tmp_path: Path, definitions: str) -> No
     save(open_results(path).assign_attrs(definitions=definitions), path)
     with pytest.raises(ArchiveError, match="attribute definitions: found"):
         open_results(path)
+
+
+def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
+    study = Study.from_text(STUDY.replace("[0.3, 0.5]", "[0.4]") + f"vertices = {SQUARE}")
+    found = swtstudy.audit_study(study, tmp_path / "audit.nc", points=1, workers=1)
+    s = swtstudy.solve(load=LoadPath("mine", SQUARE), friction=0.4).s.item()
+    assert found.s.item() == pytest.approx(s, rel=1e-3)
+    assert found["load"].values.tolist() == ["mine"]
+    again = swtstudy.audit_study(study, tmp_path / "audit.nc", points=1, workers=1)
+    xr.testing.assert_identical(again.drop_attrs(), found.drop_attrs())

@@ -45,7 +45,7 @@ def test_what_needs_a_critical_point_lives_without_one() -> None:
     inspected = swtstudy.inspect_point(**none)
     assert np.isfinite(inspected.shown_x)
     row = dict.fromkeys(COLUMNS, 0.0) | none | {"normal_amplitude": 0.75, "tangential_amplitude": 0.5}
-    finding = audit_point(list((row | {"p": 1, "q": 1}).values()))
+    finding = audit_point(list((row | {"p": 1, "q": 1}).values()), {})
     assert finding.s == 0.0
     assert np.isnan(finding.critical_x)
     assert np.isfinite(finding.s_body)

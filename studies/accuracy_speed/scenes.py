@@ -27,14 +27,8 @@ class Scene:
 
     def batch(self) -> Points:
         """As many neighbours of the point as a study solves at a time, itself first."""
-        point, rows = self.point, np.zeros(BATCH, dtype=int)
-        columns = {
-            name: getattr(point, name)[rows]
-            for name in ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude")
-        }
-        phase = point.phase[0] + PHASE_STEP * np.arange(BATCH)
-        shape = {name: values[rows] for name, values in point.shape.items()}
-        return replace(point, **columns, phase=phase, shape=shape)
+        neighbours = self.point.take(np.zeros(BATCH, dtype=int))
+        return replace(neighbours, phase=neighbours.phase + PHASE_STEP * np.arange(BATCH))
 
     def reference(self) -> float:
         """s at the tightest tolerance."""

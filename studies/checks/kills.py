@@ -43,7 +43,7 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
-    from swtstudy.runner import run as module
+    from swtstudy.runner import job as module
 
     cut = module.chunks
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.attributes import definitions_text
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
@@ -99,12 +100,8 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "study": study.text,
         "runs": json.dumps([run.to_json() for run in records.runs]),
     }
-    defined = [
-        {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
-        for each in study.grid.definitions.values()
-    ]
-    if defined:
-        attributes["definitions"] = json.dumps(defined)
+    if study.grid.definitions:
+        attributes["definitions"] = definitions_text(study.grid.definitions)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

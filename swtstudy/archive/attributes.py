@@ -7,6 +7,7 @@ import math
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
+from swtstudy.grid.codes import Definitions
 from swtstudy.grid.defined import kinds
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.named import Named
@@ -40,6 +41,16 @@ def read_failures(text: object) -> list[Failure]:
         if not good or not all(isinstance(word, str) for word in words):
             raise ValueError(f"not a failure: {literal(failure)}")
     return failures
+
+
+def definitions_text(definitions: Definitions) -> str:
+    """What the user has defined, as an attribute; see `read_definitions`."""
+    return json.dumps(
+        [
+            {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
+            for each in definitions.values()
+        ]
+    )
 
 
 def read_definitions(text: object) -> dict[str, dict[str, Named]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -63,7 +64,8 @@ def audit_study(
     from swtstudy.audit.table import audit_dataset, audited_points, open_audit
     from swtstudy.runner.workers import start_workers
 
-    rows = drawn_rows(study.grid, points, seed)
+    rows, definitions = drawn_rows(study.grid, points, seed), study.grid.definitions
+    audit = partial(audit_point, definitions=definitions)
     keys = list(map(tuple, rows.tolist()))
     known: dict[tuple[float, ...], AuditedPoint] = {}
     if Path(path).exists():
@@ -74,13 +76,13 @@ def audit_study(
 
     def dataset() -> xr.Dataset:
         done = [key in known for key in keys]
-        found = audit_dataset(rows[done], [known[key] for key in keys if key in known])
+        found = audit_dataset(rows[done], [known[key] for key in keys if key in known], definitions)
         return found.assign_attrs(title=study.title, study=study.text, seed=seed)
 
     saved = time.monotonic()
     try:
         with start_workers(workers) as pool:
-            for key, point in zip(missing, pool.map(audit_point, missing), strict=True):
+            for key, point in zip(missing, pool.map(audit, missing), strict=True):
                 known[key] = point
                 count(1)
                 if time.monotonic() - saved > _SAVE_EVERY:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from swtstudy.grid.canonical import points_from
+from swtstudy.grid.codes import Definitions
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
@@ -74,9 +75,9 @@ class AuditedPoint:
         return "plane_through_y" if abs(self.normal[1]) > _ZERO else "line_search"
 
 
-def audit_point(row: Sequence[float]) -> AuditedPoint:
-    """Audit one canonical row (`swtstudy.grid.canonical`)."""
-    points = points_from(np.array([row]), {})
+def audit_point(row: Sequence[float], definitions: Definitions) -> AuditedPoint:
+    """Audit one canonical row (`swtstudy.grid.canonical`), with what the user has defined by its code."""
+    points = points_from(np.array([row]), definitions)
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.archive.attributes import definitions_text, read_definitions
 from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
-from swtstudy.grid.codes import code_of, value_of
+from swtstudy.grid.codes import Definitions, code_of, value_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.parameters import BUILT_IN, PARAMETERS
 
@@ -33,7 +34,7 @@ _MEANINGS = {
 _SCALARS = ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "excess", "remainder")
 
 
-def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Dataset:
+def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions: Definitions) -> xr.Dataset:
     """The Dataset of an audit.
 
     Parameters
@@ -42,6 +43,8 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Datase
         Shape (n, len(COLUMNS)): their canonical rows.
     points
         The audited points, one for each row.
+    definitions
+        What the user has defined, by its code.
 
     Returns
     -------
@@ -52,7 +55,7 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Datase
 
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
     for name in BUILT_IN.keys() & {*COLUMNS}:
-        names = [str(value_of(code, {}, name)) for code in rows[:, COLUMNS.index(name)]]
+        names = [str(value_of(code, definitions, name)) for code in rows[:, COLUMNS.index(name)]]
         coordinates[name] = ("sample", np.array(names, dtype=object))
     columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
@@ -69,7 +72,8 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint]) -> xr.Datase
         codes = np.array([words.index(getattr(each, name)) for each in points], dtype=np.int8)
         flags = {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
         variables[name] = ("sample", codes, {"long_name": meaning, **flags})
-    return xr.Dataset(variables, coordinates)
+    dataset = xr.Dataset(variables, coordinates)
+    return dataset.assign_attrs(definitions=definitions_text(definitions)) if definitions else dataset
 
 
 def open_audit(path: str | PathLike[str]) -> xr.Dataset:
@@ -92,12 +96,15 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 
 def canonical_rows(dataset: xr.Dataset) -> FloatArray:
     """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
+    known = read_definitions(dataset.attrs.get("definitions", "[]"))
     rows = np.zeros((dataset.sizes["sample"], len(COLUMNS)))
     for i, name in enumerate(COLUMNS):
         # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria.
         if name in dataset.coords:
             values = dataset[name].values
-            rows[:, i] = [code_of(value, name) for value in values] if name in BUILT_IN else values
+            own = known.get(name, {})
+            codes = name in BUILT_IN
+            rows[:, i] = [code_of(own.get(value, value), name) for value in values] if codes else values
         elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
             rows[:, i] = PARAMETERS[name].default
     return rows
