@@ -7,7 +7,7 @@ from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family, Parameter
 def parameters() -> str:
     """Every parameter, and the profiles with the shape parameters that they need."""
     rows = (
-        (f"`{p.name}`", f"${p.symbol}$", _meaning(p), p.allowed, _default(p.default), p.scale or "–")
+        (f"`{p.name}`", f"${p.symbol}$", _meaning(p), _allowed(p), _default(p.default), p.scale or "–")
         for p in PARAMETERS.values()
     )
     profiles = (
@@ -19,6 +19,11 @@ def parameters() -> str:
         + "\n"
         + table(("profile", "needs", f"is the {PLAIN} at"), profiles)
     )
+
+
+def _allowed(parameter: Parameter) -> str:
+    more = ", or what the study defines" if parameter.kind == "name" else ""
+    return parameter.allowed + more
 
 
 def _meaning(parameter: Parameter) -> str:
