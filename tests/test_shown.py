@@ -13,10 +13,12 @@ import shown
 
 import swtstudy
 from swtstudy import Study
+from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.work import assess
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
 SHELL = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "sh"]
+TOML = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "toml"]
 IN_PROSE = [command for page in shown.PAGES for command in shown.commands_in_prose(page)]
 IN_HELP = [part for line in shown.commands_in_help() for part in shown.commands_of(line)]
 #: Each once. What makes a file comes before what needs it, and what is short before what is longer.
@@ -116,6 +118,16 @@ def test_shell_blocks(block, fresh, tmp_path, monkeypatch):
             assert eval(call, {"swtstudy": swtstudy}) is not None
 
 
+@pytest.mark.parametrize("block", TOML, ids=str)
+def test_blocks_of_studies(block, tmp_path):
+    study = Study.from_text(block.text, folder=tmp_path)
+    ds = swtstudy.run(study, tmp_path / "study.nc", workers=1)
+    refused = ds.regime == REGIMES.index("no_equilibrium")
+    assert (np.isfinite(ds.s) != refused).all()
+    assert bool(refused.any()) == ("no_equilibrium" in block.lead)
+    assert set(study.grid.axes) <= set(ds.dims)
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_names_in_prose(name):
     assert operator.attrgetter(name)(swtstudy)
@@ -131,7 +143,7 @@ def test_commands_in_prose_and_help(command, clone, monkeypatch):
 
 def test_every_kind_of_block_has_a_rule():
     kinds = {block.language for page in shown.PAGES for block in shown.blocks_of(page)}
-    assert kinds <= {"python", "sh", *BUILT}, "say here how this kind is run"
+    assert kinds <= {"python", "sh", "toml", *BUILT}, "say here how this kind is run"
 
 
 def test_links_of_the_readme_lead_somewhere():

@@ -32,6 +32,7 @@ _SECTIONS = {
 #: Files to which the README links, by the page that shows them.
 _PAGES = {
     "docs/index.md": "index.md",
+    "docs/theory/face_edge.md": "theory/face_edge.md",
     "results/accuracy.md": "accuracy.md",
     "results/accuracy_speed.md": "accuracy.md",
     "results/audit_parameter_box.md": "accuracy.md",

@@ -1,13 +1,13 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family
+from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family, Parameter
 
 
 def parameters() -> str:
     """Every parameter, and the profiles with the shape parameters that they need."""
     rows = (
-        (f"`{p.name}`", f"${p.symbol}$", p.meaning, p.allowed, _default(p.default), p.scale or "–")
+        (f"`{p.name}`", f"${p.symbol}$", _meaning(p), _allowed(p), _default(p.default), p.scale or "–")
         for p in PARAMETERS.values()
     )
     profiles = (
@@ -15,10 +15,20 @@ def parameters() -> str:
         for family in FAMILIES.values()
     )
     return (
-        table(("name", "symbol", "meaning", "allowed", "default", "in a real contact a length over"), rows)
+        table(("name", "symbol", "meaning", "allowed", "default", "in a real contact over"), rows)
         + "\n"
         + table(("profile", "needs", f"is the {PLAIN} at"), profiles)
     )
+
+
+def _allowed(parameter: Parameter) -> str:
+    more = ", or what the study defines" if parameter.kind == "name" else ""
+    return parameter.allowed + more
+
+
+def _meaning(parameter: Parameter) -> str:
+    other = parameter.instead_of
+    return f"{parameter.meaning}, in the place of `{other}`" if other else parameter.meaning
 
 
 def _plain(family: Family) -> str:

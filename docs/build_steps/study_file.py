@@ -14,7 +14,8 @@ def study_file() -> str:
     schema = study_schema()
     keys, parts = schema["properties"], schema["$defs"]
     required = set(schema.get("required", ()))
-    plain = {name: entry for name, entry in keys.items() if name not in ("fixed", "axes", "figure")}
+    own = ("fixed", "axes", "figure", "sample", "loads", "profiles")
+    plain = {name: entry for name, entry in keys.items() if name not in own}
     return "\n".join(
         [
             "## Top of the file\n",
@@ -24,10 +25,18 @@ def study_file() -> str:
             f"## `[axes]`\n\n{keys['axes']['description']} The names and ranges of their values are those of "
             "`[fixed]`. A range has\n",
             _table(parts["RangeTable"]["properties"], set(parts["RangeTable"]["required"])),
+            *_section("sample", keys, parts["SampleTable"]),
+            *_section("loads", keys, parts["LoadTable"], ".NAME"),
+            *_section("profiles", keys, parts["ProfileTable"], ".NAME"),
             f"## `[figure]`\n\n{keys['figure']['description']}\n",
             _table(parts["FigureTable"]["properties"], set(parts["FigureTable"]["required"])),
         ]
     )
+
+
+def _section(name: str, keys: dict[str, Any], part: dict[str, Any], more: str = "") -> tuple[str, str]:
+    head = f"## `[{name}{more}]`\n\n{keys[name]['description']}\n"
+    return head, _table(part["properties"], set(part.get("required", ())))
 
 
 def _table(entries: dict[str, Any], required: set[str]) -> str:
@@ -58,18 +67,21 @@ def _default(entry: dict[str, Any]) -> str:
 
 def _value(entry: dict[str, Any]) -> str:
     """What a value may be, in words."""
+    if "const" in entry:
+        return f"`{entry['const']}`"
     if "enum" in entry:
         names = entry["enum"]
         return ", ".join(f"`{name}`" for name in names) if len(names) <= 5 else "name of an axis"
     if "anyOf" in entry:
         return " or ".join(_value(each) for each in entry["anyOf"] if each.get("type") != "null")
     if entry.get("type") == "array":
-        return f"a list of {_value(entry['items'])}s"
-    kinds = entry.get("type", "any")
+        items = entry["items"]
+        return f"a list of {_value(items)}{'' if 'anyOf' in items else 's'}"
+    kinds = entry.get("type", "–")
     words = " or ".join(_WORDS.get(kind, kind) for kind in ([kinds] if isinstance(kinds, str) else kinds))
     limits = [f"{sign} {entry[key]:g}" for key, sign in _LIMITS.items() if key in entry]
     return " ".join([words, ", ".join(limits)]).strip()
 
 
-_WORDS = {"string": "text", "boolean": "true or false"}
+_WORDS = {"object": "table", "string": "text", "boolean": "true or false"}
 _LIMITS = {"exclusiveMinimum": ">", "minimum": "≥", "maximum": "≤"}
