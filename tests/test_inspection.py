@@ -95,17 +95,12 @@ def test_what_always_sticks():
     assert np.isnan(swtstudy.inspect_point(phase=1.4).permanent_stick_radius)
 
 
-def test_the_picture_has_six_panels():
+def test_the_picture_has_nine_panels():
     figure = swtstudy.inspect(frequency_ratio="3/2", phase=0.4)
-    assert len(figure.axes) == 7  # two y axes in the panel of the stress cycle
+    assert len(figure.axes) == 10  # two y axes in the panel of the stress cycle
     assert "3/2" in figure.get_suptitle()
-    assert [axes.get_title("left")[:3] for axes in figure.axes[:6]] == [
-        "(A)",
-        "(B)",
-        "(C)",
-        "(D)",
-        "(E)",
-        "(F)",
+    assert [axes.get_title("left")[:3] for axes in figure.axes[:9]] == [
+        f"({letter})" for letter in "ABCDEFGHI"
     ]
     numbers = {text.get_text() for text in figure.axes[0].texts} & set("1234")
     assert numbers == set("1234")
@@ -126,7 +121,8 @@ def test_extremes_are_drawn_too(parameters):
 
 
 def test_nothing_that_moves_is_drawn_as_nothing():
-    load, _, _, _, _, swt, _ = swtstudy.inspect(normal_amplitude=0, tangential_amplitude=0).axes
+    axes = swtstudy.inspect(normal_amplitude=0, tangential_amplitude=0).axes
+    load, swt = axes[0], axes[5]
     assert np.ptp(load.get_xlim()) == pytest.approx(0.1 * 1.28)
     (dot,) = (line for line in swt.lines if line.get_marker() == "o")
     assert dot.get_ydata() == [0.0]

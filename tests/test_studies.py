@@ -177,3 +177,34 @@ def test_stability_of_a_thin_annulus():
     # The pressure at r = b grows like b.
     growth = np.log(truncated.isel(flat_radius=2) / truncated.isel(flat_radius=1)) / np.log(b[2] / b[1])
     np.testing.assert_allclose(growth, 2, atol=0.05)
+
+
+def test_forces_make_smaller_motions_and_lower_s():
+    at = {"frequency_ratio": [0.5, 1], "tangential_force_amplitude": [0.35], "phase": [0.0, 1.5 * np.pi]}
+    forces = few("force_control", **at).s.squeeze()
+    grid = Study.from_toml(FOLDER / "force_control.toml").grid
+    ratio = grid.fixed["normal_force_amplitude"]
+    displacements = swtstudy.solve(
+        normal_amplitude=ratio, tangential_amplitude=0.35, frequency_ratio=[0.5, 1], phase=[0.0, 1.5 * np.pi]
+    ).s
+    lower = (forces / displacements.transpose(*forces.dims)).transpose("frequency_ratio", "phase")
+    assert ((lower > 0.65) & (lower < 0.97)).all()
+    assert float(forces.sel(frequency_ratio=0.5).max() / forces.sel(frequency_ratio=0.5).min()) > 1.7
+
+
+def test_the_order_of_both_loads_matters():
+    s = few("loops", friction=[0.2, 0.8]).s.transpose("load", "friction")
+    more = s / s.sel(load="diagonal")
+    assert (more.drop_sel(load="diagonal") > 1.13).all()
+    assert float(more.max()) < 1.7
+    assert more.idxmax("load").values.tolist() == ["square", "L"]
+
+
+def test_the_square_run_backwards_is_its_mirror_image():
+    (square,) = (
+        loop for loop in Study.from_toml(FOLDER / "loops.toml").grid.axes["load"] if loop.name == "square"
+    )
+    back = swtstudy.LoadPath("back", square.vertices[::-1])
+    one, other = (swtstudy.solve(load=loop, tangential_amplitude=0.4) for loop in (square, back))
+    assert float(one.s) == pytest.approx(float(other.s), rel=1e-12)
+    assert float(one.critical_x) == pytest.approx(-float(other.critical_x), rel=1e-9)

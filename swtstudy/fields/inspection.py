@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.forces import course
+from swtstudy.fields.one_point import read_point
+from swtstudy.fields.places import turns
 from swtstudy.fields.slip import slip_map
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
+from swtstudy.mechanics.contact.cycle import NO_SLIP
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
+from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.line.first_look import first_look
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.stress.scene import Scene, scene_of
+from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.parameters import PAIRS, Control
 from swtstudy.solving import solve
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]
@@ -50,7 +57,10 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     xarray.Dataset
         What `swtstudy.solve` gives, and
 
-        - over time (ω1 t): depth δ/δ0, displacement G*u/(μE*δ0), contact_radius, slip_radius; normal_stress
+        - over time (ω1 t; of a loop the angle of its period): depth δ/δ0, displacement G*u/(μE*δ0),
+          normal_force F_N/F_0 and tangential_force F_x/(μF_0), two of which are prescribed; edge_state, that
+          of the contact next to its edge (open, stick, forward or backward slip) from each instant to the
+          next; contact_radius, slip_radius; normal_stress
           and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there; with a
           bulk stress bulk_stress, its part of sigma_xx;
         - over time and r: state (open, stick, forward or backward slip);
@@ -59,6 +69,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
           0 or not finite, those of the largest swt that was sampled;
+        - dissipation, that is ∮ F_x du of the cycle over μF_0 · μE*δ0/G*, and dissipation_error;
         - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), least_radius and
           largest_radius of the contact.
 
@@ -67,7 +78,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     Raises
     ------
     StudyError
-        A ValueError with every mistake in the parameters.
+        A ValueError with every mistake in the parameters, or that they have no equilibrium.
 
     Examples
     --------
@@ -76,8 +87,11 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     >>> round(float(point.normal_stress.max() * amplitude / point.s), 3)
     1.0
     """
-    scene = read_scene(parameters)
-    solved = solve(**parameters)  # type: ignore[arg-type]
+    points = read_point(parameters)
+    solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
+    if REGIMES[int(solved.regime)] == "no_equilibrium":
+        raise StudyError([_no_equilibrium(points.control, parameters)])
+    scene = scene_of(points)
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
     line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
@@ -87,13 +101,13 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
         double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
-    load = scene.cycle.load
-    oscillations = max(load.oscillations)
+    oscillations = max(scene.cycle.load.oscillations)
     count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
     uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
     nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
-    time = load.oscillations[0] * nodes.instant
-    cycle = _load(scene, nodes) | _stress_cycle(scene, nodes, x, double_angle)
+    time = turns(scene) * nodes.instant
+    unit = unit_half_load(points.profile, points.shape, 1)
+    cycle = _load(scene, unit, nodes) | _stress_cycle(scene, nodes, x, double_angle)
     marked, reasons = _marked_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
     some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
     shown: Variables = {
@@ -116,6 +130,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     variables = (
         cycle | extent | shown | _tractions(scene, some, radius) | _springs(scene, some, slip.r.values)
     )
+    variables["edge_state"] = "time", _edge_states(scene, nodes), _of_states(slip.state.attrs)
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
 
 
@@ -152,13 +167,40 @@ def _radii(scene: Scene, special: list[float]) -> FloatArray:
     return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
 
 
-def _load(scene: Scene, nodes: TimeNodes) -> Variables:
-    load = scene.cycle.load
-    depth, u = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
+def _no_equilibrium(control: Control, parameters: Mapping[str, object]) -> Mistake:
+    """The force that friction does not carry, or the normal force that pulls."""
+    pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
+    name = next(name for name in pairs if name in PAIRS)
+    found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
+    return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
+
+
+def _load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
+    both = course(scene, unit, nodes)
     return {
-        "depth": ("time", depth, _named("indentation depth", r"\delta/\delta_0")),
-        "displacement": ("time", u, _named("tangential displacement", r"G^* u/(\mu E^* \delta_0)")),
+        "depth": ("time", both.depth, _named("indentation depth", r"\delta/\delta_0")),
+        "displacement": (
+            "time",
+            both.displacement,
+            _named("tangential displacement", r"G^* u/(\mu E^* \delta_0)"),
+        ),
+        "normal_force": ("time", both.normal_force, _named("normal force", "F_N/F_0")),
+        "tangential_force": ("time", both.tangential_force, _named("tangential force", r"F_x/(\mu F_0)")),
     }
+
+
+def _edge_states(scene: Scene, nodes: TimeNodes) -> NDArray[np.int8]:
+    """State of the outermost springs between each instant and the next, numbered as in `slip_map`."""
+    ends = np.append(nodes.instant[1:], nodes.instant[-1])
+    middle = nodes_at(scene, 0.5 * (nodes.instant + ends))
+    states = scene.cycle.states(middle.interval[None], middle.instant[None])
+    slips = np.where(states.sign > 0.0, 2, 3)
+    state = np.where(states.front >= (1.0 - NO_SLIP) * states.edge, 1, slips)
+    return np.where(states.edge > 0.0, state, 0)[0].astype(np.int8)
+
+
+def _of_states(flags: Mapping[str, Any]) -> dict[str, Any]:
+    return {**flags, "long_name": "state of the contact next to its edge, until the next instant"}
 
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:

@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at
+from swtstudy.mechanics.control.mapped import MappedLoad
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mistakes import Mistake, StudyError, literal
@@ -98,21 +100,36 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
         A batch of one point.
     time
         ω1 t in rad, a number or a one-dimensional sequence. The cycle has the period 2πq, where ω2/ω1 = p/q.
+        A loop has the period 2π.
 
     Returns
     -------
     time, nodes
-        ω1 t, and the same instants of the cycle in the order of time.
+        These, and the same instants of the cycle in the order of time.
     """
     allowed = "a finite number or a sequence of them, ω1 t in rad"
     array = read_numbers("time", time, allowed)
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise StudyError([Mistake("time", literal(time), allowed)])
-    nodes = nodes_at(scene, np.mod(array.ravel() / scene.cycle.load.oscillations[0], 2.0 * np.pi))
-    return label_time(array, ("time",) * array.ndim), nodes
+    nodes = nodes_at(scene, np.mod(array.ravel() / turns(scene), 2.0 * np.pi))
+    return label_time(scene, array, ("time",) * array.ndim), nodes
 
 
-def label_time(time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t as a labelled array."""
-    attributes = {"long_name": "omega1 t, in the stationary cycle", "units": "rad", "symbol": r"\omega_1 t"}
+def turns(scene: Scene) -> int:
+    """What ω1 t is over the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
+    two = _harmonic(scene)
+    return 1 if two is None else two.q
+
+
+def label_time(scene: Scene, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
+    words, symbol = ("omega1 t", r"\omega_1 t") if _harmonic(scene) else ("angle of the period", r"\varphi")
+    attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
     return xr.DataArray(time, dims=dims, attrs=attributes)
+
+
+def _harmonic(scene: Scene) -> BimodalLoad | None:
+    """The two harmonic loads as they are prescribed; None for a loop."""
+    load = scene.cycle.load
+    given = load.given if isinstance(load, MappedLoad) else load
+    return given if isinstance(given, BimodalLoad) else None

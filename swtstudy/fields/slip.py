@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import read_distances, read_time
+from swtstudy.fields.places import read_distances, read_time, turns
 from swtstudy.mistakes import Mistake, StudyError, literal
 
 #: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.
@@ -42,7 +42,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     """
     scene = read_scene(parameters)
     if time is None:
-        time = 2.0 * np.pi * scene.cycle.load.oscillations[0] * np.arange(_INSTANTS) / _INSTANTS
+        time = 2.0 * np.pi * turns(scene) * np.arange(_INSTANTS) / _INSTANTS
     instants, nodes = read_time(scene, time)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = read_distances("r", r, allowed)

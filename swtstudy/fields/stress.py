@@ -7,7 +7,7 @@ import xarray as xr
 
 from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import as_given, label_time, read_places, read_time
+from swtstudy.fields.places import as_given, label_time, read_places, read_time, turns
 from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.punch import COMPONENTS
@@ -81,7 +81,7 @@ def stress_field(
     variables = {
         f"sigma_{name}": (dims, stress[..., i], _attributes(name)) for i, name in enumerate(COMPONENTS)
     }
-    phase = instants.values.reshape(1, -1) / scene.cycle.load.oscillations[0]
+    phase = instants.values.reshape(1, -1) / turns(scene)
     depth = np.maximum(scene.cycle.load.normal(phase), 0.0)
     radius = np.where(depth > 0.0, scene.coordinate.radius(depth), 0.0).reshape(instants.shape)
     meaning = {
@@ -105,8 +105,8 @@ def _at_own_instants(scene: Scene, places: tuple[xr.DataArray, ...]) -> tuple[xr
         instant[k] = some.instant[every]
         stress[k] = Body(scene, some, _cells(point[2])).stress(*point)[every]
     shape = places[0].shape
-    time = np.moveaxis(scene.cycle.load.oscillations[0] * instant, -1, 0).reshape(count, *shape)
-    return label_time(time, ("instant", *places[0].dims)), stress.reshape(*shape, count, 6)
+    time = np.moveaxis(turns(scene) * instant, -1, 0).reshape(count, *shape)
+    return label_time(scene, time, ("instant", *places[0].dims)), stress.reshape(*shape, count, 6)
 
 
 def _cells(depth: float) -> int:

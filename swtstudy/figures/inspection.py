@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from swtstudy.fields.inspection import inspect_point
+from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
 from swtstudy.figures.inspection_panels import (
     draw_load,
     draw_slip,
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Size of the figure, inches.
-_WIDTH, _HEIGHT = 13.2, 7.8
+_WIDTH, _HEIGHT = 13.2, 11.4
 
 
 def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
@@ -40,7 +41,7 @@ def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Six panels, see `draw_inspection`; save it with its method ``savefig``. `swtstudy.inspect_point`
+        Nine panels, see `draw_inspection`; save it with its method ``savefig``. `swtstudy.inspect_point`
         returns the numbers shown.
 
     Raises
@@ -64,9 +65,10 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Six panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
-        tangential force; tractions; the stress cycle on the critical plane; swt along the surface. The same
-        numbered instants are marked in all of them.
+        Nine panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
+        tangential force; tractions; the stress cycle on the critical plane; swt along the surface; the plane
+        of the forces; these over the cycle; the force–displacement loop. Stick and slip are coloured along
+        all three loops, and the same numbered instants are marked in all panels but that of swt.
     """
     from matplotlib.layout_engine import ConstrainedLayoutEngine
 
@@ -74,14 +76,18 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 
     with styled(style):
         figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))
-        (load, slip, springs), (tractions, stress, swt) = figure.subplots(2, 3)
+        panels = figure.subplots(3, 3)
+        (load, slip, springs), (tractions, stress, swt), (plane, forces, loop) = panels
         draw_load(load, dataset)
         draw_slip(slip, dataset)
         draw_springs(springs, dataset)
         draw_tractions(tractions, dataset)
         draw_stress(stress, dataset)
         draw_swt(swt, dataset)
-        for axes, letter in zip((load, slip, springs, tractions, stress, swt), "ABCDEF", strict=True):
+        draw_load_plane(plane, dataset)
+        draw_forces(forces, dataset)
+        draw_force_loop(loop, dataset)
+        for axes, letter in zip(panels.flat, "ABCDEFGHI", strict=True):
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset))
     return figure
@@ -90,6 +96,8 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
 def _headline(dataset: xr.Dataset) -> str:
     profile = str(dataset.profile.item())
     names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
+    if "load" in dataset.coords:
+        names = [name for name in names if name not in ("frequency_ratio", "phase")]
     values = [place_words(name, dataset[name].item()) for name in names if name in dataset.coords]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"

@@ -6,8 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from swtstudy.figures.maps import draw_slip_map, draw_time_axis
+from swtstudy.figures.maps import STATE_COLOURS, draw_slip_map, draw_time_axis
 from swtstudy.mechanics.points import FloatArray
 
 if TYPE_CHECKING:
@@ -20,13 +21,23 @@ if TYPE_CHECKING:
 _THIN, _FAINT = 0.9, "0.55"
 #: Their dashes.
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
+#: Width of the band that shows stick and slip along a loop.
+_BAND = 7.0
+#: What is prescribed, by the coordinate ``control``.
+_PRESCRIBED = {
+    "displacements": "$u$ and $\\delta$",
+    "forces": "$F_x$ and $F_N$",
+    "normal_force+tangential_displacement": "$u$ and $F_N$",
+    "normal_displacement+tangential_force": "$F_x$ and $\\delta$",
+}
 #: A curve whose range is a smaller fraction of its size is constant but for rounding.
 _ROUNDING = 1e-13
 
 
 def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
-    """The path of the load in (u, δ), and its direction."""
+    """The path of the load in (u, δ), its direction, stick and slip."""
     u, depth = dataset.displacement.values, dataset.depth.values
+    draw_edge_states(axes, u, depth, dataset.edge_state.values)
     axes.plot(u, depth, color="black", linestyle="-", marker="")
     axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
     axes.axhline(1.0, color=_FAINT, linewidth=_THIN, zorder=0)
@@ -40,7 +51,18 @@ def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
         _mark(axes, number, u[index], depth[index])
     axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
     axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
-    axes.set_title("load path", loc="left")
+    axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
+
+
+def draw_edge_states(axes: Axes, x: FloatArray, y: FloatArray, state: NDArray[np.int8]) -> None:
+    """A wide band under a loop: whether the contact sticks or slips, in the colours of the slip map."""
+    from matplotlib.collections import LineCollection
+
+    path = np.stack([x, y], axis=1)
+    steps = np.stack([path[:-1], path[1:]], axis=1)
+    colours = [STATE_COLOURS[each] for each in state[:-1]]
+    look: dict[str, Any] = {"linewidths": _BAND, "capstyle": "round", "zorder": 1}
+    axes.add_collection(LineCollection(list(steps), colors=colours, **look))
 
 
 def _draw_direction(axes: Axes, u: FloatArray, depth: FloatArray, marked: list[int]) -> None:

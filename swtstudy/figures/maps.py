@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 #: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
-_STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
+STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 
 
 def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
@@ -98,8 +98,8 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     from matplotlib.patches import Patch
 
-    colours = ListedColormap(_STATE_COLOURS)
-    norm = BoundaryNorm(np.arange(len(_STATE_COLOURS) + 1) - 0.5, colours.N)
+    colours = ListedColormap(STATE_COLOURS)
+    norm = BoundaryNorm(np.arange(len(STATE_COLOURS) + 1) - 0.5, colours.N)
     state = dataset.state.transpose("r", "time")
     axes.pcolormesh(state.time, state.r, state, cmap=colours, norm=norm, shading="nearest", rasterized=True)
     axes.plot(dataset.time, dataset.contact_radius, color="black", linewidth=1.2)
@@ -108,13 +108,13 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     axes.set_ylabel("$r/a_H$")
     return [
         Patch(facecolor=colour, edgecolor="black", label=word.replace("_", " "))
-        for word, colour in zip(words, _STATE_COLOURS, strict=True)
+        for word, colour in zip(words, STATE_COLOURS, strict=True)
     ]
 
 
 def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:
-    """Set up the horizontal axis of a panel over ω1 t."""
+    """Set up the horizontal axis of a panel over time."""
     first, last = float(time.min()), float(time.max())
     axes.set_xlim(first, last)
     tick_in_pi(axes.xaxis, first, last)
-    axes.set_xlabel(r"$\omega_1 t$")
+    axes.set_xlabel(f"${time.attrs['symbol']}$")

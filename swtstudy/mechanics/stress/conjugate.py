@@ -57,13 +57,18 @@ class Conjugate:
     @classmethod
     def of(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
         """Over as much of the cycles of a scene as is no mirror image of the rest: all, or the first half."""
-        by_force = isinstance(scene.coordinate, ForceCoordinate)
-        other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
         cycle, _ = split_at_breakpoints(scene.cycle)
         if cycle.load.mirrored_half:
             half = cycle.first_half()
             cycle = replace(half, end=np.minimum(half.end, 0.5 * PERIOD))
-        return cls(cycle, scene.coordinate, other, by_force, unit, nodes)
+        return replace(cls.whole(scene, unit, nodes), cycle=cycle)
+
+    @classmethod
+    def whole(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
+        """Over the cycles of a scene, in their intervals."""
+        by_force = isinstance(scene.coordinate, ForceCoordinate)
+        other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
+        return cls(scene.cycle, scene.coordinate, other, by_force, unit, nodes)
 
     def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
         """Those at ``index``, with so many nodes."""
@@ -96,14 +101,16 @@ class Conjugate:
 
     def at(self, instant: FloatArray) -> FloatArray:
         """The component at instants of shape (n, i, k), over μ F_0 or μ E* δ0/G*."""
-        memory = self.cycle.memory
-        interval = np.arange(memory.start.shape[1])[:, None]
+        interval = np.arange(self.cycle.memory.start.shape[1])[:, None]
         states = self.cycle.states(interval, instant)
-        row = np.broadcast_to(np.arange(len(instant))[:, None, None], instant.shape)
-        pieces = memory.take((row, np.broadcast_to(interval, instant.shape), states.piece))
-        inside = self._inside()[row, interval, states.piece]
         front, edge = self._other(states.front), self._other(states.edge)
-        return inside + self._integral(row, pieces, states.front) + states.sign * (edge - front)
+        return self._up_to(states.front, states.piece) + states.sign * (edge - front)
+
+    def offset(self, coordinate: FloatArray) -> FloatArray:
+        """Offset of the springs at coordinates inside of the front, (n, i, k): ∫ o′ dC over the other one."""
+        start = self.cycle.memory.start[:, :, None]
+        piece = np.maximum((start <= coordinate[..., None]).sum(axis=-1) - 1, 0)
+        return self._up_to(coordinate, piece)
 
     def normal_force(self, normal: FloatArray) -> FloatArray:
         """The normal force over F_0 at normal loads of the diagram, shape (n, …)."""
@@ -115,6 +122,14 @@ class Conjugate:
             self.nodes + 2 * self.other.profile.extra_nodes(DIGITS)
         )
         return node, weight
+
+    def _up_to(self, coordinate: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+        """∫ o′ dC up to coordinates in pieces of the memory, each of shape (n, i, k)."""
+        memory, shape = self.cycle.memory, coordinate.shape
+        row = np.broadcast_to(np.arange(shape[0])[:, None, None], shape)
+        interval = np.broadcast_to(np.arange(shape[1])[:, None], shape)
+        pieces = memory.take((row, interval, piece))
+        return self._inside()[row, interval, piece] + self._integral(row, pieces, coordinate)
 
     def _inside(self) -> FloatArray:
         """∫ o′ dC up to the start of each piece of the memory, shape (n, i, d)."""

@@ -1,0 +1,87 @@
+"""The panels of forces and displacements in the figure of one parameter point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.figures.inspection_panels import (
+    _DOTTED,
+    _FAINT,
+    _THIN,
+    _draw_direction,
+    _instants,
+    _limits,
+    _mark,
+    draw_edge_states,
+)
+from swtstudy.figures.maps import draw_time_axis
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+#: Symbols of the four components without their scales.
+_PLAIN = {"displacement": "u", "depth": r"\delta", "tangential_force": "F_x", "normal_force": "F_N"}
+
+
+def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
+    """Tangential against normal force, with what friction carries, stick and slip coloured."""
+    force, normal = dataset.tangential_force.values, dataset.normal_force.values
+    _draw_loop(axes, dataset, "tangential_force", "normal_force")
+    highest = axes.get_ylim()[1]
+    axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
+    for sign in (1.0, -1.0):
+        look: dict[str, Any] = {"color": _FAINT, "linewidth": _THIN, "linestyle": "-", "marker": ""}
+        axes.plot([0.0, sign * highest], [0.0, highest], **look)
+    axes.set_xlim(_limits(force, 0.14, 0.14, 1.0))
+    axes.set_ylim(_limits(normal, 0.14, 0.14, 1.0))
+    axes.set_title(r"load plane of forces, $|F_x| \leq \mu F_N$", loc="left")
+
+
+def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
+    """Both forces over the cycle, the tangential one between its bounds."""
+    time = dataset.time
+    axes.plot(time, dataset.normal_force, label=_words(dataset, "normal_force"))
+    axes.plot(time, dataset.tangential_force, label=_words(dataset, "tangential_force"))
+    axes.plot(time, -dataset.normal_force, color=_FAINT, linestyle=_DOTTED, linewidth=_THIN, marker="")
+    axes.axhline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    both = np.concatenate([dataset.normal_force.values, dataset.tangential_force.values])
+    axes.set_ylim(_limits(both, 0.08, 0.34))
+    for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+        axes.axvline(when, color="black", linewidth=_THIN, alpha=0.35)
+        _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
+    draw_time_axis(axes, time)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=2, fontsize="small")
+    axes.set_title("forces over the cycle", loc="left")
+
+
+def draw_force_loop(axes: Axes, dataset: xr.Dataset) -> None:
+    """Tangential force against displacement; the area of the loop is the work dissipated in a cycle."""
+    _draw_loop(axes, dataset, "displacement", "tangential_force")
+    work = float(dataset.dissipation)
+    axes.fill(dataset.displacement, dataset.tangential_force, color="0.9", linewidth=0, zorder=0)
+    axes.set_title(f"force and displacement, area {work:.3g}", loc="left")
+
+
+def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
+    x, y = dataset[across].values, dataset[up].values
+    look: dict[str, Any] = {"color": "black", "linestyle": "-", "marker": ""}
+    draw_edge_states(axes, x, y, dataset.edge_state.values)
+    axes.plot(x, y, **look)
+    axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.axhline(1.0 if up == "normal_force" else 0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.set_xlim(_limits(x, 0.14, 0.14, 1.0))
+    axes.set_ylim(_limits(y, 0.14, 0.14, 1.0))
+    places = _instants(dataset)
+    _draw_direction(axes, x, y, [index for _, index in places])
+    for number, index in places:
+        _mark(axes, number, x[index], y[index])
+    axes.set_xlabel(_words(dataset, across))
+    axes.set_ylabel(_words(dataset, up))
+
+
+def _words(dataset: xr.Dataset, name: str) -> str:
+    scaled = dataset[name].attrs["symbol"]
+    return f"${scaled}$" if scaled.startswith(_PLAIN[name]) else f"${_PLAIN[name]}$:  ${scaled}$"
