@@ -1,9 +1,11 @@
 """How s of a sampled cycle comes near that of the harmonic one, and what other loads cost beside that.
 
 ``python studies/checks/loads.py`` writes results/loads.png: s of polygons of 16 to 512 vertices on the
-harmonic cycle over that of the cycle itself, with the envelope 10/k²; and results/loads.md: the same as
-numbers, and processor times of prescribed forces, mixed control and polygons over that of two harmonic
-displacements, in batches, as medians of paired ratios.
+harmonic cycle over that of the cycle itself, with the envelope 10/k², at Table 1 and at random amplitudes and
+frictions; and results/loads.md: the same as numbers, and processor times of prescribed forces, mixed control
+and polygons over that of two harmonic displacements, in batches, as medians of paired ratios. At some points
+s of the polygon converges more slowly, like 1/k and to either side, with where the vertices are beside the
+turning points of the cycle.
 """
 
 from __future__ import annotations
@@ -58,17 +60,22 @@ def sampled(points: Points, vertices: int) -> Points:
 
 def convergence(counts: tuple[int, ...], phases: tuple[float, ...], size: int) -> dict[str, Array]:
     """Relative differences of s by profile and ratio, shape (counts, points)."""
-    found: dict[str, Array] = {}
+    table_1 = [cycles("paraboloid", (1, 1), phase, 1) for phase in phases]
+    for points in table_1:
+        points.normal_amplitude[:], points.tangential_amplitude[:], points.friction[:] = 0.75, 5 / 6, 0.3
+    found = {"Table 1": np.concatenate([differences(points, counts) for points in table_1], axis=1)}
     for profile in SHAPES:
         for ratio in RATIOS:
-            columns = []
-            for phase in phases:
-                points = cycles(profile, ratio, phase, size)
-                exact = solve_points(points, RTOL).s
-                columns.append([solve_points(sampled(points, k), RTOL).s / exact - 1.0 for k in counts])
+            columns = [differences(cycles(profile, ratio, phase, size), counts) for phase in phases]
             name = f"{profile.replace('_', ' ')}, ω2/ω1 = {ratio[0]}/{ratio[1]}"
-            found[name] = np.abs(np.concatenate(columns, axis=1))
+            found[name] = np.concatenate(columns, axis=1)
     return found
+
+
+def differences(points: Points, counts: tuple[int, ...]) -> Array:
+    """Relative differences of s on polygons with so many vertices, shape (counts, points)."""
+    exact = solve_points(points, RTOL).s
+    return np.abs([solve_points(sampled(points, k), RTOL).s / exact - 1.0 for k in counts])
 
 
 def paired(call: Callable[[], object], base: Callable[[], object], pairs: int) -> tuple[float, float]:
@@ -111,7 +118,7 @@ def draw(found: dict[str, Array], counts: tuple[int, ...], path: Path) -> None:
     """Median and largest differences over the number of vertices."""
     figure = Figure((5.6, 4.0), layout=ConstrainedLayoutEngine())
     axes = figure.subplots()
-    for marker, (name, off) in zip("os^D", found.items(), strict=True):
+    for marker, (name, off) in zip("ovs^D", found.items(), strict=True):
         (line,) = axes.loglog(counts, np.median(off, axis=1), marker=marker, label=name)
         axes.loglog(counts, off.max(axis=1), ":", marker=marker, color=line.get_color())
     axes.loglog(counts, ENVELOPE / np.square(counts), color="black", label="10/k²")
