@@ -32,7 +32,7 @@ def both(phases: int | None) -> tuple[xr.Dataset, xr.Dataset]:
     grid = swtstudy.Study.from_toml(STUDY).grid
     given: dict[str, object] = {**grid.fixed, **{name: list(values) for name, values in grid.axes.items()}}
     if phases is not None:
-        given["phase"] = [float(value) for value in grid.axes["phase"][:: len(grid.axes["phase"]) // phases]]
+        given["phase"] = list(grid.axes["phase"][:: len(grid.axes["phase"]) // phases])
     forces = swtstudy.solve(**given)  # type: ignore[arg-type]
     other = {PAIRS.get(name, name): value for name, value in given.items()}
     return forces, swtstudy.solve(**other)  # type: ignore[arg-type]
