@@ -179,7 +179,11 @@ class PhysicalContact:
         own["profile"] = self._pure_profile()
         if body != self.bulk_stress_body:
             own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
-        return {n: number_of(n, own[n], self) for n in PARAMETERS if own.get(n) is not None}
+        return {
+            name: number_of(name, own[name], self)
+            for name, row in PARAMETERS.items()
+            if own.get(name) is not None and not (row.optional and own[name] == row.default)
+        }
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.

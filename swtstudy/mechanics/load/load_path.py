@@ -47,7 +47,7 @@ class LoadPath(Loop):
     >>> import swtstudy
     >>> square = swtstudy.LoadPath("square", [[0, 0.5], [0.5, 0.5], [0.5, -0.5], [0, -0.5]])
     >>> swtstudy.solve(load=square).s.round(4).item()
-    0.1271
+    0.1276
     """
 
     def __init__(self, name: str, vertices: ArrayLike) -> None:
