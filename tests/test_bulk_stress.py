@@ -313,7 +313,8 @@ def test_one_body_of_a_real_contact_carries_it() -> None:
     assert contact.bulk_stress_mean == pytest.approx(60.0)
     own, other = contact.parameters(1), contact.parameters(0)
     assert own["bulk_stress_amplitude"] == pytest.approx(40.0 / contact.stress_scale)
-    assert other["bulk_stress_amplitude"] == other["bulk_stress_mean"] == 0.0
+    # What the other body does not carry is left out.
+    assert not {"bulk_stress_amplitude", "bulk_stress_mean"} & {*other}
     solved = contact.solve()
     for body, parameters in enumerate((other, own)):
         assert float(solved.s[body]) == pytest.approx(float(swtstudy.solve(**parameters).s), rel=1e-12)

@@ -51,11 +51,13 @@ def fresh(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def clone(fresh, tmp_path_factory):
-    """Such a copy in which commands leave what they make; a.nc, b.nc and merged.nc of the help are there."""
+    """Such a copy in which commands leave what they make; a.nc, b.nc, merged.nc and worn.csv are there."""
     folder = shutil.copytree(fresh, tmp_path_factory.mktemp("commands") / "clone")
     for name in "ab":
         shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
     shutil.copy2(folder / "results" / "contour.nc", folder / "merged.nc")
+    rows = "".join(f"{r / 10},{max(r / 10 - 0.3, 0.0) ** 2}\n" for r in range(25))
+    (folder / "worn.csv").write_text(f"radius,height\n{rows}")
     return folder
 
 

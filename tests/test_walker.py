@@ -184,7 +184,7 @@ def test_a_life_takes_swt_of_every_exponent_in_the_same_equation() -> None:
         tangential_amplitude=0.005,
     )
     other = contact.with_parameters(walker_exponent=0.3)
-    assert (contact.parameters()["walker_exponent"], other.parameters()["walker_exponent"]) == (0.5, 0.3)
+    assert (contact.walker_exponent, other.parameters()["walker_exponent"]) == (0.5, 0.3)
     ratio = other.solve().SWT / contact.solve().SWT
     s = swtstudy.solve(**{**contact.parameters(), "walker_exponent": [0.5, 0.3]}).s
     np.testing.assert_allclose(ratio, float(s[1] / s[0]), rtol=1e-12)

@@ -15,7 +15,7 @@ from swtstudy.parameters import PARAMETERS
     epilog=examples(
         "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
         "swtstudy show --profile rounded_punch --flat-radius 0.5",
-        "swtstudy show --profile studies/worn/sharp_5.csv",
+        "swtstudy show --profile worn.csv",
     )
 )
 @with_parameters("VALUE")
