@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import signal
+from collections.abc import Iterator
+
 import pytest
 
 from swtstudy.study.definition import Study
@@ -31,3 +34,11 @@ def small_text() -> str:
 @pytest.fixture
 def small(small_text) -> Study:
     return Study.from_text(small_text)
+
+
+@pytest.fixture(autouse=True)
+def ctrl_c_as_it_was() -> Iterator[None]:
+    """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, before)
