@@ -64,6 +64,10 @@ class Parameter:
     instead_of: str = ""
     optional: bool = False
 
+    def goes_without_saying(self, value: object) -> bool:
+        """Whether a value means that the scene lacks what the parameter is about."""
+        return self.optional and value == self.default
+
     @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
@@ -81,8 +85,6 @@ class Parameter:
 HARMONIC = "harmonic"
 #: Amplitudes of a loop that are not given: its vertices are the loads themselves.
 LOOP_AMPLITUDE = 1.0
-#: The parameters that scale the columns of a loop.
-AMPLITUDES = ("normal_amplitude", "tangential_amplitude")
 
 #: Largest numerator and denominator of a frequency ratio: the common period grows with them.
 LARGEST_FREQUENCY_TERM = 64
@@ -276,6 +278,11 @@ AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES)
 PAIRS: dict[str, str] = {
     name: parameter.instead_of for name, parameter in PARAMETERS.items() if parameter.instead_of
 }
+
+
+def replaced_by(names: Iterable[str]) -> set[str]:
+    """The parameters whose places are taken by some of these."""
+    return {PAIRS[name] for name in names if name in PAIRS}
 
 
 @dataclass(frozen=True)

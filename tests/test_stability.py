@@ -11,7 +11,7 @@ from scenes import PROFILE_NAMES, points, take
 from soundness import RTOL, SHAPES, close, regime_names, sound
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.solver import BATCH_SIZE, _scenes
+from swtstudy.mechanics.solver import BATCH_SIZE, scenes
 
 TINY = 5e-324
 every_profile = pytest.mark.parametrize("profile", PROFILE_NAMES)
@@ -193,7 +193,7 @@ def test_a_huge_grid_comes_in_bounded_batches() -> None:
     loads = points(phase=np.linspace(0.0, 3.0, 7), normal_amplitude=0.5)
     batch = take(loads, np.arange(200_000) % 7)
     seen = np.zeros(len(batch), dtype=int)
-    for index, scene in _scenes(batch):
+    for index, scene in scenes(batch):
         assert len(index) == len(scene) <= BATCH_SIZE
         seen[index] += 1
     assert np.all(seen == 1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Hashable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
@@ -63,6 +64,11 @@ def read_definitions(text: object) -> dict[str, dict[str, Named]]:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
     return found
+
+
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Named]]:
+    """What the user had defined, by parameter and name, from the attributes of a Dataset."""
+    return read_definitions(attributes.get("definitions", "[]"))
 
 
 def read_figure(text: object) -> FigureLayout:

@@ -8,7 +8,7 @@ from dataclasses import fields
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_definitions, read_failures, read_runs
+from swtstudy.archive.attributes import defined_in, read_failures, read_runs
 from swtstudy.archive.error import ArchiveError
 from swtstudy.grid.grid import SAMPLE, Grid, complete
 from swtstudy.grid.reading import given_twice
@@ -18,7 +18,7 @@ from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.parameters import PAIRS, PARAMETERS, Control, Parameter
+from swtstudy.parameters import PARAMETERS, Control, Parameter, replaced_by
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.records import FAILED, Records, made_by
 from swtstudy.records.requested import columns_from
@@ -40,7 +40,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     for name in dims:
         if name != SAMPLE and (name not in PARAMETERS or name not in dataset.coords):
             mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
-    known = read_definitions(dataset.attrs.get("definitions", "[]"))
+    known = defined_in(dataset.attrs)
     for name, parameter in PARAMETERS.items():
         if name not in dataset.coords:
             continue
@@ -68,7 +68,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
 
 def _lacking(given: set[str], shape: Sequence[str]) -> Iterator[Mistake]:
     """Parameters without a value; an archive may leave out optional ones."""
-    replaced = {PAIRS[name] for name in given if name in PAIRS}
+    replaced = replaced_by(given)
     for name, parameter in PARAMETERS.items():
         needed = parameter.default is not None and not parameter.optional and name not in replaced
         if (needed or name in shape) and name not in given:

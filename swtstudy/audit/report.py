@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.archive.attributes import read_definitions
+from swtstudy.archive.attributes import defined_in
 from swtstudy.audit.point import TOLERANCE, VERDICTS
 from swtstudy.audit.table import canonical_rows
 from swtstudy.grid.canonical import describe_point
@@ -88,7 +88,7 @@ def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator
         + (", by up to " + f"{remainder[beyond].max():.2%}:" if beyond.any() else ".")
     )
     yield ""
-    rows, known = canonical_rows(dataset), read_definitions(dataset.attrs.get("definitions", "[]"))
+    rows, known = canonical_rows(dataset), defined_in(dataset.attrs)
     definitions = {each.code: each for own in known.values() for each in own.values()}
     for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_LISTED]:
         yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i], definitions)}"

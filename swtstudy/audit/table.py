@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.archive.attributes import definitions_text, read_definitions
+from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.grid.codes import Definitions, code_of, value_of
@@ -96,7 +96,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
 
 def canonical_rows(dataset: xr.Dataset) -> FloatArray:
     """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
-    known = read_definitions(dataset.attrs.get("definitions", "[]"))
+    known = defined_in(dataset.attrs)
     rows = np.zeros((dataset.sizes["sample"], len(COLUMNS)))
     for i, name in enumerate(COLUMNS):
         # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria.

@@ -182,7 +182,7 @@ class PhysicalContact:
         return {
             name: number_of(name, own[name], self)
             for name, row in PARAMETERS.items()
-            if own.get(name) is not None and not (row.optional and own[name] == row.default)
+            if own.get(name) is not None and not row.goes_without_saying(own[name])
         }
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:

@@ -22,11 +22,11 @@ from swtstudy.contacts.given import (
     wrong_sizes,
 )
 from swtstudy.contacts.scales import least_depths, length_of
-from swtstudy.grid.reading import read_grid
+from swtstudy.grid.reading import given_twice, read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile
+from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile, replaced_by
 from swtstudy.units.moduli import Moduli
 
 #: Parameters of a contact with what they are unless given, None for those that must be: a real contact has
@@ -129,7 +129,7 @@ def physical(
 
 def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
     """The defaults of what has nothing given in its place."""
-    replaced = {other for name, other in PAIRS.items() if name in parameters}
+    replaced = replaced_by(parameters)
     return {name: default for name, default in _DEFAULTS.items() if name not in replaced}
 
 
@@ -152,11 +152,7 @@ def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
     if is_table and "radius" in given:
         found, allowed = literal(given["radius"]), "nothing: the table of the profile has lengths"
         mistakes.append(Mistake("radius", found, allowed))
-    for force, other in PAIRS.items():
-        if force in given and other in given:
-            mistakes.append(
-                Mistake(f"{other}, {force}", "both", "one of the two: it says what is prescribed")
-            )
+    mistakes += [Mistake(*parts) for parts in given_twice(given)]
     moves = [name for name in ("tangential_amplitude", "tangential_force_amplitude") if given.get(name)]
     if not mistakes and plain_number(given["friction"]) == 0.0 and moves:
         found, allowed = f"{literal(given[moves[0]])} without friction", "0, since the contact slides at once"

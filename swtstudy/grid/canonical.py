@@ -199,5 +199,5 @@ def describe_point(row: FloatArray, definitions: Definitions) -> str:
         parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
     control = control_of(row[_COLUMN["control"]])
     values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or n != "phase"}
-    said = {n: v for n, v in values.items() if not (PARAMETERS[n].optional and v == PARAMETERS[n].default)}
+    said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
     return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

@@ -15,7 +15,7 @@ from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, ca
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
 from swtstudy.named import Named
-from swtstudy.parameters import AMPLITUDES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, Control
+from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, Control, replaced_by
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -138,11 +138,11 @@ def complete(
     """
     filled, samples = dict(fixed), samples or {}
     given = {*fixed, *axes, *samples}
-    given |= {PAIRS[name] for name in given if name in PAIRS}
+    given |= replaced_by(given)
     loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
     loops = any(isinstance(value, Named) for value in loads)
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
-            default = LOOP_AMPLITUDE if loops and name in AMPLITUDES else parameter.default
+            default = LOOP_AMPLITUDE if loops and name in PAIRS.values() else parameter.default
             filled[name] = read_value(parameter, default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

@@ -8,7 +8,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mistakes import Report, literal
 from swtstudy.named import Named
-from swtstudy.parameters import AMPLITUDES, HARMONIC, PAIRS
+from swtstudy.parameters import HARMONIC, PAIRS
 
 
 def check_amplitudes(
@@ -22,8 +22,8 @@ def check_amplitudes(
     if len({isinstance(load, Named) for load in loads}) < 2:
         return
     given = {*fixed, *axes}
-    for name in AMPLITUDES:
-        if name not in given and not any(force in given for force, other in PAIRS.items() if other == name):
+    for force, name in PAIRS.items():
+        if not {force, name} & given:
             allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
             report(keys(name), "nothing", allowed)
 

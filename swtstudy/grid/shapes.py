@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 #: Shapes of one profile; each is looked at, a million in 0.1 s.
 MOST_SHAPES = 50_000_000
-#: Shapes that are looked at together: the working memory for one is some 100 bytes, and some 10 kB where the
+#: Shapes that are looked at together: the working memory for one is some 100 bytes, and some 7 kB where the
 #: depth has to be found from a force.
 _SLAB, _TOGETHER = 500_000, 5_000
 

@@ -9,7 +9,7 @@ import numpy as np
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import _scenes
+from swtstudy.mechanics.solver import scenes
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.quantities import NAMED, NONLOCAL, Request, columns_in, columns_of, error_of, item_of
@@ -35,7 +35,7 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    for index, scene in _scenes(points):
+    for index, scene in scenes(points):
         some = points.take(index)
         parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
         if asked.distances:

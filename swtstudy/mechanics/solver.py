@@ -58,7 +58,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     s, error, position, angle, surface = (np.full(n, np.nan) for _ in range(5))
     regime = np.full(n, REGIMES.index("no_equilibrium"), dtype=np.int8)
     accuracy = Accuracy.for_tolerance(rtol)
-    for index, scene in _scenes(points):
+    for index, scene in scenes(points):
         lost = not_finite(scene)
         idle = _idle(scene) & ~lost
         found = _maximum(scene, np.flatnonzero(~(lost | idle)), accuracy)
@@ -77,7 +77,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     return Solution(s, error, position, angle, regime, surface)
 
 
-def _scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
+def scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
     """Indices of points that are solved together, and their scenes: each of one kind.
 
     Points that are in no equilibrium are in none of them.

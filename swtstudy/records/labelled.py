@@ -123,7 +123,7 @@ def label(
         coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
         coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
     for name, value in grid.fixed.items():
-        if not PARAMETERS[name].optional or value != PARAMETERS[name].default:
+        if not PARAMETERS[name].goes_without_saying(value):
             coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {

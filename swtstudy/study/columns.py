@@ -16,15 +16,15 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 MOST_ROWS = 100_000
 
 
-def read_columns(path: Path, needed: Sequence[str], optional: Sequence[str] = ()) -> FloatArray:
-    """The columns of a CSV file, shape (rows, columns found), in the order of the names.
+def read_columns(path: Path, names: Sequence[str]) -> FloatArray:
+    """The columns of a CSV file, shape (rows, len(names)), in the order of the names.
 
     Parameters
     ----------
     path
         The file: a header with the names of the columns, then a row of numbers for each point.
-    needed, optional
-        Names of columns; others in the file are left alone. Optional ones that it lacks are left out.
+    names
+        Names of columns; others in the file are left alone.
 
     Raises
     ------
@@ -36,11 +36,9 @@ def read_columns(path: Path, needed: Sequence[str], optional: Sequence[str] = ()
         with open(path, encoding="utf-8-sig", newline="") as file:
             rows = csv.reader(file, skipinitialspace=True)
             header = [word.strip() for word in next(rows, [])]
-            lacking = [name for name in needed if name not in header]
-            if lacking:
+            if not {*names} <= {*header}:
                 found = f"the columns {', '.join(header) or 'of an empty file'}"
-                raise StudyError([Mistake("", found, f"a header with {', '.join(needed)}", source)])
-            names = [name for name in (*needed, *optional) if name in header]
+                raise StudyError([Mistake("", found, f"a header with {', '.join(names)}", source)])
             places = [header.index(name) for name in names]
             values = [_numbers(row, places, names, rows.line_num, source) for row in _few(rows, source)]
     except OSError as error:
@@ -63,7 +61,7 @@ def _few(rows: Iterator[list[str]], source: str) -> Iterator[list[str]]:
         yield row
 
 
-def _numbers(row: list[str], places: list[int], names: list[str], line: int, source: str) -> list[float]:
+def _numbers(row: list[str], places: list[int], names: Sequence[str], line: int, source: str) -> list[float]:
     numbers = []
     for place, name in zip(places, names, strict=True):
         word = row[place].strip() if place < len(row) else ""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.force import ForceCoordinate
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
 #: Least contact radius for which derivatives are computed: they have no bound at the tip. 1e-11: no change at
@@ -58,12 +59,12 @@ class NormalMap(ABC):
 
     def _slope_of_depth(self, radius: FloatArray) -> FloatArray:
         """g′ at radii, nowhere 0."""
-        b = self.force.profile.flat_radius.reshape((-1,) + (1,) * (radius.ndim - 1))
+        b = align(self.force.profile.flat_radius, radius)
         rise = np.sqrt(np.maximum((radius - b) * (radius + b), LEAST_RADIUS**2))
         return np.maximum(self.force.profile.weighted_slope(radius) / rise, LEAST_RADIUS)
 
     def _unit(self, like: FloatArray) -> FloatArray:
-        return self.force.unit.reshape((-1,) + (1,) * (like.ndim - 1))
+        return align(self.force.unit, like)
 
     @abstractmethod
     def _value(self, load: FloatArray) -> FloatArray:

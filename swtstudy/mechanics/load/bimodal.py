@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.load.harmonic_sum import even_instants
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
@@ -181,10 +182,7 @@ class BimodalLoad(Load):
 def _turning_points_of_slip_line(load: BimodalLoad, sign: float) -> FloatArray:
     """Zeros of d(tangential − sign·normal)/dφ in a period, shape (n, k), filled up with its end."""
     p, q = load.p, load.q
-    order = max(p, q)
-    # The offset keeps nodes off the zeros of symmetric loads.
-    step = PERIOD / (24 * order)
-    grid: FloatArray = step * np.arange(24 * order + 2, dtype=np.float64) + 0.0123 / order
+    grid = even_instants(max(p, q))
     nodes = np.broadcast_to(grid, (len(load), grid.size))
     row, low, high = sign_changes(grid, load.tangential_rate(nodes) - sign * load.normal_rate(nodes))
     line = load.take(row)

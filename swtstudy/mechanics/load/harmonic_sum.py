@@ -13,7 +13,7 @@ from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.roots import Brackets, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Samples of a derivative for each harmonic between which its zeros are looked for. Twice as many find no
+#: Samples of a derivative for each harmonic between which its zeros are looked for. Four times as many find no
 #: others in 2,000 random sums of up to 6 harmonics.
 SAMPLES = 24
 #: Nodes of the inverse's series: doubled from the first to the last until the coefficients fall below this.

@@ -16,9 +16,9 @@ from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
 
-#: Most vertices of a loop that counts: a value with so many takes 20 s and 10 GB.
+#: Most vertices of a loop: a value with so many takes 30 s and 5 GB.
 MOST_VERTICES = 2000
-#: Sides of a loop that cost as much as one oscillation: 200 sides take as long as a frequency ratio of 16.
+#: Sides of a loop that cost as much as one oscillation: 100 take as long as 8 to 16 of them, 200 as 32.
 SIDES_PER_OSCILLATION = 12
 
 

@@ -183,8 +183,7 @@ class PolygonLoad(Load):
 
     def _ends(self, corner: FloatArray, side: IntArray) -> tuple[FloatArray, FloatArray]:
         """A component at both ends of sides."""
-        first = (self.row * corner.shape[1]).reshape((-1,) + (1,) * (side.ndim - 1))
-        place = first + side
+        place = align(self.row * corner.shape[1], side) + side
         return corner.take(place), corner.take(place + 1)
 
     def _at(self, corner: FloatArray, instant: FloatArray) -> FloatArray:

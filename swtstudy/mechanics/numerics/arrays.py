@@ -6,7 +6,7 @@ The look-ups are much faster than `numpy.take_along_axis`.
 from __future__ import annotations
 
 import math
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,7 +132,7 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     return filled
 
 
-def align(values: NDArray[T], like: FloatArray) -> NDArray[T]:
+def align(values: NDArray[T], like: NDArray[Any]) -> NDArray[T]:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
 
