@@ -13,8 +13,8 @@ from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.roots import Brackets, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Samples of a derivative for each harmonic between which its zeros are looked for. Four times as many find no
-#: others in 2,000 random sums of up to 6 harmonics.
+#: Samples of a derivative for each harmonic between which its zeros are looked for. Four times as many find
+#: no others in 2,000 random sums of up to 6 harmonics.
 SAMPLES = 24
 #: Nodes of the inverse's series: doubled from the first to the last until the coefficients fall below this.
 LEAST_NODES, MOST_NODES, NEGLIGIBLE = 32, 1024, 1e-13
