@@ -22,7 +22,8 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        Columns: the dimensions in their order, the other parameters, and the results.
+        Columns: the dimensions in their order, the other parameters, and the results. The index has the name
+        "point".
     """
     import pandas as pd
 
@@ -40,4 +41,4 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
             codes = np.where(np.isfinite(flat), flat, -1).astype(int)
             flat = pd.Categorical.from_codes(codes, meanings.split())
         columns[name] = flat
-    return pd.DataFrame(columns)
+    return pd.DataFrame(columns).rename_axis("point")
