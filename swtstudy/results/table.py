@@ -12,19 +12,7 @@ if TYPE_CHECKING:
 
 
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Results as a table: one row per point, one column per parameter or result, flags as words.
-
-    Parameters
-    ----------
-    dataset
-        Results.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Columns: the dimensions in their order, the other parameters, and the results. The index has the name
-        "point".
-    """
+    """Results as a table, one row per point: see ``to_table`` of the accessor."""
     import pandas as pd
 
     dims = list(map(str, dataset.dims))
