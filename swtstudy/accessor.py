@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
 
@@ -34,14 +35,15 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
-    def figure(self, style: Style | None = None) -> Figure:
+    def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """The figure that the study asks for; see `swtstudy.figures.draw.draw`.
 
-        A dimension that has been sliced away is removed from the layout.
+        A dimension that has been sliced away is removed from the layout. ``width`` is "column", 8.5 cm, or
+        "page", 17.5 cm, for print; without it the figure is for a screen.
         """
         from swtstudy.figures.draw import draw
 
-        return draw(self._dataset, style=style)
+        return draw(self._dataset, style=style, width=width)
 
     def panels(
         self,
@@ -54,17 +56,18 @@ class SwtAccessor:
         vertical: str | None = None,
         regimes: bool = False,
         style: Style | None = None,
+        width: Width | None = None,
     ) -> Figure:
         """A figure with a layout of your own, by the keys of a study's ``[figure]``.
 
-        ``y`` may name any data variable of the Dataset.
+        ``y`` may name any data variable of the Dataset; ``width`` is that of `figure`.
         """
         from swtstudy.figures.draw import draw
         from swtstudy.study.figure import FigureLayout
 
         rows = (y,) if isinstance(y, str) else tuple(y)
         layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes)
-        return draw(self._dataset, layout, style)
+        return draw(self._dataset, layout, style, width)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
         """The part at given values; see `swtstudy.results.select.slice_at`."""
