@@ -180,7 +180,7 @@ def _range(parameter: Parameter) -> dict[str, Any]:
 def _description(parameter: Parameter) -> str:
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
-    return f"{parameter.meaning}: {parameter.allowed}{of}"
+    return f"{parameter.described}: {parameter.allowed}{of}"
 
 
 def _without_titles(part: Any) -> Any:
