@@ -72,6 +72,13 @@ def test_where_s_is_not_finite_there_is_a_picture_all_the_same():
     assert live.png().startswith(b"\x89PNG")
 
 
+def test_a_slider_may_stop_at_a_phase_of_the_curve_but_for_rounding():
+    live = LiveFigure()
+    for phase in (phases(1)[2] * (1 + 1e-15), phases(1)[3] * (1 - 4e-16), 2.0 * np.pi, 2.0 * np.pi + 1e-15):
+        alone = swtstudy.solve(phase=phase, rtol=1e-4)
+        assert float(live.redraw(phase=phase).s) == pytest.approx(float(alone.s), rel=1e-3)
+
+
 def test_the_curve_has_each_period_of_s_alike():
     for ratio, periods in (("1/2", 1), (1, 2), ("3/2", 3), ("4/3", 8), (2, 4)):
         over = phases(ratio)

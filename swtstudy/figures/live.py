@@ -14,11 +14,12 @@ from swtstudy.fields.load_and_springs import load_and_springs
 from swtstudy.figures.figure import Figure
 from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.style import styled
+from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PARAMETERS, Control
 from swtstudy.solving import solve
-from swtstudy.wording import axis_words, tick_in_pi
+from swtstudy.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 #: Phases from 0 to 2π, no fewer in a period of s(ψ), and the accuracy asked of s: what a picture shows.
 _PHASES, _LEAST, _RTOL = 24, 12, 1e-3
+#: Phases nearer than this, rad, are the same.
+_ROUNDING = 1e-6
 #: Size in inches, and dots per inch.
 _SIZE, _DOTS = (13.5, 4.2), 80
 
@@ -61,7 +64,9 @@ class LiveFigure:
             A ValueError with every mistake in the parameters, or that they have no equilibrium.
         """
         phase = float(parameters.get("phase", PARAMETERS["phase"].default))  # type: ignore[arg-type]
-        over = {"phase": np.union1d(phases(parameters.get("frequency_ratio", 1)), phase)}
+        curve = phases(parameters.get("frequency_ratio", 1))
+        # A phase that is one of these but for rounding takes its place.
+        over = {"phase": np.union1d(curve[np.abs(curve - phase) > _ROUNDING], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
         if REGIMES[int(solved.regime.sel(phase=phase))] == "no_equilibrium":
             raise StudyError([no_equilibrium(Control.given(parameters), parameters)])
