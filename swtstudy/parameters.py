@@ -7,8 +7,7 @@ them; none of them repeats a name, a symbol, a default or a range.
 from __future__ import annotations
 
 import unicodedata
-from collections import ChainMap
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeGuard
 
@@ -37,7 +36,8 @@ class Parameter:
         "number", "ratio" (a rational number p/q), or "name": built in, or of what the user has defined.
     part
         What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
-        "bulk" (the bulk stress of one body), "criterion", or "quantity" (of what is computed beside s).
+        "bulk" (the bulk stress of one body), "criterion", "quantity" (of what is computed beside s), or
+        "contact" (of a real one).
     units
         CF units: "1", or "rad" for the phase.
     scale
@@ -250,29 +250,6 @@ PARAMETERS: dict[str, Parameter] = {
 
 #: Into the body from the critical point: straight down, or along the critical plane.
 DIRECTIONS = ("depth", "critical_plane")
-
-#: What quantities beside s range over, while the points do not.
-QUANTITY_AXES: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter(
-            "critical_distance",
-            r"\ell/a_H",
-            "ℓ",
-            "critical distance of the nonlocal values",
-            None,
-            0.0,
-            10.0,
-            open_lower=True,
-            part="quantity",
-            scale="a_H",
-        ),
-        Parameter("direction", "", "", "direction from the critical point", kind="name", part="quantity"),
-    )
-}
-
-#: Everything that a dimension of results may be.
-AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES)
 
 #: Parameters of which one of two is given, by the one that takes the other's place.
 PAIRS: dict[str, str] = {

@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from swtstudy.parameters import AXES
+from swtstudy.axes import AXES
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis

@@ -14,13 +14,14 @@ from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, Request
 from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
 from swtstudy.study.definition import Study

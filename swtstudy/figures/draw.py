@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.axes import AXES
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.quantity_words import flag_words, quantity_words
@@ -14,7 +15,6 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import AXES
 from swtstudy.results.quantity import quantity
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import FigureLayout

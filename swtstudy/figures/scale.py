@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.regimes import in_equal_ratios
-from swtstudy.parameters import AXES
 from swtstudy.wording import axis_words, tick_in_pi
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words
-from swtstudy.parameters import AXES
 from swtstudy.results.extrema import extrema
 from swtstudy.wording import tick_in_pi, value_words
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.nearest import TOLERANCE, index_of
 from swtstudy.grid.values import read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.parameters import AXES
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:

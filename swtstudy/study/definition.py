@@ -9,11 +9,11 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES

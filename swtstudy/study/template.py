@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.parameters import FAMILIES, PARAMETERS, QUANTITY_AXES
+from swtstudy.axes import QUANTITY_AXES
+from swtstudy.parameters import FAMILIES, PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from swtstudy.grid.canonical import canonical_number, rounded
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile
 from swtstudy.mistakes import Mistake, StudyError
@@ -40,6 +41,14 @@ _RADII, _DIGITS = 4001, 9.0
 def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
     """`TabulatedProfile.scaled`, whose fit takes time."""
     return table.scaled(length, depth)
+
+
+@lru_cache(maxsize=64)
+def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
+    """A table to the digits of canonical points: in whichever units it was given, it is the same."""
+    pure = table.scaled(length, depth)
+    smoothing = canonical_number(pure.smoothing)
+    return TabulatedProfile(pure.name, rounded(pure.radius), rounded(pure.height), smoothing)
 
 
 def _contact_radius(table: TabulatedProfile, depth: float) -> float:
@@ -151,13 +160,14 @@ class Contact:
 
     def _profile(self) -> Profile:
         shape = {name: np.array([value]) for name, value in self.shape_parameters.items()}
-        return make_profile(self._pure_profile(), shape, np.ones(1))
+        return make_profile(self.pure_profile, shape, np.ones(1))
 
-    def _pure_profile(self) -> str | TabulatedProfile:
+    @property
+    def pure_profile(self) -> str | TabulatedProfile:
         """The non-dimensional profile: a table in a_H and δ0."""
         if isinstance(self.profile, str):
             return self.profile
-        return _scaled(self.profile, self.length_scale, self.depth)
+        return _pure(self.profile, self.length_scale, self.depth)
 
     @property
     def shape_parameters(self) -> dict[str, float]:
@@ -174,7 +184,7 @@ class Contact:
             do not depend on these, and the stress beneath them on those of the body itself alone.
         """
         own = {**vars(self), **self.shape, "poisson_ratio": self.moduli.poisson[checked_body(body)]}
-        own["profile"] = self._pure_profile()
+        own["profile"] = self.pure_profile
         if body != self.bulk_stress_body:
             own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
         return {

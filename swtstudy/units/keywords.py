@@ -84,7 +84,7 @@ def contact_from(
     if normal_force is not None:
         contact = replace(contact, depth=depth_at(contact, plain_number(normal_force)))
     if isinstance(contact.profile, TabulatedProfile):
-        _refuse_beyond(contact.profile, contact.depth + (contact.normal_amplitude or 0.0))
+        refuse_beyond(contact.profile, contact.depth + (contact.normal_amplitude or 0.0))
     _, mistakes = read_grid(contact.parameters(), {})
     if mistakes:
         raise StudyError(in_own_values(mistake, _sizes(given)) for mistake in mistakes)
@@ -172,7 +172,7 @@ def depth_at(contact: Contact, force: float) -> float:
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
 
 
-def _refuse_beyond(table: TabulatedProfile, depth: float) -> None:
+def refuse_beyond(table: TabulatedProfile, depth: float) -> None:
     """Raise if the contact of a table in lengths is no full disc up to a depth, or larger than the table."""
     wrong = table.refused_at(depth)
     if wrong is not None:
