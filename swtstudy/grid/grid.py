@@ -105,6 +105,10 @@ class Grid:
         columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
         return canonical_points(columns)
 
+    def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
+        """Names and dimensions of what results have beside what is asked: that with units."""
+        return {}
+
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """The critical distances that are asked, as items, and which of these each point of the grid wants.
 

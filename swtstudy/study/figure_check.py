@@ -121,10 +121,13 @@ def _sizes(
 ) -> dict[str, int | None]:
     """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
     lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
+    made = {} if grid is None else grid.made(asked)
+    if y.strip() in made:
+        return {name: {**lengths_of, **lengths}[name] for name in made[y.strip()]}
     sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
     known = y.strip() in VARIABLES or not y.strip().isidentifier()
     used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
-    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
     return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
 
 
@@ -148,7 +151,7 @@ def _wrong_formula(text: str) -> str | None:
 
 
 def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
-    known = (*VARIABLES, *asked.variables)
+    known = (*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked)))
     try:
         place = reference(y)
     except ValueError as error:

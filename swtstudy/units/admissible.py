@@ -129,7 +129,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, keys: Keys, report: Report
 def _largest(
     grid: PhysicalGrid, profile: Value, names: tuple[str, ...]
 ) -> tuple[dict[str, NDArray[np.intp]], dict[str, Any]]:
-    """Places of the contacts of a profile, and their shapes, tables and largest depths, each of shape (n,)."""
+    """Places of the contacts of a profile, their shapes, tables and largest depths, of shape (n,)."""
     import xarray as xr
 
     seats = grid.seats

@@ -152,6 +152,12 @@ class PhysicalGrid(Grid):
         places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
         return dict(zip(self.dims, places, strict=True))
 
+    def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
+        """See `Grid.made`."""
+        from swtstudy.units.variables import dims_of
+
+        return dims_of(self, asked)
+
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
         length = self.seats.scale("a_H")

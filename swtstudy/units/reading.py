@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -10,7 +11,7 @@ from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
 from swtstudy.grid.shapes import check_shapes_given
 from swtstudy.grid.values import Value, read_value
-from swtstudy.mistakes import Mistake, Report, literal
+from swtstudy.mistakes import Mistake, Report, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameters import Parameter, replaced_by
 from swtstudy.quantities import DISTANCE
@@ -47,10 +48,15 @@ def read_contacts(
     def report(key: str, found: str, allowed: str) -> None:
         mistakes.append(Mistake(key, found, allowed, source))
 
-    table, samples = rows(given.units), samples or {}
-    own = {name: row for name, row in table.items() if name != DISTANCE}
+    samples = samples or {}
+    own = {name: row for name, row in rows(given.units).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, keys, report)
-    good_fixed, good_axes = read_values(single, axes, keys, report, (DISTANCE, *pairs), samples, known, own)
+    similar = single.pop("similar", given.similar)
+    if not 0.0 <= plain_number(similar) < math.inf:
+        report(keys("similar"), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+    good_fixed, good_axes = read_values(
+        single, axes, keys, report, (DISTANCE, "similar", *pairs), samples, known, own
+    )
     good_samples = {name: values for name, values in samples.items() if values is not None}
     everything = {**fixed, **axes, **samples}
     along = good_axes | good_samples
@@ -60,6 +66,7 @@ def read_contacts(
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
+    extra["similar"] = plain_number(similar)
     grid = completed(good_fixed, good_axes, good_samples, extra)
     check_bodies(grid, keys, report)
     check_loops(grid, keys, report)
