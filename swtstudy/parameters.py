@@ -45,6 +45,8 @@ class Parameter:
         `swtstudy.units.scales.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
+    note
+        What else there is to know, in one line.
     optional
         Whether the default means that the scene lacks it: results leave it out at its default.
     """
@@ -63,6 +65,7 @@ class Parameter:
     scale: str = ""
     instead_of: str = ""
     optional: bool = False
+    note: str = ""
 
     def goes_without_saying(self, value: object) -> bool:
         """Whether a value means that the scene lacks what the parameter is about."""
@@ -135,6 +138,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             100.0,
             scale="μ E* δ0/G*",
+            note="along an axis of friction it stays, so that uA itself moves with μ",
         ),
         Parameter(
             "tangential_force_amplitude",
@@ -146,6 +150,7 @@ PARAMETERS: dict[str, Parameter] = {
             100.0,
             scale="μ F0",
             instead_of="tangential_amplitude",
+            note="along an axis of friction it stays, so that QA itself moves with μ",
         ),
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"

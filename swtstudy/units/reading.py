@@ -22,6 +22,9 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.rows import MEAN_LOADS, rows
 
+#: A fixed value that is no parameter: it says which bodies are similar.
+SIMILAR_KEY = "similar"
+
 
 @dataclass(frozen=True)
 class Given:
@@ -51,11 +54,11 @@ def read_contacts(
     samples = samples or {}
     own = {name: row for name, row in rows(given.units).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, keys, report)
-    similar = single.pop("similar", given.similar)
+    similar = single.pop(SIMILAR_KEY, given.similar)
     if not 0.0 <= plain_number(similar) < math.inf:
-        report(keys("similar"), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+        report(keys(SIMILAR_KEY), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
     good_fixed, good_axes = read_values(
-        single, axes, keys, report, (DISTANCE, "similar", *pairs), samples, known, own
+        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
     everything = {**fixed, **axes, **samples}
