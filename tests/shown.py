@@ -17,7 +17,12 @@ from swtstudy.cli import main
 
 ROOT = Path(__file__).parent.parent
 #: What the README and the pages say; the generated parts of the pages are the README's, or made by running.
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "docs" / "theory").glob("*.md")])
+PAGES = sorted(
+    [
+        ROOT / "README.md",
+        *(page for part in (".", "theory", "api") for page in (ROOT / "docs" / part).glob("*.md")),
+    ]
+)
 
 _FENCE = re.compile(r"^```(\S*)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _CODE = re.compile(r"`([^`\n]+(?:\n[^`\n]+)?)`")

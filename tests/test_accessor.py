@@ -128,6 +128,7 @@ def test_a_tidy_table(dataset):
     assert set(table.regime) <= set(dataset.regime.attrs["flag_meanings"].split())
     assert (table.profile == "rounded_punch").all()
     assert len(dataset.isel(phase=0, frequency_ratio=0, flat_radius=0).swt.to_table()) == 1
+    assert table.to_csv().startswith("point,phase,")
 
 
 def test_tables_and_figures_after_xarrays_operations(dataset):

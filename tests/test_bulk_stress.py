@@ -395,3 +395,23 @@ def test_a_loop_has_no_frequency_for_it() -> None:
         swtstudy.solve(load=loop, bulk_stress_amplitude=0.1)
     raised = swtstudy.solve(load=loop, bulk_stress_mean=[0.0, 0.05]).s
     assert float(raised[1]) > 1.1 * float(raised[0])
+
+
+def test_the_search_of_the_body_leaves_the_contact_and_knows_the_far_field() -> None:
+    """Wherever it starts: from inside of the contact, or from no place at all."""
+    at = points("paraboloid", 0.4354, 0.1805, 0.3087, 1.0453, 3.6127, 2, 1)
+    point = with_bulk(at, 0.395, -0.0686, 5.3333, 0.4)
+    found = solve_points(point, 1e-6)
+    body, _ = body_maximum(scene_of(point), 0.3)
+    assert body.swt == pytest.approx(found.s[0], rel=1e-3)
+    assert body.position[0] == pytest.approx(found.critical_x[0], rel=2e-3)
+    # Pressure takes the tension of the bulk stress away, and nothing else moves: at ν = 1/2 it adds none.
+    alone = with_bulk(points("paraboloid", 0.5, 0.0, 0.0, 0.0), 0.2, 0.1, 0.0, 0.3)
+    assert np.isnan(solve_points(alone).critical_x[0])
+    expected = swt(np.array(0.3), np.array(0.2), 0.5, 0.3)
+    for start in (0.5, np.nan):
+        body, at_line = body_maximum(scene_of(alone), start)
+        assert body.swt == pytest.approx(float(expected), rel=1e-12)
+        assert body.position.tolist() == [np.inf, 0.0, 0.0]
+        assert body.normal.tolist() == [1.0, 0.0, 0.0]
+    assert float(at_line.swt) == body.swt

@@ -160,3 +160,9 @@ def test_blocks_that_show_files_show_files_that_are_there():
         text = page.read_text(encoding="utf-8")
         for file in re.findall(r"^```\{(?:literal)?include\} (?!generated/)(\S+)", text, re.MULTILINE):
             assert (page.parent / file).is_file(), f"{page}: {file}"
+
+
+def test_every_name_of_the_package_has_its_place_in_the_reference():
+    pages = "".join(page.read_text(encoding="utf-8") for page in (shown.ROOT / "docs" / "api").glob("*.md"))
+    told = set(re.findall(r"^\.\. auto\w+:: (\S+)$", pages, re.MULTILINE))
+    assert {*swtstudy.__all__, "SwtAccessor"} - {"__version__"} <= told

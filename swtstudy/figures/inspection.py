@@ -41,8 +41,7 @@ def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Nine panels, see `draw_inspection`; save it with its method ``savefig``. `swtstudy.inspect_point`
-        returns the numbers shown.
+        Nine panels; save it with its method ``savefig``. `swtstudy.inspect_point` returns the numbers shown.
 
     Raises
     ------

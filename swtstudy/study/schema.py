@@ -35,7 +35,8 @@ _DESCRIPTIONS = {
     "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
     "units": "Labels of length, force and stress, any consistent set: then the parameters have these units.",
     "material": "Fatigue constants, each a value or one for each body; or names from a file. For cycles.",
-    "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
+    "loads": "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
+    "optionally, bulk, or harmonics.",
     "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
@@ -60,11 +61,13 @@ _SAMPLE_DESCRIPTIONS = {
     "points": "Points given here: a list of values for each parameter, all of one length.",
 }
 _LOAD_DESCRIPTIONS = {
-    "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
-    "amplitude times c_t.",
-    "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
+    "vertices": "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "
+    "tangential one its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns normal, tangential "
+    "and, optionally, bulk.",
     "normal": "Harmonics of c_n instead of vertices: rows of order, amplitude and phase.",
     "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
+    "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
@@ -236,7 +239,7 @@ def _description(parameter: Parameter) -> str:
     units = f"with units a {kind}" if kind else ""
     if parameter.part == "contact":
         return f"{parameter.meaning}; with units only{f', a {kind}' if kind else ''}"
-    words = [f"{parameter.meaning}: {parameter.allowed}{of}", parameter.note, units]
+    words = [f"{parameter.described}: {parameter.allowed}{of}", parameter.note, units]
     return "; ".join(filter(None, words))
 
 

@@ -13,7 +13,7 @@ from swtstudy.grid.shapes import check_shapes_given
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, Report, literal, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import Parameter, replaced_by
+from swtstudy.parameters import PAIRS, Parameter, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
@@ -158,18 +158,17 @@ def _check_given(
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything.keys():
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")
-    loops = any(isinstance(load, Named) for load in good.get("load", ()))
-    for name in ("tangential_amplitude", "normal_amplitude"):
-        force = name.replace("amplitude", "force_amplitude")
-        if name in everything or force in everything or (own[name].default is not None and not loops):
+    scaling = {name for load in good.get("load", ()) if isinstance(load, Named) for name in load.scaled_by}
+    for name in ("tangential_amplitude", "normal_amplitude", "bulk_stress_amplitude"):
+        force = next((force for force, other in PAIRS.items() if other == name), "")
+        needed = own[name].default is None or name in scaling
+        if name in everything or force in everything or not needed:
             continue
-        length, newton = (own[each].units for each in (name, force))
-        allowed = f"{own[name].allowed}; or {force}"
-        if loops:
-            column = name.partition("_")[0]
-            allowed = (
-                f"1 if the column {column} of the loop is in {length}; or {force}, 1 if it is in {newton}"
-            )
+        allowed = f"{own[name].allowed}{f'; or {force}' * bool(force)}"
+        if name in scaling:
+            column, unit = name.partition("_")[0], own[name].units
+            allowed = f"1 if the column {column} of the loop is in {unit}"
+            allowed += f"; or {force}, 1 if it is in {own[force].units}" if force else ""
         report(keys(name), "nothing", allowed)
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report(keys("body"), literal(list(good["body"])), "1 or 2")
