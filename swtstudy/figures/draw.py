@@ -127,15 +127,17 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
         else:
             surfaces = [each.transpose(layout.vertical, layout.x) for each in values]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-        axes[row, 0].set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
+        axes[row, 0].set_ylabel(
+            words if layout.vertical is None else axis_words(layout.vertical, dataset[layout.vertical].attrs)
+        )
     for index, (one, panel) in enumerate(zip(axes.flat, columns * rows, strict=True)):
         _title_panel(one, panel, layout, index, axes.size)
     for bottom in axes[-1]:
-        bottom.set_xlabel(axis_words(layout.x))
+        bottom.set_xlabel(axis_words(layout.x, dataset[layout.x].attrs))
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:
-        add_scale(figure, axes, scale, layout.hue)
+        add_scale(figure, axes, scale, dataset[layout.hue])
     add_legend(figure, axes, below=not lines)
     return figure
 
@@ -149,5 +151,5 @@ def _title_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int
     if count > 1:
         words.append(f"({chr(ord('A') + index % 26)})")
     if layout.panels:
-        words.append(place_words(layout.panels, panel[layout.panels].item()))
+        words.append(place_words(layout.panels, panel[layout.panels].item(), panel[layout.panels].attrs))
     axes.set_title("  ".join(words), loc="left")

@@ -51,7 +51,7 @@ def draw_lines(
         if scale:
             look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
         elif layout.hue:
-            look["label"] = place_words(layout.hue, part[layout.hue].item())
+            look["label"] = place_words(layout.hue, part[layout.hue].item(), part[layout.hue].attrs)
         if flag_words(curve):
             look["drawstyle"] = "steps-mid"
         (line,) = axes.plot(x, curve.values, **look)

@@ -49,7 +49,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
                 )
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
-            one.set_xlabel(axis_words(name))
+            one.set_xlabel(axis_words(name, dataset[name].attrs))
             _scale_axes(one, dataset, name, quantity(dataset, y))
         for first in axes[row * rows : (row + 1) * rows, 0]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
@@ -139,7 +139,7 @@ def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Data
     if name is None:
         return [(None, dataset)]
     parts = [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
-    return [(place_words(name, part[name].item()), part) for part in parts]
+    return [(place_words(name, part[name].item(), part[name].attrs), part) for part in parts]
 
 
 def _figure(columns: int, rows: int) -> Figure:

@@ -36,8 +36,8 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
     return ScalarMappable(norm, ListedColormap(colours))
 
 
-def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, name: str) -> None:
+def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, values: xr.DataArray) -> None:
     """Add the colour bar of a parameter beside all panels."""
-    bar = figure.colorbar(scale, ax=axes, label=axis_words(name), pad=0.02)
-    if AXES[name].units == "rad":
+    bar = figure.colorbar(scale, ax=axes, label=axis_words(str(values.name), values.attrs), pad=0.02)
+    if AXES[str(values.name)].units == "rad":
         tick_in_pi(bar.ax.yaxis, *bar.ax.get_ylim())

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.mistakes import Report
+from swtstudy.quantities import every_variable
 
 if TYPE_CHECKING:
     from swtstudy.parameters import Parameter
@@ -30,10 +31,27 @@ def read_given(
     if not isinstance(raw.get("material"), dict):
         return Given(units)
     young = fixed.get("young_modulus")
-    pair = (young[0], young[1]) if isinstance(young, list) and len(young) == 2 else (young, young)
-    return Given(
-        units, read_material(raw["material"], None if young is None else pair, units, folder, report)
-    )
+    pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
+    known = None if young is None else (_sound(pair[0]), _sound(pair[1]))
+    return Given(units, read_material(raw["material"], known, units, folder, report))
+
+
+def _sound(young: object) -> float:
+    """A Young's modulus; any for one that is wrong, which is reported elsewhere."""
+    from swtstudy.grid.values import read_exact
+
+    try:
+        number = float(read_exact(young))
+    except ValueError:
+        return 1.0
+    return number if number > 0.0 else 1.0
+
+
+def every_name() -> set[str]:
+    """Names of all data variables that a study with units may have."""
+    from swtstudy.units.variables import NAMES
+
+    return {*NAMES, *every_variable()}
 
 
 def rows_of(contacts: Given | None) -> Mapping[str, Parameter]:

@@ -15,7 +15,7 @@ from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
-from swtstudy.study.contacts import read_given, rows_of
+from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -185,7 +185,7 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
         names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
         dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
         dims += [] if grid is None else [dim for dim in grid.dims if dim not in dims]
-        check_figure(figure, dims, grid, asked, report)
+        check_figure(figure, dims, grid, asked, report, every_name() if contacts and mistakes else ())
     if mistakes or table is None or grid is None:
         raise StudyError(list(dict.fromkeys(mistakes)))
     if table.sample is not None and table.sample.file is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 from swtstudy.axes import AXES, QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE, Grid
@@ -87,7 +87,12 @@ def wrong_axes(
 
 
 def check_figure(
-    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request, report: Report
+    layout: FigureLayout,
+    dims: list[str],
+    grid: Grid | None,
+    asked: Request,
+    report: Report,
+    unsure: Collection[str] = (),
 ) -> None:
     """Report everything in a figure that does not fit its study.
 
@@ -103,16 +108,20 @@ def check_figure(
         What the study asks for beside s.
     report
         Called with key, found and allowed of each mistake.
+    unsure
+        Names of what the study may have but for other mistakes, which are reported.
     """
     of = "{} in this study" if asked.distances else "this study"
     found = [*wrong_layout(layout)]
-    for y in layout.y or ("s",):
+    for y in [y for y in layout.y if y.strip() not in unsure] or ("s",) * (not layout.y):
         found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
     if layout.regimes and layout.x in QUANTITY_AXES:
         found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
     for mistake in dict.fromkeys(found):
         report(*mistake)
     for y in layout.y:
+        if y.strip() in unsure:
+            continue
         _check_quantity(y, dims, grid, asked, report)
 
 

@@ -8,6 +8,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from swtstudy.grid.values import read_exact
 from swtstudy.mistakes import Report, StudyError, literal, nearest
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
@@ -49,7 +50,7 @@ def read_material(
     found: list[FatigueConstants] = []
     said: set[tuple[str, str, str]] = set()
     for body, table in enumerate(tables):
-        own: dict[str, Any] = {name: table.get(name) for name in CONSTANTS}
+        own: dict[str, Any] = {name: _number(table.get(name)) for name in CONSTANTS}
         if own["young_modulus"] is None and young is not None:
             own["young_modulus"] = young[body]
         try:
@@ -66,6 +67,14 @@ def read_material(
     for key, what, allowed in sorted(said):
         report(key, what, allowed)
     return tuple(found) if len(found) == _BOTH and not said and not unknown else ()
+
+
+def _number(raw: object) -> object:
+    """A text such as "1/3" as the number that it stands for; others as they are."""
+    try:
+        return float(read_exact(raw)) if isinstance(raw, str) else raw
+    except ValueError:
+        return raw
 
 
 def _of_body(raw: Mapping[str, Any], body: int) -> dict[str, Any]:

@@ -93,6 +93,15 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
 
 
+#: Names of all that there may be.
+NAMES = (
+    *(f"SWT{of.removeprefix('s')}" for name in ("s", *NONLOCAL) for of in (name, error_of(name))),
+    *(f"cycles{name.removeprefix('s')}" for name in ("s", *NONLOCAL)),
+    *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
+    *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
+)
+
+
 def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     """Names and dimensions of the data variables of a grid with units that one without does not have."""
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
