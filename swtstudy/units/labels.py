@@ -67,6 +67,7 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     length, force, stress = (KNOWN[kind][labels[kind]] for kind in KINDS)
     if math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
         return Units(**labels)
-    found = f"{labels['force']} over {labels['length']}², which is {force / length**2 / stress:.3g} {labels['stress']}"
+    number = f"{force / length**2 / stress:.3g}"
+    found = f"{labels['force']} over {labels['length']}², which is {number} {labels['stress']}"
     report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {labels['stress']}")
     return None

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from swtstudy.grid.values import read_exact
-from swtstudy.mistakes import Report, StudyError, literal, nearest
+from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 
@@ -44,11 +44,11 @@ def read_material(
     unknown = [name for name in raw if name not in KEYS]
     for name in unknown:
         report(f"material.{name}", f"unknown key {literal(name)}", nearest(str(name), KEYS))
-    tables = (
-        _named(raw, folder, report) if {*BY_NAME} & raw.keys() else [_of_body(raw, i) for i in range(_BOTH)]
-    )
+    by_name = bool({*BY_NAME} & raw.keys())
+    tables = _named(raw, folder, report) if by_name else [_of_body(raw, i) for i in range(_BOTH)]
+    intended = {meant(str(name), KEYS) for name in unknown}
     found: list[FatigueConstants] = []
-    said: set[tuple[str, str, str]] = set()
+    said: dict[tuple[str, str, str], None] = {}
     for body, table in enumerate(tables):
         own: dict[str, Any] = {name: _number(table.get(name)) for name in CONSTANTS}
         if own["young_modulus"] is None and young is not None:
@@ -56,17 +56,22 @@ def read_material(
         try:
             found.append(FatigueConstants(**own))
         except StudyError as error:
-            for each in error.mistakes:
-                nothing = own[each.key] is None
-                kind = f"{'stress' if each.key in _STRESSES else 'number'}"
-                unit = f" in {units.stress}" * (each.key in _STRESSES and bool(units.stress))
-                allowed = each.allowed.replace("number", kind + unit, 1)
-                if each.key == "young_modulus" and nothing:
-                    allowed += ", since that of the bodies is no single value"
-                said.add((f"material.{each.key}", "nothing" if nothing else each.found, allowed))
-    for key, what, allowed in sorted(said):
-        report(key, what, allowed)
+            # Both bodies may have the same mistake; what is misspelt is not lacking, too.
+            wrong = (each for each in error.mistakes if own[each.key] is not None or each.key not in intended)
+            said |= {_in_units(each, own[each.key] is None, units): None for each in wrong}
+    for words in said:
+        report(*words)
     return tuple(found) if len(found) == _BOTH and not said and not unknown else ()
+
+
+def _in_units(mistake: Mistake, lacks: bool, units: Units) -> tuple[str, str, str]:
+    """Key, found and allowed of a mistake in the constants."""
+    allowed = mistake.allowed
+    if mistake.key in _STRESSES:
+        allowed = allowed.replace("number", f"stress in {units.stress}", 1)
+    if mistake.key == "young_modulus" and lacks:
+        allowed += ", since that of the bodies is no single value"
+    return f"material.{mistake.key}", "nothing" if lacks else mistake.found, allowed
 
 
 def _number(raw: object) -> object:
