@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
 
@@ -34,7 +35,7 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
-    def figure(self, style: Style | None = None) -> Figure:
+    def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """The figure that the study asks for; a dimension that has been sliced away is left out of it.
 
         Parameters
@@ -42,21 +43,25 @@ class SwtAccessor:
         style
             A matplotlib style: a name, a file or rcParams. By default the look is that of the package, except
             for rcParams that you have changed.
+        width
+            "column" for the 8.5 cm of a column in print, "page" for 17.5 cm, with letters of 8 pt; by default
+            the figure is for a screen, and grows with its panels.
 
         Returns
         -------
         matplotlib.figure.Figure
-            One row of panels for every quantity, one column for every value of the panels' dimension. It is
-            independent of pyplot; save it with its method ``savefig``.
+            One row of panels for every quantity, one column for every value of the panels' dimension, in
+            several lines where the width ends. It is independent of pyplot; save it with its method
+            ``savefig``.
 
         Raises
         ------
         ValueError
-            With every mistake in the layout; or if there is no layout, or the results are empty.
+            With every mistake in layout and width; or if there is no layout, or the results are empty.
         """
         from swtstudy.figures.draw import draw
 
-        return draw(self._dataset, style=style)
+        return draw(self._dataset, style=style, width=width)
 
     def panels(
         self,
@@ -69,13 +74,16 @@ class SwtAccessor:
         vertical: str | None = None,
         regimes: bool = False,
         style: Style | None = None,
+        width: Width | None = None,
     ) -> Figure:
         """A figure with a layout of your own, by the keys of a study's ``[figure]``.
 
         Parameters
         ----------
-        x, hue, panels
-            Dimensions: along the axis, one line each, one panel each.
+        x
+            The dimension along the axis.
+        hue, panels
+            Dimensions whose values have a line each, a panel each.
         y
             Any data variable, or "s/s(name=value)"; several have a row of panels each.
         title
@@ -86,7 +94,7 @@ class SwtAccessor:
             The other dimension of contours and heat maps.
         regimes
             Whether to mark where a regime begins.
-        style
+        style, width
             As of `figure`.
 
         Returns
@@ -104,7 +112,7 @@ class SwtAccessor:
 
         rows = (y,) if isinstance(y, str) else tuple(y)
         layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes)
-        return draw(self._dataset, layout, style)
+        return draw(self._dataset, layout, style, width)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
         """The part of results at given values of their parameters.

@@ -169,7 +169,7 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
         for regimes in (False, True)
     )
     assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
-    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style"}
+    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style", "width"}
     assert own == {field.name for field in dataclasses.fields(FigureLayout)}
 
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from swtstudy.axes import AXES
 from swtstudy.figures.regimes import in_equal_ratios
-from swtstudy.wording import axis_words, tick_in_pi
+from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr
