@@ -59,7 +59,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= shifts(points)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
-    columns = columns_at(study.grid, study.asked, points, records)
+    columns = columns_at(study.grid, study.asked, points, records.quantity)
     dataset = label(study.grid, arrays, study.asked, columns)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()

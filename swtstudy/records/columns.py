@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,6 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.quantities import NONLOCAL, Request, columns_in, columns_of, item_of
-from swtstudy.records.records import Records
 
 
 def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], NDArray[np.bool_]]:
@@ -24,14 +23,19 @@ def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str,
     return (*asked.names, *distances), of
 
 
-def columns_at(grid: Grid, asked: Request, points: UniquePoints, records: Records) -> dict[str, FloatArray]:
-    """What the points of a grid have, by `columns_of` what is asked, each of shape (grid.size,)."""
-    found = {name: records.quantity(name)[points.index] for name in columns_of(asked.names)}
+def columns_at(
+    grid: Grid, asked: Request, points: UniquePoints, known: Callable[[str], FloatArray]
+) -> dict[str, FloatArray]:
+    """What the points of a grid have, by `columns_of` what is asked, each of shape (grid.size,).
+
+    What the distinct points have is known by the names of columns.
+    """
+    found = {name: known(name)[points.index] for name in columns_of(asked.names)}
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):
         found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
-        for name, known, rows in _columns(item_of(distance), items, each):
-            found[name][rows] = records.quantity(known)[points.index[rows]]
+        for name, column, rows in _columns(item_of(distance), items, each):
+            found[name][rows] = known(column)[points.index[rows]]
     return found
 
 
