@@ -43,7 +43,8 @@ def physical(
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
         waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
-        bulk_stress_mean are stresses, 0 unless given. Angles, numbers, frequency_ratio, profile and exponent
+        bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
+        its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
 
     Returns

@@ -18,6 +18,7 @@ from swtstudy.grid.values import as_number
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS, Parameter
 from swtstudy.quantities import Request, item_of
+from swtstudy.units.bulk import ends_of_bulk
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.rows import rows
@@ -105,13 +106,27 @@ class PhysicalGrid(Grid):
                 found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
         if self.values("bulk_stress_ratio"):
             ratio = self.along("bulk_stress_ratio")
-            found["bulk_stress_mean"] = found["bulk_stress_amplitude"] * (1.0 + ratio) / (1.0 - ratio)
+            least, largest = self._ends_of_bulk()
+            found["bulk_stress_mean"] = (
+                found["bulk_stress_amplitude"] * (ratio * largest - least) / (1.0 - ratio)
+            )
         carries = self.bodies == self.bulk_stress_body
         return found | {
             name: values.where(carries, 0.0)
             for name, values in found.items()
             if PARAMETERS[name].part == "bulk" and self.values("body")
         }
+
+    def _ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
+        """See `ends_of_bulk`, over the loads."""
+        import xarray as xr
+
+        dim = self.dimension("load")
+        ends = np.array([ends_of_bulk(load) for load in self.values("load")])
+        least, largest = (
+            xr.DataArray(each, dims=dim) if dim else xr.DataArray(each[0]) for each in np.transpose(ends)
+        )
+        return least, largest
 
     def of_body(self, name: str) -> xr.DataArray:
         """A parameter of the bodies, of each point's own body."""

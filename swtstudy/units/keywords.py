@@ -13,7 +13,9 @@ from swtstudy.grid.reading import given_twice, read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile, replaced_by
+from swtstudy.named import Named
+from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, family_of, is_profile, replaced_by
+from swtstudy.units.bulk import ends_of_bulk
 from swtstudy.units.contact import Contact
 from swtstudy.units.given import (
     in_own_values,
@@ -79,7 +81,8 @@ def contact_from(
         raise StudyError(mistakes)
     if bulk_stress_ratio is not None:
         ratio, amplitude = plain_number(bulk_stress_ratio), plain_number(given["bulk_stress_amplitude"])
-        given["bulk_stress_mean"] = amplitude * (1.0 + ratio) / (1.0 - ratio)
+        least, largest = ends_of_bulk(given["load"])
+        given["bulk_stress_mean"] = amplitude * (ratio * largest - least) / (1.0 - ratio)
     contact = replace(_contact(kind, given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=depth_at(contact, plain_number(normal_force)))
@@ -93,8 +96,11 @@ def contact_from(
 
 def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
     """The defaults of what has nothing given in its place."""
-    replaced = replaced_by(parameters)
-    return {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+    replaced, load = replaced_by(parameters), parameters.get("load")
+    defaults = {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+    if isinstance(load, Named) and "bulk_stress_amplitude" in load.scaled_by:
+        defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
+    return defaults
 
 
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from swtstudy.grid.shapes import check_shapes_given
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, Report, literal, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import PAIRS, Parameter, replaced_by
+from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, Parameter, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
@@ -91,6 +91,8 @@ def completed(
     given |= replaced_by(given)
     table = rows(extra["units"])
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
+    if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
+        defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
     if "bulk_stress_ratio" in given:
         del defaults["bulk_stress_mean"]
     fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
@@ -103,6 +105,13 @@ def completed(
     if "body" in given or not _differ(grid):
         return grid
     return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+
+
+def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
+    """The loops among the loads."""
+    loads = (each.get("load", ()) for each in values)
+    every = (load for each in loads for load in (each if isinstance(each, tuple) else (each,)))
+    return [load for load in every if isinstance(load, Named)]
 
 
 def _differ(grid: PhysicalGrid) -> bool:
@@ -159,16 +168,16 @@ def _check_given(
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")
     scaling = {name for load in good.get("load", ()) if isinstance(load, Named) for name in load.scaled_by}
-    for name in ("tangential_amplitude", "normal_amplitude", "bulk_stress_amplitude"):
-        force = next((force for force, other in PAIRS.items() if other == name), "")
+    for name in ("tangential_amplitude", "normal_amplitude"):
+        force = next(force for force, other in PAIRS.items() if other == name)
         needed = own[name].default is None or name in scaling
         if name in everything or force in everything or not needed:
             continue
-        allowed = f"{own[name].allowed}{f'; or {force}' * bool(force)}"
+        allowed = f"{own[name].allowed}; or {force}"
         if name in scaling:
             column, unit = name.partition("_")[0], own[name].units
             allowed = f"1 if the column {column} of the loop is in {unit}"
-            allowed += f"; or {force}, 1 if it is in {own[force].units}" if force else ""
+            allowed += f"; or {force}, 1 if it is in {own[force].units}"
         report(keys(name), "nothing", allowed)
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report(keys("body"), literal(list(good["body"])), "1 or 2")
