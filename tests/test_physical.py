@@ -17,9 +17,9 @@ from scipy.integrate import trapezoid
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.contacts.scales import SCALES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.scales import SCALES
 from swtstudy.units.sizes import wrong_size
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})

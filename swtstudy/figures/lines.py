@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.parameters import AXES
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 from swtstudy.wording import place_words
@@ -52,7 +52,7 @@ def draw_lines(
         if scale:
             look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
         elif layout.hue:
-            look["label"] = place_words(layout.hue, part[layout.hue].item())
+            look["label"] = place_words(layout.hue, part[layout.hue].item(), part[layout.hue].attrs)
         if flag_words(curve):
             look["drawstyle"] = "steps-mid"
         (line,) = axes.plot(x, curve.values, **look)

@@ -50,7 +50,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 )
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
-            one.set_xlabel(axis_words(name))
+            one.set_xlabel(axis_words(name, dataset[name].attrs))
             _scale_axes(one, dataset, name, quantity(dataset, y))
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
@@ -139,7 +139,7 @@ def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Data
     if name is None:
         return [(None, dataset)]
     parts = [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
-    return [(place_words(name, part[name].item()), part) for part in parts]
+    return [(place_words(name, part[name].item(), part[name].attrs), part) for part in parts]
 
 
 def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:

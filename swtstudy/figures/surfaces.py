@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
-from swtstudy.parameters import AXES
 from swtstudy.results.extrema import extrema
 from swtstudy.wording import value_words
 
