@@ -106,12 +106,12 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
     ends = block_ends(unique.table).tolist()
     for batch, begin, end in zip(batches, [0, *ends[:-1]], ends, strict=True):
-        own = [
-            item for item, any_wants in zip(items, np.any(of[begin:end], axis=0), strict=True) if any_wants
-        ]
-        if own:
-            for name, values in quantities_of(batch, own, solution_at(solution, slice(begin, end))).items():
-                known[name][begin:end] = values
+        for one in np.unique(of[begin:end], axis=0) if items else ():
+            rows = np.flatnonzero((of[begin:end] == one).all(axis=1))
+            own = [items[index] for index in np.flatnonzero(one)]
+            found = quantities_of(batch.take(rows), own, solution_at(solution, begin + rows))
+            for name, values in found.items():
+                known[name][begin + rows] = values
     columns = columns_at(grid, asked, unique, known.__getitem__)
     dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)

@@ -204,7 +204,7 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, asked:
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
     if "figure" in datasets[0].attrs:
-        layout = read_figure(datasets[0].attrs["figure"])
+        layout = read_figure(datasets[0].attrs["figure"], [str(name) for name in datasets[0].data_vars])
         if {name for _, name in layout.roles()} - {*QUANTITY_AXES} == set(grid.dims):
             figure = layout
     text = to_toml(" + ".join(titles), rtol, grid, figure, asked)

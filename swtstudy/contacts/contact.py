@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 class PhysicalContact(Contact):
     __doc__ = Contact.__doc__
 
+    def _repr_html_(self) -> str:
+        """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
+        from swtstudy.contacts.overview import as_html
+
+        return as_html(self)
+
     def solve(self, rtol: float = 1e-4) -> xr.Dataset:
         """s and SWT of both bodies.
 

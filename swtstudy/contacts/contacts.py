@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,11 +10,13 @@ import numpy as np
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.reading import read_distances
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, Report, StudyError, literal, plain_number
+from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.solving import dimensions_of, solve_grid
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.reading import completed
+from swtstudy.units.reading import Given, completed, read_contacts
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,8 +70,6 @@ class PhysicalContacts:
         StudyError
             A ValueError with every mistake.
         """
-        from swtstudy.solving import solve_grid
-
         mistakes: list[Mistake] = []
 
         def report(key: str, found: str, allowed: str) -> None:
@@ -88,7 +88,47 @@ class PhysicalContacts:
         return solve_grid(_with_materials(self.grid, materials), float(rtol), asked)
 
 
-def _pair_of(constants: object, report: object) -> tuple[FatigueConstants, ...]:
+def contacts_from(
+    of_bodies: Mapping[str, object], values: Mapping[str, object], similar: object, bulk_stress_body: object
+) -> PhysicalContacts:
+    """The contacts on the grid that the sequences among the values span.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake.
+    """
+    given = {name: value for name, value in values.items() if value is not None}
+    dimensions = {name: dimensions_of(value) for name, value in given.items()}
+    mistakes = [
+        Mistake(name, literal(given[name]), "a single value or a one-dimensional sequence")
+        for name, count in dimensions.items()
+        if count > 1
+    ]
+    axes = {name: list(given[name]) for name, count in dimensions.items() if count == 1}  # type: ignore[call-overload]
+    fixed = {name: given[name] for name, count in dimensions.items() if count == 0}
+    fixed |= {name: _pair(value) for name, value in of_bodies.items() if value is not None}
+    defined = {
+        name: {each.name: each for each in axes.get(name, [fixed.get(name)]) if isinstance(each, Named)}
+        for name in ("load", "profile")
+    }
+    if plain_number(bulk_stress_body) not in (0.0, 1.0):
+        allowed = "0 or 1, the body that carries it"
+        mistakes.append(Mistake("bulk_stress_body", literal(bulk_stress_body), allowed))
+        bulk_stress_body = 0
+    own = Given(bulk_stress_body=int(plain_number(bulk_stress_body)))
+    grid, found = read_contacts({**fixed, "similar": similar}, axes, own, known=defined)
+    if grid is None or mistakes:
+        raise StudyError([*mistakes, *found])
+    return PhysicalContacts(grid)
+
+
+def _pair(value: object) -> object:
+    """A value, or a list of one for each body."""
+    return list(value) if dimensions_of(value) == 1 else value  # type: ignore[call-overload]
+
+
+def _pair_of(constants: object, report: Report) -> tuple[FatigueConstants, ...]:
     """The constants of both bodies; none if they are not given or wrong, which is reported."""
     if constants is None:
         return ()
@@ -100,7 +140,7 @@ def _pair_of(constants: object, report: object) -> tuple[FatigueConstants, ...]:
     ):
         return tuple(pair)
     allowed = "a FatigueConstants, or a pair of them for bodies of different materials"
-    report("constants", literal(constants), allowed)  # type: ignore[operator]
+    report("constants", literal(constants), allowed)
     return ()
 
 

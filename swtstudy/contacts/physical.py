@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any, overload
+
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.contacts.contacts import PhysicalContacts, contacts_from
+from swtstudy.named import Named
+from swtstudy.solving import dimensions_of
 from swtstudy.units.given import SIMILAR
 from swtstudy.units.keywords import contact_from
 
 
+@overload
 def physical(
     *,
     young_modulus: float | tuple[float, float] | None = None,
@@ -17,8 +24,37 @@ def physical(
     similar: float = SIMILAR,
     bulk_stress_ratio: float | None = None,
     bulk_stress_body: int = 0,
-    **parameters: object,
-) -> PhysicalContact:
+    **parameters: float | str | Fraction | Named,
+) -> PhysicalContact: ...
+
+
+@overload
+def physical(
+    *,
+    young_modulus: float | tuple[float, float] | None = None,
+    poisson_ratio: float | tuple[float, float] | None = None,
+    radius: object = None,
+    depth: object = None,
+    normal_force: object = None,
+    similar: float = SIMILAR,
+    bulk_stress_ratio: object = None,
+    bulk_stress_body: int = 0,
+    **parameters: Any,
+) -> Any: ...
+
+
+def physical(
+    *,
+    young_modulus: Any = None,
+    poisson_ratio: Any = None,
+    radius: Any = None,
+    depth: Any = None,
+    normal_force: Any = None,
+    similar: Any = SIMILAR,
+    bulk_stress_ratio: Any = None,
+    bulk_stress_body: Any = 0,
+    **parameters: Any,
+) -> PhysicalContact | PhysicalContacts:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Parameters
@@ -38,7 +74,7 @@ def physical(
     bulk_stress_body
         0 or 1: the body that carries the bulk stress; the other one has none.
     **parameters
-        The other names of `swtstudy.parameters.PARAMETERS`, single values. Those with a scale are lengths:
+        The other names of `swtstudy.parameters.PARAMETERS`. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
@@ -47,9 +83,14 @@ def physical(
         its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
 
+    Each of them but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
+    sequence of values.
+
     Returns
     -------
-    PhysicalContact
+    PhysicalContact or PhysicalContacts
+        One contact; or, where some values are sequences, the contacts on the grid that these span: their
+        ``solve`` gives the Dataset of a study with units.
 
     Raises
     ------
@@ -65,7 +106,20 @@ def physical(
     ... )
     >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
     (296, 0.568)
+    >>> contacts = swtstudy.physical(
+    ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=[100.0, 200.0],
+    ...     friction=0.5, tangential_amplitude=0.002,
+    ... )
+    >>> contacts
+    <PhysicalContacts: 2 = 2 normal_force>
+    >>> contacts.solve(rtol=1e-2).SWT.round(2).values.tolist()
+    [0.52, 0.58]
     """
+    sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
+    several = {**sizes, "bulk_stress_ratio": bulk_stress_ratio, **parameters}
+    if any(dimensions_of(value) == 1 for value in several.values() if not isinstance(value, Named)):
+        of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
+        return contacts_from(of_bodies, several, similar, bulk_stress_body)
     return contact_from(
         PhysicalContact,
         parameters,
