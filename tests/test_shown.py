@@ -8,6 +8,7 @@ import re
 import shutil
 import sys
 from itertools import pairwise
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -148,6 +149,10 @@ def test_names_in_prose(name):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_in_prose_and_help(command, clone, monkeypatch):
     monkeypatch.chdir(clone)
+    # Whichever of the commands on mine.toml came before.
+    Path("mine.toml").unlink(missing_ok=True)
+    if "mine.toml" in command:
+        shown.run_command("swtstudy new mine")
     shown.run_command(FEWER.get(command, command))
     for kept in (shown.ROOT / "results").glob("*.md"):  # swtstudy check and audit write two of them anew
         assert (clone / "results" / kept.name).read_text("utf-8") == kept.read_text("utf-8"), kept
