@@ -63,7 +63,8 @@ def test_long_ranges_are_logarithmic(top, scale):
 
 def test_equal_ratios():
     assert in_equal_ratios(np.array([0.01, 0.1, 1.0]))
-    assert not in_equal_ratios(np.array([0.0101, 0.1005, 1.0]))  # less than two decades
+    assert in_equal_ratios(np.array([0.1, 0.4, 1.6]))
+    assert not in_equal_ratios(np.array([0.102, 0.319374388, 1.0]))  # less than a decade
     assert not in_equal_ratios(np.array([0.01, 1.0]))
     assert not in_equal_ratios(np.array([0.0, 1.0, 100.0]))
     assert in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2))
@@ -82,6 +83,97 @@ def test_a_regime_is_marked_where_it_begins(axes):
     words = [line.get_label() for line in axes.lines]
     assert words == ["partial slip begins", "lift-off begins", "not finite from here on"]
     assert {line.get_color() for line in axes.lines} == {"red"}
+    # On white, above lines: they are not buried where many come together.
+    assert {line.get_markerfacecolor() for line in axes.lines} == {"white"}
+    assert min(line.get_zorder() for line in axes.lines) > 2
+
+
+@pytest.mark.parametrize(("end", "rotation"), [(4, 0), (5, 90)])
+def test_where_no_line_has_a_value_is_said(end, rotation):
+    """Of 0 to 6 one line ends at x = 2, one further on: beyond that there is none."""
+    x = np.arange(7.0)
+    dataset = results(
+        lambda frequency_ratio, phase: frequency_ratio + phase, frequency_ratio=[0.5, 1.0], phase=x
+    )
+    dataset.regime[0, 3:] = dataset.regime[1, end + 1 :] = REGIMES.index("not_finite")
+    dataset["s"] = dataset.s.where(dataset.regime == 1)
+    layout = FigureLayout("phase", "frequency_ratio", regimes=True)
+    (axes,) = draw(dataset, layout).axes
+    (zone,) = axes.patches
+    box = zone.get_extents().transformed(axes.transData.inverted())
+    assert (box.x0, box.x1) == pytest.approx((end, 6.0))
+    (words,) = axes.texts
+    assert (words.get_text(), words.get_position()[0]) == ("not finite", 0.5 * (end + 6.0))
+    assert words.get_rotation() == rotation
+    # A line that goes on leaves nothing to say.
+    dataset.regime[1] = 1
+    dataset["s"] = dataset.s.fillna(1.0)
+    assert not draw(dataset, layout).axes[0].patches
+
+
+@pytest.mark.parametrize("role", ["hue", "panels"])
+@pytest.mark.parametrize("kind", ["lines", "heatmap"])
+def test_a_place_on_the_axis_of_lines_or_panels(role, kind):
+    """s over s at one of the lines is what the accessor says: each part alone lacks the place."""
+    dataset = results(
+        lambda friction, phase, normal_amplitude: friction + phase * friction**2 + normal_amplitude,
+        friction=[0.5, 1.0],
+        phase=[0.0, 1.0, 2.0],
+        normal_amplitude=[0.25],
+    )
+    if kind == "heatmap" and role == "hue":
+        pytest.skip("no lines")
+    dataset = dataset.isel(normal_amplitude=0) if kind == "lines" else dataset
+    y = "s/s(friction=0.5)"
+    vertical = "normal_amplitude" if kind == "heatmap" else None
+    layout = FigureLayout("phase", y=(y,), kind=kind, vertical=vertical, **{role: "friction"})
+    panels = draw(dataset, layout).axes
+    expected = dataset.swt.normalised("friction=0.5")
+    assert float(expected.max()) > 2.0
+    if kind == "lines":
+        drawn = [line.get_ydata() for one in panels for line in one.lines]
+    else:
+        drawn = [np.asarray(one.collections[0].get_array()).ravel() for one in panels[:2]]
+    np.testing.assert_array_equal(drawn, expected.transpose("friction", "phase", ...).values.reshape(2, 3))
+
+
+def test_a_profile_is_named_with_its_shape():
+    names = ["paraboloid", "rounded_punch", "wavy_paraboloid"]
+    dataset = results(lambda profile, phase: phase + 1.0, profile=names, phase=[0.0, 1.0])
+    fixed = {"flat_radius": 0.5, "waviness_amplitude": 0.01, "wavelength": 20**0.5}
+    expected = [
+        "paraboloid",
+        "rounded punch, $b/a_H$ = 0.5",
+        r"wavy paraboloid, $h/\delta_0$ = 0.01, $\lambda/\sqrt{hR}$ = √20",
+    ]
+    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", "profile"))
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == expected
+    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", panels="profile"))
+    titles = [axes.get_title("left") for axes in figure.axes]
+    assert titles == [f"({letter})  {words}" for letter, words in zip("ABC", expected, strict=True)]
+    # A shape along another axis is no part of the name.
+    figure = draw(dataset, FigureLayout("phase", "profile"))
+    assert figure.legends[0].get_texts()[1].get_text() == "rounded punch"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (0.002, 0.05, ["0.002", "0.005", "0.01", "0.02", "0.05"]),
+        (0.1, 1.0, ["0.1", "0.2", "0.5", "1"]),
+        (0.1, 1000.0, None),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis(low, high, words):
+    """A short one has plain numbers, so that it shows where it begins."""
+    x = np.geomspace(low, high, 5)
+    dataset = results(lambda waviness_amplitude: waviness_amplitude, waviness_amplitude=x)
+    (axes,) = draw(dataset, FigureLayout("waviness_amplitude")).axes
+    assert axes.get_xscale() == "log"
+    shown = [
+        t.get_text() for t in axes.get_xticklabels() if low * 0.999 <= t.get_position()[0] <= high * 1.001
+    ]
+    assert shown == words or (words is None and all("10^" in each for each in shown))
 
 
 def test_flags_are_steps_with_their_meanings():

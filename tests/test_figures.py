@@ -35,7 +35,13 @@ def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
     figure = draw(panels)
     assert len(figure.axes) == 4
     titles = [axes.get_title("left") for axes in figure.axes]
-    assert titles == [r"(A)  $\psi$ = 0", r"(B)  $\psi$ = π", r"(C)  $\psi$ = 0", r"(D)  $\psi$ = π"]
+    ratio = "$s$ / $s$($b/a_H$ = 0)"
+    assert titles == [
+        r"(A)  $s$,  $\psi$ = 0",
+        r"(B)  $s$,  $\psi$ = π",
+        rf"(C)  {ratio},  $\psi$ = 0",
+        rf"(D)  {ratio},  $\psi$ = π",
+    ]
     assert figure.axes[2].get_ylabel() == "$s$ / $s$($b/a_H$ = 0)"
     assert all(line.get_ydata()[0] == 1 for line in figure.axes[2].lines)
     assert figure.get_suptitle() == "A title"

@@ -123,10 +123,10 @@ def test_all_panels_of_a_row_have_one_scale_of_colours(dataset):
     np.testing.assert_array_equal(other.get_array(), both.s.isel(poisson_ratio=1).transpose())
     titles = [axes.get_title("left") for axes in figure.axes[:4]]
     assert titles == [
-        r"(A)  $\nu$ = 0.2",
-        r"(B)  $\nu$ = 0.3",
-        r"(C)  $\nu$ = 0.2",
-        r"(D)  $\nu$ = 0.3",
+        r"(A)  $s$,  $\nu$ = 0.2",
+        r"(B)  $s$,  $\nu$ = 0.3",
+        r"(C)  $x/a_H$,  $\nu$ = 0.2",
+        r"(D)  $x/a_H$,  $\nu$ = 0.3",
     ]
 
 
