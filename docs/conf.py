@@ -1,4 +1,4 @@
-"""Sphinx: pages in MyST Markdown; what the package or the README already says is generated, never retyped."""
+"""Sphinx: pages in MyST Markdown; what the package says of itself is generated, never retyped."""
 
 import sys
 from pathlib import Path

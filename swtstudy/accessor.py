@@ -80,8 +80,10 @@ class SwtAccessor:
 
         Parameters
         ----------
-        x, hue, panels
-            Dimensions: along the axis, one line each, one panel each.
+        x
+            The dimension along the axis.
+        hue, panels
+            Dimensions whose values have a line each, a panel each.
         y
             Any data variable, or "s/s(name=value)"; several have a row of panels each.
         title
