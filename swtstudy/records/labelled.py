@@ -24,7 +24,7 @@ from swtstudy.records.records import STATES
 _LONGEST_NAME = 24
 
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
-#: use them as labels. Dimensionless quantities have the unit 1, although xarray's labels then end in "[1]".
+#: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",
@@ -132,7 +132,12 @@ def label(
     for name, (dims, values) in requested.variables(asked, columns).items():
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
-    return xr.Dataset(variables, coordinates | requested.coordinates(asked))
+    dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked))
+    for variable in dataset.variables.values():
+        # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
+        if variable.attrs.get("units") == "1":
+            del variable.attrs["units"]
+    return dataset
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:
