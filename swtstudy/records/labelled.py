@@ -26,7 +26,7 @@ from swtstudy.units.grid import PhysicalGrid
 _LONGEST_NAME = 24
 
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
-#: use them as labels. Dimensionless quantities have the unit 1, although xarray's labels then end in "[1]".
+#: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",
@@ -136,6 +136,10 @@ def label(
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
     dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
+    for variable in dataset.variables.values():
+        # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
+        if variable.attrs.get("units") == "1":
+            del variable.attrs["units"]
     return with_units(dataset, grid, asked) if isinstance(grid, PhysicalGrid) else dataset
 
 
