@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from swtstudy.axes import AXES
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
@@ -16,7 +17,6 @@ from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import AXES
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import FigureLayout
@@ -138,17 +138,19 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
                 each.value.rename(values.name).transpose(layout.vertical, layout.x) for each in panels
             ]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
+        if layout.vertical is not None:
+            words = axis_words(layout.vertical, dataset[layout.vertical].attrs)
         for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
+            first.set_ylabel(words)
         title = [title_words(values, y)] if len(layout.y) > 1 else []
         for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
             _title_panel(one, part, layout.panels, title, axes.size > 1, row * len(parts) + column)
     for bottom in sheet.lowest(axes):
-        bottom.set_xlabel(axis_words(layout.x))
+        bottom.set_xlabel(axis_words(layout.x, dataset[layout.x].attrs))
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:
-        add_scale(figure, axes, scale, layout.hue)
+        add_scale(figure, axes, scale, dataset[layout.hue])
     add_legend(figure, axes)
     return figure
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words, part_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
-from swtstudy.parameters import AXES
 from swtstudy.study.figure import FigureLayout
 
 if TYPE_CHECKING:

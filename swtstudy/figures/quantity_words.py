@@ -58,10 +58,9 @@ def part_words(part: xr.Dataset, name: str) -> str:
     name
         The parameter.
     """
-    value = part[name].item()
-    shape = family_of(value).shape if name == "profile" else ()
+    shape = family_of(part[name].item()).shape if name == "profile" else ()
     fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
-    return ", ".join([place_words(name, value), *(place_words(each, part[each].item()) for each in fixed)])
+    return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in [name, *fixed])
 
 
 def flag_words(values: xr.DataArray) -> list[str]:

@@ -50,7 +50,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 )
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
-            one.set_xlabel(axis_words(name))
+            one.set_xlabel(axis_words(name, dataset[name].attrs))
             _scale_axes(one, dataset, name, quantity(dataset, y))
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))

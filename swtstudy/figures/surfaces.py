@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib import rcParams
 from matplotlib.path import Path
 
+from swtstudy.axes import AXES
 from swtstudy.figures.loci import jumps, lowest
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
-from swtstudy.parameters import AXES
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
