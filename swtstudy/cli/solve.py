@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from swtstudy.accuracy import DEFAULT_RTOL
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import SEVERAL
-from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 
 if TYPE_CHECKING:

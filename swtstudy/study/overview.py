@@ -5,9 +5,9 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import Value
-from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, QUANTITIES
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.contacts.life import FatigueConstants, not_negative
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.units.life import FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
 
 #: Labels of the bodies along the dimension ``body``.
