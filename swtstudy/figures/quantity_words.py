@@ -58,8 +58,7 @@ def part_words(part: xr.Dataset, name: str) -> str:
     name
         The parameter.
     """
-    value = part[name].item()
-    shape = family_of(value).shape if name == "profile" else ()
+    shape = family_of(part[name].item()).shape if name == "profile" else ()
     fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
     return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
 

@@ -159,7 +159,7 @@ class Contact:
 
     @property
     def pure_profile(self) -> str | TabulatedProfile:
-        """The non-dimensional profile: a table in a_H and δ0."""
+        """The non-dimensional profile, a table in a_H and δ0."""
         if isinstance(self.profile, str):
             return self.profile
         return _pure(self.profile, self.length_scale, self.depth)
