@@ -123,7 +123,7 @@ def test_major_and_minor_cycles_are_their_polygon_of_many_sides() -> None:
     assert errors[1] < 0.5 * errors[0]
 
 
-# Normal loads that almost stop while they rise: instants, and what sticks there, change within little of them.
+# Normal loads that almost stop while they rise: instants, and what sticks there, change at once.
 ALMOST_STOPPING = [
     [(5, 0.0288138, 1.36408761), (1, 0.64085263, 5.56455201), (2, 0.20727671, 2.30102214)],
     [(1, 0.73251138, 3.85995961), (5, 0.12092728, 1.47432116), (2, 0.12053666, 3.66847055)],
