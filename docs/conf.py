@@ -1,4 +1,4 @@
-"""Sphinx: pages in MyST Markdown; what the package or the README already says is generated, never retyped."""
+"""Sphinx: pages in MyST Markdown; what the package says of itself is generated, never retyped."""
 
 import sys
 from pathlib import Path
@@ -17,6 +17,7 @@ version = release = swtstudy.__version__
 extensions = [
     "build_steps.checked_by",
     "build_steps.mathml",
+    "build_steps.references",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
@@ -27,6 +28,11 @@ myst_heading_anchors = 3
 # The notebook is shown with the outputs that are committed; a test holds them against a run.
 nb_execution_mode = "off"
 default_role = "py:obj"
+nitpicky = True
+# Types of attributes that have no page of their own.
+nitpick_ignore = [
+    ("py:class", name) for name in ("Grid", "FigureLayout", "Request", "Sample", "swtstudy.named.Named")
+]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say shapes and units
 napoleon_google_docstring = False

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
 
@@ -34,14 +35,33 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
-    def figure(self, style: Style | None = None) -> Figure:
-        """The figure that the study asks for; see `swtstudy.figures.draw.draw`.
+    def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """The figure that the study asks for; a dimension that has been sliced away is left out of it.
 
-        A dimension that has been sliced away is removed from the layout.
+        Parameters
+        ----------
+        style
+            A matplotlib style: a name, a file or rcParams. By default the look is that of the package, except
+            for rcParams that you have changed.
+        width
+            "column" for the 8.5 cm of a column in print, "page" for 17.5 cm, with letters of 8 pt; by default
+            the figure is for a screen, and grows with its panels.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            One row of panels for every quantity, one column for every value of the panels' dimension, in
+            several lines where the width ends. It is independent of pyplot; save it with its method
+            ``savefig``.
+
+        Raises
+        ------
+        ValueError
+            With every mistake in layout and width; or if there is no layout, or the results are empty.
         """
         from swtstudy.figures.draw import draw
 
-        return draw(self._dataset, style=style)
+        return draw(self._dataset, style=style, width=width)
 
     def panels(
         self,
@@ -54,38 +74,126 @@ class SwtAccessor:
         vertical: str | None = None,
         regimes: bool = False,
         style: Style | None = None,
+        width: Width | None = None,
     ) -> Figure:
         """A figure with a layout of your own, by the keys of a study's ``[figure]``.
 
-        ``y`` may name any data variable of the Dataset.
+        Parameters
+        ----------
+        x
+            The dimension along the axis.
+        hue, panels
+            Dimensions whose values have a line each, a panel each.
+        y
+            Any data variable, or "s/s(name=value)"; several have a row of panels each.
+        title
+            Of the figure.
+        kind
+            "lines", "contour", "heatmap", "scatter" or "histogram".
+        vertical
+            The other dimension of contours and heat maps.
+        regimes
+            Whether to mark where a regime begins.
+        style, width
+            As of `figure`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            As of `figure`.
+
+        Raises
+        ------
+        ValueError
+            With every mistake in the layout; or if the results are empty.
         """
         from swtstudy.figures.draw import draw
         from swtstudy.study.figure import FigureLayout
 
         rows = (y,) if isinstance(y, str) else tuple(y)
         layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes)
-        return draw(self._dataset, layout, style)
+        return draw(self._dataset, layout, style, width)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
-        """The part at given values; see `swtstudy.results.select.slice_at`."""
+        """The part of results at given values of their parameters.
+
+        Parameters
+        ----------
+        tolerance
+            Largest distance from the nearest value of the axis, relative to the larger of the two.
+        **places
+            By name: a single value, whose dimension becomes a scalar coordinate, or a sequence of values,
+            whose dimension is kept; of a sample those points remain that have one of the values. Values are
+            written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
+
+        Returns
+        -------
+        xarray.Dataset
+            All data variables at these values.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every name and value that the results lack, and those that they have.
+        """
         from swtstudy.results.select import slice_at
 
         return slice_at(self._dataset, places, tolerance)
 
     def normalised(self, place: str) -> xr.DataArray:
-        """s over s at one place, such as "b=0"; see `swtstudy.results.quantity.quantity`."""
+        """The ratio of s to its value at one place.
+
+        Parameters
+        ----------
+        place
+            The name or the symbol of a parameter, and its value there, such as "b=0" or "phase=pi/2".
+
+        Returns
+        -------
+        xarray.DataArray
+            With the dimensions of s.
+
+        Raises
+        ------
+        ValueError
+            If it is no such place, or not in the results.
+        """
         from swtstudy.results.quantity import quantity
 
         return quantity(self._dataset, f"s/s({place})")
 
     def extrema(self, dim: str) -> xr.Dataset:
-        """Least and greatest s along a dimension; see `swtstudy.results.extrema.extrema`."""
+        """Least and greatest s along a dimension, and where they are.
+
+        Parameters
+        ----------
+        dim
+            A dimension of s.
+
+        Returns
+        -------
+        xarray.Dataset
+            minimum, maximum and ratio (greatest over least) of s, and their places at_minimum and at_maximum,
+            over the other dimensions. NaN values are ignored; where all values are NaN, so is the result.
+
+        Raises
+        ------
+        ValueError
+            If s has no such dimension, or the results are empty.
+        """
         from swtstudy.results.extrema import extrema
 
         return extrema(self._dataset, dim)
 
     def to_table(self) -> pd.DataFrame:
-        """A table with one row per point; see `swtstudy.results.table.to_table`."""
+        """A tidy table: one row per point, one column per parameter or result, flags as words.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns: the dimensions in their order, the other parameters, and the results. The index has the
+            name "point", so that ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
+        """
         from swtstudy.results.table import to_table
 
         return to_table(self._dataset)

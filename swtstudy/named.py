@@ -47,6 +47,11 @@ class Named(ABC):
         """About how many times as long as the simplest one it takes, from 1 to 4095."""
         return 1
 
+    @property
+    def scaled_by(self) -> tuple[str, ...]:
+        """The parameters that scale it, which are 1 unless given."""
+        return ()
+
     @cached_property
     def code(self) -> float:
         """The number that stands for its content in canonical rows; built-in values have smaller ones."""

@@ -6,6 +6,7 @@ them; none of them repeats a name, a symbol, a default or a range.
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections import ChainMap
 from collections.abc import Iterable, Mapping
@@ -69,6 +70,26 @@ class Parameter:
         return self.optional and value == self.default
 
     @property
+    def notation(self) -> str:
+        """Its symbol as plain text, over what it is measured in; empty for a name.
+
+        Examples
+        --------
+        >>> [PARAMETERS[name].notation for name in ("normal_amplitude", "wavelength", "tangential_amplitude")]
+        ['δA/δ0', 'λ/√(hR)', 'G*uA/(μE*δ0)']
+        """
+        if self.kind == "name":
+            return ""
+        words = re.sub(r"\\sqrt\{(\w+)\}", r"√(\1)", self.symbol.replace(r"\ell", "ℓ"))
+        words = re.sub(r"\\([a-z]+)", lambda found: _greek(found[1]), words)
+        return re.sub(r"_(?!H)|[\^{}, ]", "", words)
+
+    @property
+    def described(self) -> str:
+        """The meaning with the symbol: which number is asked for."""
+        return ", ".join(filter(None, (self.meaning, self.notation)))
+
+    @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
         if self.kind == "name":
@@ -79,6 +100,10 @@ class Parameter:
         if self.units == "rad":
             return f"a finite angle in {interval} rad"
         return f"a number in {interval}"
+
+
+def _greek(name: str) -> str:
+    return unicodedata.lookup(f"GREEK SMALL LETTER {name.upper().replace('LAMBDA', 'LAMDA')}")
 
 
 #: The load of the paper.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.figures.sheet import Width
     from swtstudy.runner.run import Finished
     from swtstudy.study.definition import Study
 
@@ -18,6 +19,7 @@ def run_suite(
     folder: str | PathLike[str] | None = None,
     results: str | PathLike[str] = "results",
     formats: Iterable[str] = ("png",),
+    width: Width | None = None,
     **options: Any,
 ) -> dict[str, xr.Dataset]:
     """Compute every study in a folder, and write their archives and figures.
@@ -30,6 +32,8 @@ def run_suite(
         Folder for archives and figures, which are named after their studies.
     formats
         Formats of the figures: "png", "pdf", "svg".
+    width
+        What the figures are made for: "column", "page", or None for a screen.
     **options
         Further arguments of `swtstudy.run`.
 
@@ -55,12 +59,17 @@ def run_suite(
     def done(study: Study, path: Path, dataset: xr.Dataset) -> None:
         found[path.stem] = dataset
 
-    run_and_draw([(study, targets[path]) for path, study in studies.items()], formats, done, **options)
+    pairs = [(study, targets[path]) for path, study in studies.items()]
+    run_and_draw(pairs, formats, done, width, **options)
     return found
 
 
 def run_and_draw(
-    studies: Iterable[tuple[Study, Path]], formats: Iterable[str], done: Finished, **options: Any
+    studies: Iterable[tuple[Study, Path]],
+    formats: Iterable[str],
+    done: Finished,
+    width: Width | None = None,
+    **options: Any,
 ) -> None:
     """Run studies with the same workers, and draw the figures of those that have one beside their archives.
 
@@ -72,6 +81,8 @@ def run_and_draw(
         Formats of the figures.
     done
         Called with every archive once its figure is drawn; not always in this thread.
+    width
+        What the figures are made for, as for `swtstudy.figures.draw.draw`.
     **options
         Further arguments of `swtstudy.run`.
     """
@@ -82,7 +93,7 @@ def run_and_draw(
             from swtstudy.figures.draw import draw
             from swtstudy.figures.save import save_figure
 
-            figure = draw(dataset)
+            figure = draw(dataset, width=width)
             for ending in formats:
                 save_figure(figure, path.with_suffix(f".{ending}"))
         done(study, path, dataset)

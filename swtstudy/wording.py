@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from swtstudy.parameters import AXES
-
-if TYPE_CHECKING:
-    from matplotlib.axis import Axis
 
 #: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
 _TOLERANCE = 1e-9
@@ -100,14 +96,3 @@ def pi_words(multiple: Fraction) -> str:
 def _fraction(value: float, largest: int) -> Fraction | None:
     fraction = Fraction(value).limit_denominator(largest)
     return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None
-
-
-def tick_in_pi(axis: Axis, low: float, high: float) -> None:
-    """Put ticks at multiples of π/4, or at coarser ones over a long range."""
-    span = (high - low) / math.pi
-    step = next((step for step in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / step <= 6), None)
-    step = step or Fraction(math.ceil(span / 6))
-    first = math.ceil(low / math.pi / step - _TOLERANCE)
-    last = math.floor(high / math.pi / step + _TOLERANCE)
-    multiples = [step * index for index in range(first, last + 1)]
-    axis.set_ticks([float(multiple) * math.pi for multiple in multiples], list(map(pi_words, multiples)))

@@ -16,8 +16,14 @@ from click.testing import CliRunner
 from swtstudy.cli import main
 
 ROOT = Path(__file__).parent.parent
-#: What the README and the pages say; the generated parts of the pages are the README's, or made by running.
-PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "docs" / "theory").glob("*.md")])
+#: What the README and the pages say; the generated parts of the pages are made by running.
+PAGES = sorted(
+    [
+        ROOT / "README.md",
+        ROOT / "CONTRIBUTING.md",
+        *(page for part in (".", "theory", "api") for page in (ROOT / "docs" / part).glob("*.md")),
+    ]
+)
 
 _FENCE = re.compile(r"^```(\S*)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _CODE = re.compile(r"`([^`\n]+(?:\n[^`\n]+)?)`")

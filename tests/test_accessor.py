@@ -128,6 +128,7 @@ def test_a_tidy_table(dataset):
     assert set(table.regime) <= set(dataset.regime.attrs["flag_meanings"].split())
     assert (table.profile == "rounded_punch").all()
     assert len(dataset.isel(phase=0, frequency_ratio=0, flat_radius=0).swt.to_table()) == 1
+    assert table.to_csv().startswith("point,phase,")
 
 
 def test_tables_and_figures_after_xarrays_operations(dataset):
@@ -168,7 +169,7 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
         for regimes in (False, True)
     )
     assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
-    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style"}
+    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style", "width"}
     assert own == {field.name for field in dataclasses.fields(FigureLayout)}
 
 

@@ -14,7 +14,10 @@ import swtstudy.parameters
 from swtstudy import Study, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
+from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import MISSING
+from swtstudy.study.schema import study_schema
+from swtstudy.study.template import template
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
 
@@ -393,6 +396,32 @@ def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
     result = call("run", study, twin, "--results", tmp_path / "results")
     assert result.exit_code == 2
     assert "the same name as" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        ("normal_amplitude", "amplitude of the normal oscillation, δA/δ0"),
+        ("normal_force_amplitude", "amplitude of the normal force, FA/F0"),
+        ("tangential_amplitude", "amplitude of the tangential oscillation, G*uA/(μE*δ0)"),
+        ("tangential_force_amplitude", "amplitude of the tangential force, QA/(μF0)"),
+        ("flat_radius", "radius of the punch face, b/a_H"),
+        ("waviness_amplitude", "amplitude of the waviness, h/δ0"),
+        ("wavelength", "wavelength of the waviness, λ/√(hR)"),
+        ("bulk_stress_mean", "mean of the bulk stress, σBm/(E*δ0/a_H)"),
+        ("phase", "phase of the normal oscillation, ψ"),
+        ("critical_distance", "critical distance of the nonlocal values, ℓ/a_H"),
+    ],
+)
+def test_every_mention_says_over_what_a_number_is(name, number):
+    helps = [call("solve", "--help").stdout]
+    if name in PARAMETERS:
+        fixed = study_schema()["properties"]["fixed"]["properties"]
+        helps += [call("show", "--help").stdout, fixed[name]["description"]]
+    if name not in ("normal_amplitude", "phase"):  # with values of their own there
+        helps.append(template("mine"))
+    for text in helps:
+        assert number in " ".join(text.split())
 
 
 def test_help_imports_nothing_heavy():

@@ -43,17 +43,27 @@ def test_no_entry_is_cut_in_any_size_of_letters(size):
     assert_whole(figure, [place_words("friction", value) for value in friction])
 
 
-@pytest.mark.parametrize("below", [False, True])
-def test_any_number_of_entries_fits(below):
+def test_any_number_of_entries_fits():
     figure = lines_over([0.1]).isel(friction=0).swt.panels("phase")
     names = [f"the line number {index}" for index in range(60)]
     for name in names:
         figure.axes[0].plot(PHASE, PHASE, label=name)
-    width, height = figure.get_size_inches()
-    add_legend(figure, np.array(figure.axes), below)
+    width = figure.get_figwidth()
+    add_legend(figure, np.array(figure.axes))
     assert_whole(figure, names)
-    # In several columns or rows rather than far beyond the panels.
-    assert figure.get_figheight() == height if not below else figure.get_figwidth() == width
+    # In several rows rather than far beyond the panels.
+    assert figure.get_figwidth() == width
+
+
+def test_an_entry_wider_than_its_panels():
+    """On a screen the figure grows; in print the letters get smaller."""
+    for width in (None, "column"):
+        figure = lines_over([0.1]).isel(friction=0).swt.panels("phase", width=width)
+        before = figure.get_figwidth()
+        figure.axes[0].plot(PHASE, PHASE, label="a name as long as nobody gives one " * 4)
+        add_legend(figure, np.array(figure.axes))
+        assert_whole(figure, ["a name as long as nobody gives one " * 4])
+        assert (figure.get_figwidth() > before) == (width is None)
 
 
 def test_names_have_a_legend():
@@ -68,13 +78,17 @@ def test_names_have_no_scale_however_many():
     assert hue_scale(xr.DataArray(np.arange(20.0))) is not None
 
 
-def test_panels_stay_as_large_beside_a_legend():
+@pytest.mark.parametrize("width", [None, "column", "page"])
+def test_panels_stay_as_large_above_a_legend(width):
     dataset = lines_over([0.1, 0.2])
-    alone, beside = dataset.isel(friction=0).swt.panels("phase"), dataset.swt.panels("phase", "friction")
-    for figure in (alone, beside):
+    alone = dataset.isel(friction=0).swt.panels("phase", width=width)
+    above = dataset.swt.panels("phase", "friction", width=width)
+    for figure in (alone, above):
         figure.savefig(BytesIO(), format="png")
-    assert beside.get_figwidth() > alone.get_figwidth()
-    assert beside.axes[0].bbox.width == pytest.approx(alone.axes[0].bbox.width, rel=0.03)
+    assert above.get_figheight() > alone.get_figheight()
+    assert above.get_figwidth() == alone.get_figwidth()
+    for size in ("width", "height"):
+        assert getattr(above.axes[0].bbox, size) == pytest.approx(getattr(alone.axes[0].bbox, size), rel=0.03)
 
 
 @pytest.mark.parametrize(("count", "scale"), [(7, False), (8, True), (19, True)])

@@ -240,6 +240,14 @@ vertices = {}
     assert dataset.swt.slice(load="cone").s.values.tolist() == s[2].tolist()
     with pytest.raises(StudyError, match="load: found 'sphere'"):
         dataset.swt.slice(load="sphere")
+    with pytest.raises(StudyError, match="load: found 'sphere'"):
+        dataset.swt.normalised("load=sphere")
+    ratio = dataset.swt.normalised("load=square")
+    np.testing.assert_array_equal(ratio, s / s[1])
+    figure = '[figure]\nx = "phase"\nhue = "load"\ny = "s/s(load={})"\n'
+    Study.from_text(text.format(SQUARE, CONE) + figure.format("square"))
+    with pytest.raises(StudyError, match="sphere is not on that axis; allowed: a value of the axis load"):
+        Study.from_text(text.format(SQUARE, CONE) + figure.format("sphere"))
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,14 @@
 """What the README, the pages and the help show is run as it stands, and does what they say."""
 
 import ast
+import contextlib
+import io
 import operator
 import re
 import shutil
 import sys
+from itertools import pairwise
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -17,7 +21,7 @@ from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.work import assess
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
-SHELL = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "sh"]
+SHELL = [page for page in shown.PAGES if any(b.language == "sh" for b in shown.blocks_of(page))]
 TOML = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "toml"]
 IN_PROSE = [command for page in shown.PAGES for command in shown.commands_in_prose(page)]
 IN_HELP = [part for line in shown.commands_in_help() for part in shown.commands_of(line)]
@@ -94,28 +98,35 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
     shutil.copytree(fresh, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {"__name__": "page"}
+    printed = io.StringIO()
     for block in shown.blocks_of(page):
+        if block.language == "text":
+            lines = [line.rstrip() for line in printed.getvalue().splitlines()]
+            assert lines == block.text.splitlines(), f"{block} is not what is printed"
         if block.language == "python":
             if "dask_jobqueue" in block.text:
                 (tmp_path / "results" / "figure4.nc").unlink()  # or there is nothing to do for it
-            exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
             for dims in re.findall(r"# dims: (\(.*\))", block.text):
                 assert names["ds"].s.dims == ast.literal_eval(dims)
-    if page.name == "README.md":
+    if page.name == "cluster.md":
         assert slurm
         assert names["ds"].sizes == {"normal_amplitude": 2, "frequency_ratio": 5, "phase": 145}
         assert np.isfinite(names["ds"].s).all()
 
 
-@pytest.mark.parametrize("block", SHELL, ids=str)
-def test_shell_blocks(block, fresh, tmp_path, monkeypatch):
+@pytest.mark.parametrize("page", SHELL, ids=lambda page: page.name)
+def test_shell_blocks_of_a_page(page, fresh, tmp_path, monkeypatch):
     shutil.copytree(fresh / "studies", tmp_path / "studies")
     monkeypatch.chdir(tmp_path)
-    for command in shown.commands_of(block.text):
-        shown.run_command(command)
-    for file in re.findall(r"\w+/\w+\.(?:nc|png)", block.lead + block.text):
-        assert (tmp_path / file).is_file(), file
-    for call in shown.calls_in_prose(block.page):
+    for block in shown.blocks_of(page):
+        if block.language == "sh":
+            for command in shown.commands_of(block.text):
+                shown.run_command(command)
+            for file in re.findall(r"\w+/\w+\.(?:nc|png)", block.lead + block.text):
+                assert (tmp_path / file).is_file(), file
+    for call in shown.calls_in_prose(page):
         if call.endswith(")") and "..." not in call:
             assert eval(call, {"swtstudy": swtstudy}) is not None
 
@@ -138,6 +149,10 @@ def test_names_in_prose(name):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_in_prose_and_help(command, clone, monkeypatch):
     monkeypatch.chdir(clone)
+    # Whichever of the commands on mine.toml came before.
+    Path("mine.toml").unlink(missing_ok=True)
+    if "mine.toml" in command:
+        shown.run_command("swtstudy new mine")
     shown.run_command(FEWER.get(command, command))
     for kept in (shown.ROOT / "results").glob("*.md"):  # swtstudy check and audit write two of them anew
         assert (clone / "results" / kept.name).read_text("utf-8") == kept.read_text("utf-8"), kept
@@ -145,14 +160,35 @@ def test_commands_in_prose_and_help(command, clone, monkeypatch):
 
 def test_every_kind_of_block_has_a_rule():
     kinds = {block.language for page in shown.PAGES for block in shown.blocks_of(page)}
-    assert kinds <= {"python", "sh", "toml", *BUILT}, "say here how this kind is run"
+    assert kinds <= {"python", "text", "sh", "toml", *BUILT}, "say here how this kind is run"
 
 
-def test_links_of_the_readme_lead_somewhere():
-    for link in re.findall(
-        r"\]\((?!https?://)([^)#]+)", (shown.ROOT / "README.md").read_text(encoding="utf-8")
-    ):
-        assert (shown.ROOT / link).is_file(), link
+def test_a_block_of_text_is_what_the_block_before_it_prints():
+    for page in shown.PAGES:
+        for before, block in pairwise([None, *shown.blocks_of(page)]):
+            assert block.language != "text" or (before and before.language == "python"), block
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+def test_links_lead_somewhere(name):
+    for link in re.findall(r"\]\((?!https?://)([^)]+)", (shown.ROOT / name).read_text(encoding="utf-8")):
+        file, _, section = link.partition("#")
+        page = shown.ROOT / (file or name)
+        assert page.is_file(), link
+        assert not section or section in sections_of(page), link
+
+
+def sections_of(page):
+    """The anchors of the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_every_version_of_python_that_is_claimed_is_tested():
+    claimed = re.findall(r"Python :: (3\.\d+)", (shown.ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    workflow = (shown.ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
+    assert ast.literal_eval(re.search(r"python: (\[.*\])", workflow)[1]) == claimed
+    assert "- run: .ci/run\n" in workflow
 
 
 def test_blocks_that_show_files_show_files_that_are_there():
@@ -160,3 +196,9 @@ def test_blocks_that_show_files_show_files_that_are_there():
         text = page.read_text(encoding="utf-8")
         for file in re.findall(r"^```\{(?:literal)?include\} (?!generated/)(\S+)", text, re.MULTILINE):
             assert (page.parent / file).is_file(), f"{page}: {file}"
+
+
+def test_every_name_of_the_package_has_its_place_in_the_reference():
+    pages = "".join(page.read_text(encoding="utf-8") for page in (shown.ROOT / "docs" / "api").glob("*.md"))
+    told = set(re.findall(r"^\.\. auto\w+:: (\S+)$", pages, re.MULTILINE))
+    assert {*swtstudy.__all__, "SwtAccessor"} - {"__version__"} <= told

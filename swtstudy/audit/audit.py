@@ -56,7 +56,7 @@ def audit_study(
     Raises
     ------
     ValueError
-        If the file exists but holds no audit, or `study` is not a Study.
+        If the file exists but holds no audit, or ``study`` is not a Study.
     """
     require_study(study)
     from swtstudy.archive.write import save

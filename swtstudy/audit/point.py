@@ -83,8 +83,6 @@ def audit_point(row: Sequence[float], definitions: Definitions) -> AuditedPoint:
     solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
     if not np.isfinite(solved[1]):
         return AuditedPoint(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
-    # Where s is 0 no point is critical, and the search of the body starts at any.
-    x = x if np.isfinite(x) else 1.0
     # The field handles gross slip and the 0/0 of a vanishing contact: NumPy's warnings would only alarm.
     with np.errstate(all="ignore"):
         body, at_line = body_maximum(scene_of(points), x)

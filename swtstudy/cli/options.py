@@ -1,8 +1,10 @@
-"""Checks for unknown options and repeated ones, of which click would silently take the last."""
+"""An option of several commands; checks for unknown ones, and for repeated ones: click takes the last."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
+from typing import Any
 
 import click
 
@@ -10,6 +12,13 @@ from swtstudy.mistakes import Mistake, StudyError, meant
 
 #: Placeholder of an option that takes several values, separated by commas.
 SEVERAL = "VALUES"
+
+
+def with_width(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the option of what a figure is made for."""
+    widths = click.Choice(["column", "page"])
+    words = "For print: 8.5 or 17.5 cm wide, letters of 8 pt; by default for a screen."
+    return click.option("--width", type=widths, help=words)(command)
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:

@@ -10,11 +10,12 @@ import click
 
 from swtstudy.cli.completion import archive_completion
 from swtstudy.cli.examples import examples
+from swtstudy.cli.options import with_width
 
 
 @click.command(
     epilog=examples(
-        "swtstudy plot results/figure3.nc -o figure3.pdf",
+        "swtstudy plot results/figure3.nc --width column -o figure3.pdf",
         "swtstudy plot results/figure3.nc --y critical_x --y regime",
         "swtstudy plot results/contour.nc --kind heatmap --y critical_angle -o angle.png",
     )
@@ -22,6 +23,7 @@ from swtstudy.cli.examples import examples
 @click.argument("archive", shell_complete=archive_completion)
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+@with_width
 @click.option("--x", help="The axis along the horizontal axis.")
 @click.option("--hue", help="The axis whose values are the lines.")
 @click.option("--panels", help="The axis whose values are the panels.")
@@ -32,7 +34,7 @@ from swtstudy.cli.examples import examples
 )
 @click.option("--title", help="A title over the figure.")
 @click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
-def plot(archive: str, output: str | None, style: str | None, **own: Any) -> None:
+def plot(archive: str, output: str | None, style: str | None, width: Any, **own: Any) -> None:
     """Draw a figure of an ARCHIVE, from the archive alone.
 
     With --x the options alone define the layout; without it they change the layout stored in the archive.
@@ -49,7 +51,7 @@ def plot(archive: str, output: str | None, style: str | None, **own: Any) -> Non
     check_writable(target)
     given = {key: value for key, value in own.items() if value not in (None, ())}
     layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
-    save_figure(draw(dataset, layout, style), target, style)
+    save_figure(draw(dataset, layout, style, width), target, style)
     missing = int((dataset.status == MISSING).sum())
     if missing:
         click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)

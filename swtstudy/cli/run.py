@@ -15,12 +15,14 @@ import click
 
 from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
+from swtstudy.cli.options import with_width
 from swtstudy.suite import run_and_draw
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
+    from swtstudy.figures.sheet import Width
     from swtstudy.study.definition import Study
 
 #: Exit code of a run in which points failed.
@@ -53,6 +55,7 @@ _NAMED = 5
     type=click.Choice(["png", "pdf", "svg"]),
     help="Format of the figure; may be given more than once.",
 )
+@with_width
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 @click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
 @click.option("--retry-failed", is_flag=True, help="Recompute points that failed before.")
@@ -61,6 +64,7 @@ def run(
     suite: bool,
     results: str,
     formats: tuple[str, ...],
+    width: Width | None,
     workers: int,
     scheduler: str | None,
     retry_failed: bool,
@@ -106,7 +110,7 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _terminable():
-        run_and_draw(pairs, formats, done, workers=workers, client=client, retry_failed=retry_failed)
+        run_and_draw(pairs, formats, done, width, workers=workers, client=client, retry_failed=retry_failed)
     if any(failed):
         sys.exit(POINTS_FAILED)
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
+from swtstudy.cli.options import with_width
 
 
 @click.command(epilog=examples("swtstudy sensitivity sensitivity"))
@@ -18,9 +21,10 @@ from swtstudy.cli.examples import examples
 @click.option(
     "--results", default="results", show_default=True, help="Folder for archive, indices and figure."
 )
+@with_width
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
 def sensitivity(
-    study: str, y: tuple[str, ...], confidence: float, seed: int, results: str, workers: int
+    study: str, y: tuple[str, ...], confidence: float, seed: int, results: str, width: Any, workers: int
 ) -> None:
     """Show which sampled parameters of STUDY matter: Sobol indices.
 
@@ -59,7 +63,7 @@ def sensitivity(
     save(indices, targets[".nc"])
     with replacing(targets[".md"]) as temporary:
         temporary.write_text(text, encoding="utf-8")
-    save_figure(draw_sensitivity(indices), targets[".png"])
+    save_figure(draw_sensitivity(indices, width=width), targets[".png"])
     click.echo(text)
     for path in (target, *targets.values()):
         click.echo(str(path))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
 from swtstudy.cli.examples import examples
+from swtstudy.cli.options import with_width
 from swtstudy.cli.solve import with_parameters
 from swtstudy.parameters import PARAMETERS
 
@@ -21,7 +23,8 @@ from swtstudy.parameters import PARAMETERS
 @with_parameters("VALUE")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
-def show(output: str, style: str | None, **texts: str | None) -> None:
+@with_width
+def show(output: str, style: str | None, width: Any, **texts: str | None) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
@@ -41,7 +44,7 @@ def show(output: str, style: str | None, **texts: str | None) -> None:
     if Path(str(parameters.get("profile"))).suffix == ".csv":
         parameters["profile"] = table_from(Path(str(parameters["profile"])))
     of_shape = bool(parameters) and all(PARAMETERS[name].part == "shape" for name in parameters)
-    figure = (draw_profile if of_shape else inspect)(style=style, **parameters)
+    figure = (draw_profile if of_shape else inspect)(style=style, width=width, **parameters)
     check_writable(output)
     save_figure(figure, output, style)
     click.echo(output)

@@ -31,7 +31,7 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         for parameter in reversed(PARAMETERS.values()):
             default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
-            words = f"{parameter.meaning}; {parameter.allowed}{default}"
+            words = f"{parameter.described}; {parameter.allowed}{default}"
             option = f"--{parameter.name.replace('_', '-')}"
             command = click.option(option, metavar=metavar, help=words)(command)
         return command
@@ -52,7 +52,7 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 @click.option(
     f"--{DISTANCE.replace('_', '-')}",
     metavar=SEVERAL,
-    help=f"{_DISTANCE.meaning}, which are further columns; {_DISTANCE.allowed}",
+    help=f"{_DISTANCE.described}, which are further columns; {_DISTANCE.allowed}",
 )
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.

@@ -96,7 +96,7 @@ class PhysicalContact:
 
     @property
     def length_scale(self) -> float:
-        """a_H: √(R δ0), and of a power law or a table its contact radius at δ0."""
+        """The length a_H = √(R δ0), and of a power law or a table its contact radius at δ0."""
         if isinstance(self.profile, TabulatedProfile):
             return _contact_radius(self.profile, self.depth)
         assert self.radius is not None
@@ -105,7 +105,7 @@ class PhysicalContact:
 
     @property
     def slip_scale(self) -> float:
-        """μ E* δ0/G*: the tangential displacement at which a contact of constant depth slides as a whole."""
+        """The tangential displacement μ E* δ0/G* at which a contact of constant depth slides as a whole."""
         return self.friction * self.moduli.normal * self.depth / self.moduli.tangential
 
     @property
@@ -115,7 +115,7 @@ class PhysicalContact:
 
     @property
     def swt_scale(self) -> float:
-        """SWT0 = E* (δ0/a_H)² of the half-space with E*: E* δ0/R (eq. 19) where a_H = √(R δ0)."""
+        """Unit of SWT, E* (δ0/a_H)², of the half-space with E*; E* δ0/R (eq. 19) where a_H = √(R δ0)."""
         return self.moduli.normal * (self.depth / self.length_scale) ** 2
 
     @property
@@ -125,12 +125,12 @@ class PhysicalContact:
 
     @property
     def normal_force(self) -> float:
-        """Force at the mean depth δ0: 2 E* ∫ (δ0 − g) dξ over the springs."""
+        """Force at the mean depth δ0, 2 E* ∫ (δ0 − g) dξ over the springs."""
         return self.force_factor * self.moduli.normal * self.depth * self.length_scale
 
     @property
     def force_factor(self) -> float:
-        """Force at the mean depth over E* δ0 a_H: 4/3 for a paraboloid."""
+        """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid."""
         edge = self._profile().radius(np.ones((1, 1)))
         return 2.0 * float(self._profile().half_load(edge)[0, 0])
 
@@ -179,10 +179,12 @@ class PhysicalContact:
         own["profile"] = self._pure_profile()
         if body != self.bulk_stress_body:
             own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
+        # What scales a loop is 1 unless it is given.
+        scaling = self.load.scaled_by if isinstance(self.load, Named) else ()
         return {
             name: number_of(name, own[name], self)
             for name, row in PARAMETERS.items()
-            if own.get(name) is not None and not row.goes_without_saying(own[name])
+            if own.get(name) is not None and (name in scaling or not row.goes_without_saying(own[name]))
         }
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:

@@ -82,8 +82,8 @@ class FatigueConstants:
 
         Returns
         -------
-        cycles
-            Of the shape of ``swt``; inf where that is 0, NaN where it is NaN or masked.
+        numpy.ndarray
+            Cycles, of the shape of ``swt``; inf where that is 0, NaN where it is NaN or masked.
 
         Raises
         ------

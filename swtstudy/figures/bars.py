@@ -6,28 +6,31 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.figure import Figure
 from swtstudy.figures.legend import add_legend
+from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS, Style, styled
+from swtstudy.figures.wrap import wrap_texts
 from swtstudy.wording import parameter_words, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
+    from swtstudy.figures.figure import Figure
+
 #: Size of a panel, inches: its width grows with the number of parameters.
 _BAR_WIDTH, _MARGIN, _PANEL_HEIGHT = 0.75, 1.0, 3.0
 _WORDS = {"first_order": "alone (first order)", "total": "alone and with others (total)"}
 
 
-def draw_sensitivity(indices: xr.Dataset, style: Style | None = None) -> Figure:
+def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
     """Bars of the indices of every parameter with their confidence intervals.
 
     Parameters
     ----------
     indices
         From `swtstudy.sensitivity`.
-    style
+    style, width
         As for `swtstudy.figures.draw.draw`.
 
     Returns
@@ -35,25 +38,23 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None) -> Figure:
     matplotlib.figure.Figure
         A row of panels for every quantity, a column for every place on the axes.
     """
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     columns = indices.stack(place=axes).transpose("place", ...) if axes else indices.expand_dims("place")
-    rows, across = indices.sizes["quantity"], columns.sizes["place"]
-    width = _MARGIN + _BAR_WIDTH * indices.sizes["parameter"]
-    with styled(style):
-        layout = ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05)
-        figure = Figure((width * across, _PANEL_HEIGHT * rows), layout=layout)
-        panels = figure.subplots(rows, across, sharex=True, sharey=True, squeeze=False)
+    panel_size = (_MARGIN + _BAR_WIDTH * indices.sizes["parameter"], _PANEL_HEIGHT)
+    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, panel_size)
+    with styled(style, width):
+        figure = sheet.figure()
+        panels = sheet.panels(figure, share_y="all")
         for row, line in enumerate(panels):
             for column, panel in enumerate(line):
-                _draw_one(panel, columns.isel(quantity=row, place=column), column == 0)
+                _draw_one(panel, columns.isel(quantity=row, place=column), column % sheet.across == 0)
                 places = (
                     [place_words(name, columns[name].values[column]) for name in axes] if row == 0 else []
                 )
                 panel.set_title(", ".join(places), loc="left")
         figure.suptitle(indices.attrs["title"])
-        add_legend(figure, panels, below=True)
+        add_legend(figure, panels)
+        wrap_texts(figure)
     return figure
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.quantity_words import flag_words, quantity_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
+from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
+from swtstudy.figures.wrap import wrap_texts
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import AXES
@@ -24,15 +26,21 @@ from swtstudy.wording import axis_words, place_words
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-#: Panel size, and width of a colour bar, inches.
-_PANEL_WIDTH, _PANEL_HEIGHT, _SCALE_WIDTH = 4.0, 3.2, 1.5
+    from swtstudy.figures.figure import Figure
+
+#: Width of a colour bar on a screen, inches.
+_SCALE_WIDTH = 1.5
 #: Kinds of figures that are drawn elsewhere.
 _DRAWN = {"scatter": draw_scatter, "histogram": draw_histogram}
 
 
-def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style | None = None) -> Figure:
+def draw(
+    dataset: xr.Dataset,
+    layout: FigureLayout | None = None,
+    style: Style | None = None,
+    width: Width | None = None,
+) -> Figure:
     """Draw a figure of results.
 
     Parameters
@@ -44,25 +52,31 @@ def draw(dataset: xr.Dataset, layout: FigureLayout | None = None, style: Style |
     style
         A matplotlib style: a name, a file or rcParams. By default the look is that of
         `swtstudy.figures.style`, except for rcParams that the user has changed.
+    width
+        "column" for the 8.5 cm of a journal's column, "page" for 17.5 cm, with letters of 8 pt; by default
+        the figure is for a screen, and grows with its panels.
 
     Returns
     -------
     matplotlib.figure.Figure
-        One row of panels for every quantity, one column for every value of the panels' dimension. It is
-        independent of pyplot.
+        One row of panels for every quantity, one column for every value of the panels' dimension, in several
+        lines where the width ends. It is independent of pyplot.
 
     Raises
     ------
     ValueError
-        With every mistake in the layout; or if there is no layout, or the results are empty.
+        With every mistake in the layout; or if there is no such width, no layout, or the results are empty.
     """
+    check_width(width)
     layout = layout or layout_of(dataset)
     require_points(dataset)
     mistakes = list(dict.fromkeys(_mistakes(dataset, layout)))
     if mistakes:
         raise StudyError(mistakes)
-    with styled(style):
-        return _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout)
+    with styled(style, width):
+        figure = _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout, width)
+        wrap_texts(figure)
+    return figure
 
 
 def layout_of(dataset: xr.Dataset) -> FigureLayout:
@@ -105,19 +119,13 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
     return found
 
 
-def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    from swtstudy.figures.figure import Figure
-
+def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
     columns = _slices(dataset, layout.panels)
-    rows, lines = len(layout.y), layout.kind == "lines"
+    lines = layout.kind == "lines"
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
-    beside = _SCALE_WIDTH if scale or not lines else 0.0
-    size = (_PANEL_WIDTH * len(columns) + beside, _PANEL_HEIGHT * rows)
-    figure = Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
-    sharey: Any = "row" if lines else "all"
-    axes = figure.subplots(rows, len(columns), sharex=True, sharey=sharey, squeeze=False)
+    sheet = Sheet(len(layout.y), len(columns), width)
+    figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
+    axes = sheet.panels(figure, share_y="row" if lines else "all")
     for row, y in enumerate(layout.y):
         values = [quantity(panel, y) for panel in columns]
         words = quantity_words(values[0], y)
@@ -127,16 +135,17 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
         else:
             surfaces = [each.transpose(layout.vertical, layout.x) for each in values]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-        axes[row, 0].set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
-    for index, (one, panel) in enumerate(zip(axes.flat, columns * rows, strict=True)):
-        _title_panel(one, panel, layout, index, axes.size)
-    for bottom in axes[-1]:
+        for first in sheet.first_of_lines(axes)[row]:
+            first.set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
+        for column, (one, panel) in enumerate(zip(axes[row], columns, strict=True)):
+            _title_panel(one, panel, layout, row * len(columns) + column, axes.size)
+    for bottom in sheet.lowest(axes):
         bottom.set_xlabel(axis_words(layout.x))
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:
         add_scale(figure, axes, scale, layout.hue)
-    add_legend(figure, axes, below=not lines)
+    add_legend(figure, axes)
     return figure
 
 

@@ -9,12 +9,12 @@ import numpy as np
 from swtstudy.figures.inspection_panels import (
     _DOTTED,
     _FAINT,
-    _THIN,
     _draw_direction,
     _instants,
     _limits,
     _mark,
     draw_edge_states,
+    thin,
 )
 from swtstudy.figures.maps import draw_time_axis
 
@@ -33,7 +33,7 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
     highest = axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     for sign in (1.0, -1.0):
-        look: dict[str, Any] = {"color": _FAINT, "linewidth": _THIN, "linestyle": "-", "marker": ""}
+        look: dict[str, Any] = {"color": _FAINT, "linewidth": thin(), "linestyle": "-", "marker": ""}
         axes.plot([0.0, sign * highest], [0.0, highest], **look)
     axes.set_xlim(_limits(force, 0.14, 0.14, 1.0))
     axes.set_ylim(_limits(normal, 0.14, 0.14, 1.0))
@@ -45,12 +45,12 @@ def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
     time = dataset.time
     axes.plot(time, dataset.normal_force, label=_words(dataset, "normal_force"))
     axes.plot(time, dataset.tangential_force, label=_words(dataset, "tangential_force"))
-    axes.plot(time, -dataset.normal_force, color=_FAINT, linestyle=_DOTTED, linewidth=_THIN, marker="")
-    axes.axhline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.plot(time, -dataset.normal_force, color=_FAINT, linestyle=_DOTTED, linewidth=thin(), marker="")
+    axes.axhline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
     both = np.concatenate([dataset.normal_force.values, dataset.tangential_force.values])
     axes.set_ylim(_limits(both, 0.08, 0.34))
     for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
-        axes.axvline(when, color="black", linewidth=_THIN, alpha=0.35)
+        axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
         _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
     draw_time_axis(axes, time)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=2, fontsize="small")
@@ -70,8 +70,8 @@ def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     look: dict[str, Any] = {"color": "black", "linestyle": "-", "marker": ""}
     draw_edge_states(axes, x, y, dataset.edge_state.values)
     axes.plot(x, y, **look)
-    axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
-    axes.axhline(1.0 if up == "normal_force" else 0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.axvline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
+    axes.axhline(1.0 if up == "normal_force" else 0.0, color=_FAINT, linewidth=thin(), zorder=0)
     axes.set_xlim(_limits(x, 0.14, 0.14, 1.0))
     axes.set_ylim(_limits(y, 0.14, 0.14, 1.0))
     places = _instants(dataset)

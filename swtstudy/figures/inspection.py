@@ -15,7 +15,9 @@ from swtstudy.figures.inspection_panels import (
     draw_swt,
     draw_tractions,
 )
+from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
+from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.parameters import PARAMETERS, family_of
 from swtstudy.wording import place_words, value_words
@@ -24,43 +26,45 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-#: Size of the figure, inches.
-_WIDTH, _HEIGHT = 13.2, 11.4
+#: Size of a panel on a screen, inches.
+_PANEL = (4.4, 3.8)
+#: Height of a panel in print, inches, at least: there is much in each.
+_LEAST_HEIGHT = 2.4
 
 
-def inspect(*, style: Style | None = None, **parameters: object) -> Figure:
+def inspect(*, style: Style | None = None, width: Width | None = None, **parameters: object) -> Figure:
     """One figure of one parameter point: its load path, slip, tractions, stress cycle and swt.
 
     Parameters
     ----------
-    style
-        A matplotlib style: a name, a file or rcParams.
+    style, width
+        As for `swtstudy.figures.draw.draw`.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Nine panels, see `draw_inspection`; save it with its method ``savefig``. `swtstudy.inspect_point`
-        returns the numbers shown.
+        Nine panels; save it with its method ``savefig``. `swtstudy.inspect_point` returns the numbers shown.
 
     Raises
     ------
     StudyError
-        A ValueError with every mistake in the parameters.
+        A ValueError with every mistake in the parameters, or in the width.
     """
-    return draw_inspection(inspect_point(**parameters), style)
+    check_width(width)
+    return draw_inspection(inspect_point(**parameters), style, width)
 
 
-def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
+def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
     """Draw a parameter point.
 
     Parameters
     ----------
     dataset
         The point, as from `swtstudy.inspect_point`.
-    style
-        A matplotlib style: a name, a file or rcParams.
+    style, width
+        As for `swtstudy.figures.draw.draw`.
 
     Returns
     -------
@@ -70,14 +74,11 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
         of the forces; these over the cycle; the force–displacement loop. Stick and slip are coloured along
         all three loops, and the same numbered instants are marked in all panels but that of swt.
     """
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    from swtstudy.figures.figure import Figure
-
-    with styled(style):
-        figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))
-        panels = figure.subplots(3, 3)
-        (load, slip, springs), (tractions, stress, swt), (plane, forces, loop) = panels
+    sheet = Sheet(1, 9, width, _PANEL, most=3, least_height=_LEAST_HEIGHT, fold=False)
+    with styled(style, width):
+        figure = sheet.figure()
+        panels = sheet.panels(figure, share_x="none", share_y="none")
+        load, slip, springs, tractions, stress, swt, plane, forces, loop = panels[0]
         draw_load(load, dataset)
         draw_slip(slip, dataset)
         draw_springs(springs, dataset)
@@ -90,6 +91,7 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None) -> Figure:
         for axes, letter in zip(panels.flat, "ABCDEFGHI", strict=True):
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset))
+        wrap_texts(figure)
     return figure
 
 

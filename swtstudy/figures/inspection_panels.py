@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rcParams
 from numpy.typing import NDArray
 
 from swtstudy.figures.maps import STATE_COLOURS, draw_slip_map, draw_time_axis
@@ -17,12 +18,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-#: Width and grey of guide lines.
-_THIN, _FAINT = 0.9, "0.55"
+#: Grey of guide lines.
+_FAINT = "0.55"
 #: Their dashes.
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
-#: Width of the band that shows stick and slip along a loop.
-_BAND = 7.0
+#: Widths of guide lines, and of the band that shows stick and slip along a loop, over that of a curve.
+_GUIDE, _WIDE = 0.55, 4.4
+#: Sizes of a dot over that of a marker, and of the number of an instant over that of other letters.
+_DOT, _NUMBER = 1.75, 0.75
 #: What is prescribed, by the coordinate ``control``.
 _PRESCRIBED = {
     "displacements": "$u$ and $\\delta$",
@@ -34,13 +37,23 @@ _PRESCRIBED = {
 _ROUNDING = 1e-13
 
 
+def bold() -> float:
+    """Width of a curve."""
+    return float(rcParams["lines.linewidth"])
+
+
+def thin() -> float:
+    """Width of guide lines."""
+    return _GUIDE * bold()
+
+
 def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
     """The path of the load in (u, δ), its direction, stick and slip."""
     u, depth = dataset.displacement.values, dataset.depth.values
     draw_edge_states(axes, u, depth, dataset.edge_state.values)
     axes.plot(u, depth, color="black", linestyle="-", marker="")
-    axes.axvline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
-    axes.axhline(1.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.axvline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
+    axes.axhline(1.0, color=_FAINT, linewidth=thin(), zorder=0)
     axes.set_xlim(_limits(u, 0.14, 0.14, 1.0))
     axes.set_ylim(_limits(depth, 0.14, 0.14, 1.0))
     if depth.min() < 0.0:
@@ -61,7 +74,7 @@ def draw_edge_states(axes: Axes, x: FloatArray, y: FloatArray, state: NDArray[np
     path = np.stack([x, y], axis=1)
     steps = np.stack([path[:-1], path[1:]], axis=1)
     colours = [STATE_COLOURS[each] for each in state[:-1]]
-    look: dict[str, Any] = {"linewidths": _BAND, "capstyle": "round", "zorder": 1}
+    look: dict[str, Any] = {"linewidths": _WIDE * bold(), "capstyle": "round", "zorder": 1}
     axes.add_collection(LineCollection(list(steps), colors=colours, **look))
 
 
@@ -92,13 +105,14 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
         (stick, _DOTTED, "always sticks"),
     ):
         if radius > 0.0:
-            look: dict[str, Any] = {"color": "black", "linewidth": _THIN, "linestyle": dashes}
+            look: dict[str, Any] = {"color": "black", "linewidth": thin(), "linestyle": dashes}
             handles.append(axes.axhline(radius, label=words, **look))
     for number, time in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
-        axes.axvline(time, color="black", linewidth=_THIN, alpha=0.6)
+        axes.axvline(time, color="black", linewidth=thin(), alpha=0.6)
         _mark(axes, number, time, 0.95 * top)
-    below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.15), "fontsize": "small"}
-    axes.legend(handles=handles, ncols=3, handlelength=1.8, **below)
+    # Beneath the axis with its label, by its distance in letters.
+    below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
+    axes.legend(handles=handles, ncols=3, handlelength=1.4, columnspacing=1.0, fontsize="small", **below)
     axes.set_title("stick and slip over the cycle", loc="left")
 
 
@@ -129,9 +143,9 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_ylim(-1.2 * highest - 1e-3, 1.2 * highest + 1e-3)
     largest = 1.08 * float(dataset.largest_radius)
     axes.set_xlim(-largest, largest)
-    axes.axvline(float(dataset.shown_x), color="black", linewidth=_THIN, linestyle=_DASHED)
+    axes.axvline(float(dataset.shown_x), color="black", linewidth=thin(), linestyle=_DASHED)
     axes.set_xlabel("$x/a_H$")
-    axes.set_ylabel(r"$q$ over $E^* \sqrt{\delta_0/R}$")
+    axes.set_ylabel(r"$q\,a_H/(E^* \delta_0)$")
     axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
 
 
@@ -144,10 +158,10 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     (dashed,) = other.plot(time, strain, label=r"$\varepsilon_n$")
     other.grid(False)
     peak = int(stress.values.argmax())
-    axes.plot(time[peak], stress[peak], marker="o", markersize=7, color=line.get_color(), linestyle="")
+    axes.plot(time[peak], stress[peak], marker="o", markersize=_dot(), color=line.get_color(), linestyle="")
     high, low = float(strain.max()), float(strain.min())
     for level in (high, low):
-        other.axhline(level, color=dashed.get_color(), linewidth=_THIN, alpha=0.7)
+        other.axhline(level, color=dashed.get_color(), linewidth=thin(), alpha=0.7)
     at = 0.93 * float(time[-1])
     arrow = {"arrowstyle": "<->", "color": dashed.get_color(), "shrinkA": 0, "shrinkB": 0}
     other.annotate("", xy=(at, high), xytext=(at, low), arrowprops=arrow)
@@ -155,11 +169,11 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     words: dict[str, Any] = {"color": dashed.get_color(), "ha": "right", "va": "center", "bbox": box}
     other.text(0.915 * float(time[-1]), 0.5 * (high + low), r"$\Delta\varepsilon_n$", **words)
     for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
-        axes.axvline(when, color="black", linewidth=_THIN, alpha=0.35)
+        axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
         _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
     draw_time_axis(axes, dataset.time)
-    axes.set_ylabel(r"$\sigma_n$ over $E^* \sqrt{\delta_0/R}$", color=line.get_color())
-    other.set_ylabel(r"$\varepsilon_n$ over $\sqrt{\delta_0/R}$", color=dashed.get_color())
+    axes.set_ylabel(r"$\sigma_n\,a_H/(E^* \delta_0)$", color=line.get_color())
+    other.set_ylabel(r"$\varepsilon_n\,a_H/\delta_0$", color=dashed.get_color())
     shown = stress.values
     if "bulk_stress" in dataset:
         look: dict[str, Any] = {"color": line.get_color(), "linestyle": _DOTTED, "marker": ""}
@@ -185,15 +199,15 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
         axes.text(0.0, 0.04 * top, "always\nsticks", ha="center", va="bottom", color="0.25", fontsize="small")
     for radius, dashes, words in ((least, _DOTTED, r"$a_{\min}$"), (largest, "-", r"$a_{\max}$")):
         for side in (-1.0, 1.0):
-            axes.axvline(side * radius, color=_FAINT, linewidth=_THIN, linestyle=dashes)
+            axes.axvline(side * radius, color=_FAINT, linewidth=thin(), linestyle=dashes)
         if radius > 0.0:
             box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
             axes.text(radius, 1.39 * top, words, ha="center", va="center", fontsize="small", bbox=box)
-    axes.plot(x, found, marker="o", markersize=7, color="black", linestyle="", clip_on=False)
+    axes.plot(x, found, marker="o", markersize=_dot(), color="black", linestyle="", clip_on=False)
     axes.set_xlim(-1.2 * largest, 1.2 * largest)
     axes.set_ylim(0.0, 1.45 * top)
     axes.set_xlabel("$x/a_H$")
-    axes.set_ylabel(r"swt over $E^* \delta_0/R$")
+    axes.set_ylabel(r"$\mathrm{swt}/\mathrm{SWT}_0$")
     words = "" if _is_finite(dataset) else "; dot: largest sampled"
     axes.set_title(f"swt along the surface{words}", loc="left")
     _draw_plane(axes, dataset)
@@ -207,14 +221,19 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
     plane = np.array([-normal[1], normal[0]])
     plane = plane if plane[1] < 0.0 else -plane
     inset.axhspan(-1.0, 0.0, color="0.9")
-    inset.plot([-1.2, 1.2], [0, 0], color="black", linestyle="-", linewidth=_THIN, marker="")
+    inset.plot([-1.2, 1.2], [0, 0], color="black", linestyle="-", linewidth=thin(), marker="")
     inset.plot(
-        [0, 0.85 * plane[0]], [0, 0.85 * plane[1]], color="black", linestyle="-", linewidth=2.4, marker=""
+        [0, 0.85 * plane[0]],
+        [0, 0.85 * plane[1]],
+        color="black",
+        linestyle="-",
+        linewidth=1.5 * bold(),
+        marker="",
     )
     start = 0.42 * plane
     arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
     inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)
-    inset.text(-1.1, -0.9, f"{float(dataset.shown_angle):.1f}°", va="bottom", fontsize="small")
+    inset.text(-1.3, -0.5, f"{float(dataset.shown_angle):.1f}°", ha="right", va="center", fontsize="small")
     inset.set(xlim=(-1.2, 1.2), ylim=(-1.0, 0.3), xticks=[], yticks=[], aspect="equal")
     inset.set_frame_on(False)
     inset.grid(False)
@@ -249,7 +268,7 @@ def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple
     for number in dataset.instant.values:
         (line,) = axes.plot(dataset[along], dataset[name].sel(instant=number), label=str(number))
         lines.append((int(number), line))
-    axes.axhline(0.0, color=_FAINT, linewidth=_THIN, zorder=0)
+    axes.axhline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
     return lines
 
 
@@ -259,7 +278,13 @@ def _bound(line: Line2D) -> dict[str, Any]:
     return {"color": colour, "linestyle": "-", "linewidth": 0.7, "alpha": 0.45, "marker": ""}
 
 
+def _dot() -> float:
+    """Size of a dot."""
+    return float(_DOT * rcParams["lines.markersize"])
+
+
 def _mark(axes: Axes, number: int, x: float, y: float, **options: Any) -> None:
     """The number of an instant in a disc."""
     disc = {"boxstyle": "circle,pad=0.18", "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
-    axes.text(x, y, str(number), ha="center", va="center", fontsize=8, bbox=disc, zorder=5, **options)
+    look = {"fontsize": _NUMBER * rcParams["font.size"]}
+    axes.text(x, y, str(number), ha="center", va="center", bbox=disc, zorder=5, **look, **options)

@@ -1,29 +1,29 @@
-"""The legend beside or below all panels; the figure grows to hold it."""
+"""The legend below all panels; the figure grows in height to hold it."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from matplotlib.legend import Legend
     from numpy.typing import NDArray
+
+    from swtstudy.figures.figure import Figure
 
 #: Points in an inch.
 _POINTS = 72.0
 
 
-def add_legend(figure: Figure, axes: NDArray[Any], below: bool) -> None:
+def add_legend(figure: Figure, axes: NDArray[Any]) -> None:
     """Add one legend for all panels, lines before markers; no entry is cut off.
 
     Parameters
     ----------
     figure
-        The figure, which grows by the size of the legend.
+        The figure, which grows by the height of the legend. On a screen it gets wider where an entry is wider
+        than all panels; in print the letters of the legend get smaller there.
     axes
         Its panels.
-    below
-        Whether the legend is below the panels instead of to their right.
     """
     handles: dict[str, Any] = {}
     for one in axes.flat:
@@ -32,24 +32,32 @@ def add_legend(figure: Figure, axes: NDArray[Any], below: bool) -> None:
     labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
     if not labels:
         return
-    place: Any = "outside lower center" if below else "outside right upper"
-    columns = range(len(labels), 0, -1) if below else range(1, len(labels) + 1)
-    for count in columns:
-        legend = figure.legend([handles[label] for label in labels], labels, loc=place, ncols=count)
+    place_legend(figure, [handles[label] for label in labels], labels)
+
+
+def place_legend(figure: Figure, handles: list[Any], labels: list[str]) -> None:
+    """Add a legend of these entries in as many columns as fit; see `add_legend`."""
+    size: float | None = None
+    for count in (*range(len(labels), 0, -1), 1):
+        legend = figure.legend(handles, labels, loc="outside lower center", ncols=count, fontsize=size)
         width, height = _inches(legend, figure.dpi)
-        if count == columns[-1] or (
-            width <= figure.get_figwidth() if below else height <= figure.get_figheight()
-        ):
+        if width <= figure.get_figwidth() or size is not None:
             break
+        if count == 1:
+            if figure.width is None:
+                break
+            size = _size(legend) * figure.get_figwidth() / width
         legend.remove()
-    if below:
-        figure.set_size_inches(max(figure.get_figwidth(), width), figure.get_figheight() + height)
-    else:
-        figure.set_size_inches(figure.get_figwidth() + width, max(figure.get_figheight(), height))
+    wider = max(figure.get_figwidth(), width) if figure.width is None else figure.get_figwidth()
+    figure.set_size_inches(wider, figure.get_figheight() + height)
+
+
+def _size(legend: Legend) -> float:
+    return float(legend.get_texts()[0].get_fontsize())
 
 
 def _inches(legend: Legend, dpi: float) -> tuple[float, float]:
     """Width and height of a legend with its padding, inches."""
-    around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / _POINTS
+    around = 2.0 * legend.borderaxespad * _size(legend) / _POINTS
     box = legend.get_window_extent()
     return box.width / dpi + around, box.height / dpi + around

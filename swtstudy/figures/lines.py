@@ -8,10 +8,11 @@ import numpy as np
 
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
+from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.parameters import AXES
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import place_words, tick_in_pi
+from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr

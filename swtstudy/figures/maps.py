@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.style import COLOURS, DASHES
-from swtstudy.wording import tick_in_pi
+from swtstudy.figures.ticks import tick_in_pi
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
+from swtstudy.figures.wrap import wrap_texts
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
@@ -21,18 +23,19 @@ if TYPE_CHECKING:
     from swtstudy.mechanics.indenter import Profile
     from swtstudy.mechanics.points import FloatArray
 
-#: Size of the figure, inches; radii of the curves, over the contact radius at δ0; digits of the pressure.
-_WIDTH, _HEIGHT = 9.6, 4.0
+#: Size of a panel on a screen, inches.
+_PANEL = (4.8, 4.0)
+#: Radii of the curves, over the contact radius at δ0; digits of the pressure.
 _RADII, _REACH, _DIGITS = 1201, 1.45, 9.0
 
 
-def draw_profile(*, style: Style | None = None, **parameters: object) -> Figure:
+def draw_profile(*, style: Style | None = None, width: Width | None = None, **parameters: object) -> Figure:
     """A picture of a profile: its shape f with the coordinates and the two loads, g, and the pressure at δ0.
 
     Parameters
     ----------
-    style
-        A matplotlib style: a name, a file or rcParams.
+    style, width
+        As for `swtstudy.figures.draw.draw`.
     **parameters
         profile, a name or a `TabulatedProfile`, and its shape parameters, as for `swtstudy.solve`.
 
@@ -45,12 +48,9 @@ def draw_profile(*, style: Style | None = None, **parameters: object) -> Figure:
     Raises
     ------
     StudyError
-        A ValueError with every mistake in the parameters.
+        A ValueError with every mistake in the parameters, or in the width.
     """
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    from swtstudy.figures.figure import Figure
-
+    check_width(width)
     wrong = [name for name in parameters if name in PARAMETERS and PARAMETERS[name].part != "shape"]
     if wrong:
         raise StudyError(Mistake(name, "a parameter of the load or the bodies", "a shape") for name in wrong)
@@ -61,9 +61,10 @@ def draw_profile(*, style: Style | None = None, **parameters: object) -> Figure:
     shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(given).shape}
     profile = make_profile(given, shape, np.ones(1))  # type: ignore[arg-type]
     edge = float(profile.radius(np.ones((1, 1)))[0, 0])
-    with styled(style):
-        figure = Figure((_WIDTH, _HEIGHT), layout=ConstrainedLayoutEngine(w_pad=0.08, h_pad=0.08))
-        sketch, springs = figure.subplots(1, 2)
+    with styled(style, width):
+        sheet = Sheet(1, 2, width, _PANEL)
+        figure = sheet.figure()
+        sketch, springs = sheet.panels(figure, share_x="none", share_y="none")[0]
         _draw_sketch(sketch, profile, edge)
         _draw_springs(springs, profile, edge)
         if isinstance(given, TabulatedProfile):
@@ -72,6 +73,7 @@ def draw_profile(*, style: Style | None = None, **parameters: object) -> Figure:
         if isinstance(given, TabulatedProfile):
             words.append(f"{given.radius.size} points, missed by {given.deviation:.1e} δ0 at most")
         figure.suptitle(",  ".join(words))
+        wrap_texts(figure)
     return figure
 
 

@@ -6,23 +6,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.figure import Figure
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS
+from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import axis_words, place_words, tick_in_pi, value_words
+from swtstudy.wording import axis_words, place_words, value_words
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-#: Panel size, inches, and the most panels side by side: a page.
-_PANEL_WIDTH, _PANEL_HEIGHT, _ACROSS = 4.0, 3.2, 3
+    from swtstudy.figures.figure import Figure
+
+#: The most panels of a scatter plot side by side.
+_ACROSS = 3
 #: Points of a cloud are the fainter the more there are: so many are drawn without transparency.
 _OPAQUE = 100
 #: Percentiles that a histogram marks.
@@ -30,16 +33,14 @@ PERCENTILES = (5, 50, 95)
 _DASHES = (":", "-", "--")
 
 
-def draw_scatter(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
+def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """Points of the quantities over every sampled parameter, a panel each."""
     names = [str(name) for name in dataset.coords if name in PARAMETERS and dataset[name].dims == (SAMPLE,)]
-    across = min(_ACROSS, len(names))
-    rows = -(-len(names) // across)
-    figure = _figure(across, rows * len(layout.y))
-    axes = figure.subplots(rows * len(layout.y), across, squeeze=False, sharey="row")
+    sheet = Sheet(len(layout.y), len(names), width, most=_ACROSS)
+    figure = sheet.figure()
+    axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
-        for index, name in enumerate(names):
-            one = axes[row * rows + index // across, index % across]
+        for one, name in zip(axes[row], names, strict=True):
             for label, part in _by(dataset, layout.hue):
                 values = quantity(part, y).values
                 x, at = _numbers(part[name])
@@ -51,19 +52,17 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
                     one.set_xticks(range(len(at)), at)
             one.set_xlabel(axis_words(name))
             _scale_axes(one, dataset, name, quantity(dataset, y))
-        for first in axes[row * rows : (row + 1) * rows, 0]:
+        for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
-    for unused in axes.flat:
-        if not unused.lines:
-            unused.set_axis_off()
     return _finished(figure, axes, layout)
 
 
-def draw_histogram(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
+def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """How many points have which values of the quantities, with percentiles."""
     panels = _by(dataset, layout.panels)
-    figure = _figure(len(panels), len(layout.y))
-    axes = figure.subplots(len(layout.y), len(panels), squeeze=False, sharex="row", sharey="row")
+    sheet = Sheet(len(layout.y), len(panels), width)
+    figure = sheet.figure()
+    axes = sheet.panels(figure, share_x="row")
     for row, y in enumerate(layout.y):
         whole = quantity(dataset, y)
         edges = _edges(whole)
@@ -78,7 +77,8 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout) -> Figure:
             flags = flag_words(whole)
             if flags:
                 one.set_xticks(range(len(flags)), flags, rotation=30, ha="right")
-        axes[row, 0].set_ylabel("points")
+        for first in sheet.first_of_lines(axes)[row]:
+            first.set_ylabel("points")
     return _finished(figure, axes, layout)
 
 
@@ -142,15 +142,8 @@ def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Data
     return [(place_words(name, part[name].item()), part) for part in parts]
 
 
-def _figure(columns: int, rows: int) -> Figure:
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
-    size = (_PANEL_WIDTH * columns, _PANEL_HEIGHT * rows)
-    return Figure(size, layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06, wspace=0.05))
-
-
 def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:
     if layout.title:
         figure.suptitle(layout.title)
-    add_legend(figure, axes, below=layout.kind == "scatter")
+    add_legend(figure, axes)
     return figure

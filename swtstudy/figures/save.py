@@ -32,7 +32,7 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
         raise ValueError(f"{path}: found {suffix or 'no ending'}; allowed: {', '.join(FORMATS)}")
     # Drawn in memory first: it takes seconds, and a process killed meanwhile would leave an unfinished file.
     picture = BytesIO()
-    with styled(style):
+    with styled(style, getattr(figure, "width", None)):
         figure.savefig(picture, format=suffix[1:], metadata=_NO_DATE.get(suffix))
     with replacing(path) as temporary:
         temporary.write_bytes(picture.getvalue())

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.regimes import in_equal_ratios
+from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.parameters import AXES
-from swtstudy.wording import axis_words, tick_in_pi
+from swtstudy.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.quantity_words import flag_words
+from swtstudy.figures.ticks import tick_cells, tick_in_pi
 from swtstudy.parameters import AXES
 from swtstudy.results.extrema import extrema
-from swtstudy.wording import tick_in_pi, value_words
+from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
@@ -153,12 +153,7 @@ def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
     columns, rows = (np.arange(surface.sizes[name]) for name in (x, vertical))
     mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
     axes.grid(False)
-    _tick_cells(axes.xaxis, x, surface[x].values.tolist(), _TICKS_ACROSS)
-    _tick_cells(axes.yaxis, vertical, surface[vertical].values.tolist(), _TICKS_UP)
+    for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
+        tick_cells(axis, [value_words(name, value) for value in surface[name].values.tolist()], most)
     axes.tick_params(axis="y", labelsize="small")
     return mesh
-
-
-def _tick_cells(axis: Axis, name: str, values: list[float | str], most: int) -> None:
-    places = range(0, len(values), -(-len(values) // most))
-    axis.set_ticks(list(places), [value_words(name, values[place]) for place in places])

@@ -104,7 +104,8 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
         table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
     )
     # A loop has neither phase nor frequencies.
-    rests = (normal == 0.0) | (table[:, _COLUMN["load"]] != code_of(HARMONIC, "load"))
+    is_loop = table[:, _COLUMN["load"]] != code_of(HARMONIC, "load")
+    rests = (normal == 0.0) | is_loop
     phase, p, q = without_what_stands_still(rests, phase, p, q)
     _make_control_canonical(table, normal == 0.0, tangential == 0.0)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
@@ -113,7 +114,7 @@ def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
     table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
     table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
     of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
-    moves = table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0
+    moves = (table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0) & ~is_loop
     both_ways = (q % 2 == 0) | (normal == 0.0)
     folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
     of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
@@ -198,6 +199,6 @@ def describe_point(row: FloatArray, definitions: Definitions) -> str:
     else:
         parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
     control = control_of(row[_COLUMN["control"]])
-    values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or n != "phase"}
+    values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
     said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
     return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

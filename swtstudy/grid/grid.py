@@ -15,7 +15,7 @@ from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, ca
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
 from swtstudy.named import Named
-from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, Control, replaced_by
+from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -92,6 +92,10 @@ class Grid:
         force = (self.control.normal_force, self.control.tangential_force)
         columns["control"] = control_code(*map(np.array, force))
         columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
+        # What does not scale a loop does not matter for it.
+        name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Named)]
+        if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
+            columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
         return canonical_points(columns)
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
@@ -134,15 +138,15 @@ def complete(
 ) -> Grid:
     """A grid with defaults for every parameter that is not given, nor one in its place.
 
-    These are those of Table 1, but for the amplitudes of loops, which are 1.
+    These are those of Table 1, but for the amplitudes that scale loops, which are 1.
     """
     filled, samples = dict(fixed), samples or {}
     given = {*fixed, *axes, *samples}
     given |= replaced_by(given)
     loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
-    loops = any(isinstance(value, Named) for value in loads)
+    scaling = {name for value in loads if isinstance(value, Named) for name in value.scaled_by}
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
-            default = LOOP_AMPLITUDE if loops and name in PAIRS.values() else parameter.default
+            default = LOOP_AMPLITUDE if name in scaling else parameter.default
             filled[name] = read_value(parameter, default)
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

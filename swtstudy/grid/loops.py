@@ -8,7 +8,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mistakes import Report, literal
 from swtstudy.named import Named
-from swtstudy.parameters import HARMONIC, PAIRS
+from swtstudy.parameters import HARMONIC, PARAMETERS, replaced_by
 
 
 def check_amplitudes(
@@ -22,16 +22,17 @@ def check_amplitudes(
     if len({isinstance(load, Named) for load in loads}) < 2:
         return
     given = {*fixed, *axes}
-    for force, name in PAIRS.items():
-        if not {force, name} & given:
-            allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
-            report(keys(name), "nothing", allowed)
+    given |= replaced_by(given)
+    scaling = {name for load in loads if isinstance(load, Named) for name in load.scaled_by}
+    for name in (each for each in PARAMETERS if each in scaling and each not in given):
+        allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
+        report(keys(name), "nothing", allowed)
 
 
 def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """With a force and a displacement the straight sides of a loop are curved in the memory diagram.
 
-    Nor has a loop a frequency with which a bulk stress could oscillate.
+    Nor does a bulk stress oscillate with a loop that has no course of it.
     """
     _check_bulk_stress(grid, keys, report)
     if not grid.control.mixed or not any(grid.values(grid.control.given_for("normal_amplitude"))):
@@ -46,10 +47,10 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
 
 
 def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
-    loops = [load for load in grid.values("load") if not isinstance(load, str)]
-    oscillating = [value for value in grid.values("bulk_stress_amplitude") if value != 0.0]
-    if loops and oscillating:
-        found = f"{literal(oscillating[0])} with a loop, which has no frequency"
-        report(
-            keys("bulk_stress_amplitude"), found, "0, or the load harmonic; bulk_stress_mean goes with both"
-        )
+    name = "bulk_stress_amplitude"
+    loops = [load for load in grid.values("load") if isinstance(load, Named)]
+    oscillating = [value for value in grid.values(name) if value != 0.0]
+    if loops and oscillating and not any(name in load.scaled_by for load in loops):
+        found = f"{literal(oscillating[0])} with a loop of two columns, {literal(loops[0].name)}"
+        allowed = "0, or a loop with the bulk stress as its third column; bulk_stress_mean goes with all"
+        report(keys(name), found, allowed)

@@ -33,8 +33,8 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = TOLERANCE) 
     (1, None)
     """
     if isinstance(value, str | Named):
-        value = str(value)
-        return axis.index(value) if value in axis else None
+        names = [str(each) for each in axis]
+        return names.index(str(value)) if str(value) in names else None
     known, asked = np.array(axis, float), float(value)
     distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
     allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)

@@ -56,10 +56,10 @@ def optimise(
     -------
     xarray.Dataset
         Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the least and at the
-        greatest value of the quantity, with the parameters of `over` as coordinates; and how they were found:
-        ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress`` over
-        ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through the
-        point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
+        greatest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
+        found: ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress``
+        over ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through
+        the point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
         Points where the quantity is not finite are left out; ``without_value`` counts them.
 
     Raises

@@ -10,26 +10,7 @@ from swtstudy.results.select import require_points
 
 
 def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
-    """Least and greatest s along a dimension, and where they are.
-
-    Parameters
-    ----------
-    dataset
-        Results.
-    dim
-        A dimension of s.
-
-    Returns
-    -------
-    xarray.Dataset
-        minimum, maximum and ratio (greatest over least) of s, and their places at_minimum and at_maximum,
-        over the other dimensions. NaN values are ignored; where all values are NaN, so is the result.
-
-    Raises
-    ------
-    ValueError
-        If s has no such dimension, or the results are empty.
-    """
+    """Least and greatest s along a dimension, and where they are: see ``extrema`` of the accessor."""
     if dim not in dataset.s.dims:
         raise ValueError(
             f"found {dim!r}, not a dimension of s; allowed: {nearest(dim, map(str, dataset.s.dims))}"

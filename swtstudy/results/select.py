@@ -22,29 +22,7 @@ _LISTED = 12
 
 
 def slice_at(dataset: xr.Dataset, places: Mapping[str, object], tolerance: float = TOLERANCE) -> xr.Dataset:
-    """The part of results at given values of their parameters.
-
-    Parameters
-    ----------
-    dataset
-        Results, as from `solve`, `run` or `open_results`.
-    places
-        By name: a single value, whose dimension becomes a scalar coordinate, or a sequence of values, whose
-        dimension is kept; of a sample those points remain that have one of the values. Values are written as
-        in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
-    tolerance
-        Largest distance from the nearest value of the axis, relative to the larger of the two.
-
-    Returns
-    -------
-    xarray.Dataset
-        All data variables at these values.
-
-    Raises
-    ------
-    StudyError
-        A ValueError with every name and value that the results lack, and those that they have.
-    """
+    """The part of results at given values of their parameters: see ``slice`` of the accessor."""
     require_points(dataset)
     mistakes: list[Mistake] = []
     chosen: dict[str, Any] = {}

@@ -12,18 +12,7 @@ if TYPE_CHECKING:
 
 
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Results as a table: one row per point, one column per parameter or result, flags as words.
-
-    Parameters
-    ----------
-    dataset
-        Results.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Columns: the dimensions in their order, the other parameters, and the results.
-    """
+    """Results as a table, one row per point: see ``to_table`` of the accessor."""
     import pandas as pd
 
     dims = list(map(str, dataset.dims))
@@ -40,4 +29,4 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
             codes = np.where(np.isfinite(flat), flat, -1).astype(int)
             flat = pd.Categorical.from_codes(codes, meanings.split())
         columns[name] = flat
-    return pd.DataFrame(columns)
+    return pd.DataFrame(columns).rename_axis("point")

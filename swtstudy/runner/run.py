@@ -37,10 +37,10 @@ def run(
     retry_failed: bool = False,
     solver: Solver = solve_points,
 ) -> xr.Dataset:
-    """Compute a study and write its archive to `path`.
+    """Compute a study and write its archive to ``path``.
 
     Every finished chunk is saved beside the archive at once. A run that was killed continues where it was,
-    and points that an archive at `path` already has are not computed again. Results for points that are no
+    and points that an archive at ``path`` already has are not computed again. Results for points that are no
     longer in the study are kept in a folder beside the archive, ``figure3.nc.kept``, and used again by a
     study that has them.
 
@@ -67,7 +67,7 @@ def run(
     Raises
     ------
     StudyError
-        A ValueError, if `study` is not a Study, or no archive can have that path.
+        A ValueError, if ``study`` is not a Study, or no archive can have that path.
     OSError
         If the archive cannot be written, which is checked before anything is computed; if another run is
         writing it (`LockedError`); or if the disk is full.
@@ -75,7 +75,7 @@ def run(
         An OSError, if the scheduler of a cluster is gone, or its workers have another version of the solver
         or lack it.
     ArchiveError
-        A ValueError, if the file at `path` is not an archive.
+        A ValueError, if the file at ``path`` is not an archive.
     Stopped
         A KeyboardInterrupt, on Ctrl-C.
 

@@ -16,8 +16,8 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 MOST_ROWS = 100_000
 
 
-def read_columns(path: Path, names: Sequence[str]) -> FloatArray:
-    """The columns of a CSV file, shape (rows, len(names)), in the order of the names.
+def read_columns(path: Path, names: Sequence[str], optional: Sequence[str] = ()) -> FloatArray:
+    """The columns of a CSV file, shape (rows, k), in the order of the names.
 
     Parameters
     ----------
@@ -25,6 +25,8 @@ def read_columns(path: Path, names: Sequence[str]) -> FloatArray:
         The file: a header with the names of the columns, then a row of numbers for each point.
     names
         Names of columns; others in the file are left alone.
+    optional
+        Names of columns that come behind them if the file has them.
 
     Raises
     ------
@@ -39,6 +41,7 @@ def read_columns(path: Path, names: Sequence[str]) -> FloatArray:
             if not {*names} <= {*header}:
                 found = f"the columns {', '.join(header) or 'of an empty file'}"
                 raise StudyError([Mistake("", found, f"a header with {', '.join(names)}", source)])
+            names = [*names, *(name for name in optional if name in header)]
             places = [header.index(name) for name in names]
             values = [_numbers(row, places, names, rows.line_num, source) for row in _few(rows, source)]
     except OSError as error:

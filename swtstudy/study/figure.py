@@ -103,4 +103,6 @@ def reference(y: str) -> tuple[str, Value] | None:
     name = LETTERS.get(unicodedata.normalize("NFKC", name), name)  # a keyboard's µ is not the letter μ
     if name not in PARAMETERS:
         raise ValueError(f"unknown parameter {name}")
+    if PARAMETERS[name].kind == "name":
+        return name, raw.strip()  # what results or a study define has names of its own
     return name, read_value(PARAMETERS[name], raw.strip())

@@ -11,8 +11,8 @@ from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
 from swtstudy.study.columns import read_columns
 
-#: Columns of the file of a loop.
-COLUMNS = ("normal", "tangential")
+#: Columns of the file of a loop, and one that it may have.
+COLUMNS, BULK = ("normal", "tangential"), "bulk"
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 
@@ -38,10 +38,11 @@ def read_loops(
         key = f"loads.{name}"
         if not isinstance(table.get("file", ""), str):
             continue  # reported with the structure
-        given = [each for each in ("vertices", "file", "normal", "tangential") if table.get(each) is not None]
-        if given not in (["vertices"], ["file"], ["normal", "tangential"]):
+        keys = ("vertices", "file", *COLUMNS, BULK)
+        given = [each for each in keys if table.get(each) is not None]
+        if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
             given_words = " and ".join(given) or "nothing"
-            allowed = "vertices, file, or normal and tangential"
+            allowed = "vertices, file, or normal and tangential, with or without bulk"
             mistakes.append(Mistake(key, given_words, allowed, source))
             continue
         try:
@@ -57,9 +58,10 @@ def read_loops(
 
 def _loop(name: str, table: Mapping[str, Any], kind: str, folder: Path) -> Named:
     if kind == "normal":
-        return LoadPath.harmonic_sum(name, table["normal"], table["tangential"])
-    by_file = kind == "file"
-    return LoadPath(name, read_columns(folder / table["file"], COLUMNS) if by_file else table["vertices"])
+        return LoadPath.harmonic_sum(name, table["normal"], table["tangential"], table.get("bulk") or ())
+    if kind == "vertices":
+        return LoadPath(name, table["vertices"])
+    return LoadPath(name, read_columns(folder / table["file"], COLUMNS, (BULK,)))
 
 
 def place_of(mistake: Mistake) -> str:

@@ -68,7 +68,7 @@ def _cost(study: Study) -> str:
 
 
 def _meaning(name: str, role: str | None = None) -> str:
-    return AXES[name].meaning + (f"; figure: {role}" if role else "")
+    return AXES[name].described + (f"; figure: {role}" if role else "")
 
 
 def _values(values: tuple[Value, ...]) -> str:

@@ -24,7 +24,8 @@ _DESCRIPTIONS = {
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
-    "loads": "Loops of the load, by name: vertices, or a CSV file with the columns normal and tangential.",
+    "loads": "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
+    "optionally, bulk, or harmonics.",
     "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
@@ -49,11 +50,13 @@ _SAMPLE_DESCRIPTIONS = {
     "points": "Points given here: a list of values for each parameter, all of one length.",
 }
 _LOAD_DESCRIPTIONS = {
-    "vertices": "Pairs c_n, c_t: the normal load is 1 + its amplitude times c_n, the tangential one its "
-    "amplitude times c_t.",
-    "file": "Path of a CSV file, relative to the study, with a header and the columns normal and tangential.",
+    "vertices": "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "
+    "tangential one its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b.",
+    "file": "Path of a CSV file, relative to the study, with a header and the columns normal, tangential "
+    "and, optionally, bulk.",
     "normal": "Harmonics of c_n instead of vertices: rows of order, amplitude and phase.",
     "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
+    "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
@@ -180,7 +183,7 @@ def _range(parameter: Parameter) -> dict[str, Any]:
 def _description(parameter: Parameter) -> str:
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
-    return f"{parameter.meaning}: {parameter.allowed}{of}"
+    return f"{parameter.described}: {parameter.allowed}{of}"
 
 
 def _without_titles(part: Any) -> Any:

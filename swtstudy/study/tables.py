@@ -62,6 +62,7 @@ class LoadTable(_Table):
     file: str | None = None
     normal: Any = None
     tangential: Any = None
+    bulk: Any = None
 
 
 class ProfileTable(_Table):

@@ -52,7 +52,7 @@ def _fixed() -> str:
     for name, parameter in (*PARAMETERS.items(), (DISTANCE, QUANTITY_AXES[DISTANCE])):
         if name == "profile" or name in _USED:
             continue
-        lines.append(f"# {parameter.meaning}: {parameter.allowed}")
+        lines.append(f"# {parameter.described}: {parameter.allowed}")
         default = parameter.default
         value = "…" if default is None else quoted(default) if isinstance(default, str) else f"{default:.6g}"
         lines.append(f"# {name} = {value}")

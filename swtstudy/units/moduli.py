@@ -25,17 +25,17 @@ class Moduli:
 
     @property
     def normal(self) -> float:
-        """E* (eq. 2)."""
+        """The modulus E* (eq. 2)."""
         return 1.0 / sum((1.0 - nu) / (2.0 * g) for g, nu in zip(self.shear, self.poisson, strict=True))
 
     @property
     def tangential(self) -> float:
-        """G* with 2 − ν: eq. 2 is printed with 1 − 2ν, with which eq. 21 would not hold."""
+        """The modulus G* with 2 − ν; eq. 2 is printed with 1 − 2ν, with which eq. 21 would not hold."""
         return 1.0 / sum((2.0 - nu) / (4.0 * g) for g, nu in zip(self.shear, self.poisson, strict=True))
 
     @property
     def mismatch(self) -> float:
-        """Dundurs' β: 0 for bodies that are similar after eq. 1.
+        """Dundurs' β, 0 for bodies that are similar after eq. 1.
 
         β = ½ [(1 − 2ν1)/G1 − (1 − 2ν2)/G2] / [(1 − ν1)/G1 + (1 − ν2)/G2]. Pressure p then drags tangential
         tractions of the order β p along, which the uncoupled solution leaves out; friction bears μ p.

@@ -34,6 +34,8 @@ CELLS, VALUE_CELLS = 16, 60
 BETWEEN = 12
 ANGLES = np.linspace(0.0, np.pi, 9)
 DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
+#: Radii and a depth besides, in the largest contact radius, with a bulk stress: its tension is everywhere.
+BEYOND, BENEATH = np.array([1.5, 4.0]), 2.5
 #: First steps of a climb, in the largest contact radius, rad, and that radius. Half or twice: 4e-9.
 FIRST_STEPS = np.array([0.03, 0.15, 0.02])
 #: Places of the first look to climb from. One or six: no change in four bodies, the same time.
@@ -46,6 +48,10 @@ ROUNDS = 8
 #: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
 #: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
 RING = 1e-3
+#: swt closer to that far from the contact than this is no more than that, relative, as for s.
+SAME = 1e-9
+#: The plane that a bulk stress alone makes critical.
+_ALONG_X = np.array([1.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True)
@@ -57,7 +63,7 @@ class BodyMaximum:
     swt
         Over E* δ0/R.
     position
-        Shape (3,): x, y, z in a_H.
+        Shape (3,): x, y, z in a_H; x is infinite where swt is that of a bulk stress, far from the contact.
     normal
         Shape (3,): the critical plane's.
     """
@@ -94,7 +100,7 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     scene
         A batch of one point.
     line_x
-        Signed x of the surface line's maximum.
+        Signed x of the surface line's maximum; NaN where there is none, or far from the contact.
 
     Returns
     -------
@@ -102,6 +108,9 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
         The search starts from the highest places of a first look and from the line's own maximum.
     """
     largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
+    far = _far_field(scene)
+    line_is_far = not np.isfinite(line_x)
+    line_x = largest if line_is_far else line_x
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
     flat = float(scene.profile.flat_radius[0])
     search = _Search(scene, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
@@ -111,8 +120,18 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
     swt, normal = Body(scene, nodes, VALUE_CELLS).swt(*_cartesian(both))
     best = int(swt[1] >= swt[0])
-    position = np.array(_cartesian(both[best]))
-    return BodyMaximum(float(swt[best]), position, normal[best]), CriticalPlane(swt[1], normal[1])
+    found = BodyMaximum(float(swt[best]), np.array(_cartesian(both[best])), normal[best])
+    if far > 0.0 and far >= (1.0 - SAME) * found.swt:
+        found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
+    at_line = CriticalPlane(np.array(far), _ALONG_X) if line_is_far else CriticalPlane(swt[1], normal[1])
+    return found, at_line
+
+
+def _far_field(scene: Scene) -> float:
+    """swt of the bulk stress alone, 0 without one."""
+    if scene.bulk is None:
+        return 0.0
+    return float(scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent)[0])
 
 
 def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
@@ -126,9 +145,10 @@ def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spe
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
     scene, largest = search.scene, search.largest
-    grid = np.stack(
-        np.meshgrid(_radii(scene, largest), ANGLES, largest * DEPTHS, indexing="ij"), axis=-1
-    ).reshape(-1, 3)
+    radii, depths = _radii(scene, largest), largest * DEPTHS
+    if scene.bulk is not None:
+        radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
+    grid = np.stack(np.meshgrid(radii, ANGLES, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
     swt = Body(scene, time_nodes(scene, LOOK), CELLS).coarse_swt(*_cartesian(grid))
     chosen = [own]

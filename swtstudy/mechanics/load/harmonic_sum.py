@@ -87,6 +87,12 @@ class HarmonicSum:
         return np.unique(np.mod(monotone_roots(curve, np.zeros(len(low)), brackets), PERIOD))
 
     @cached_property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value."""
+        values = np.append(self.at_turns, self.value(np.zeros(1)))
+        return float(values.min()), float(values.max())
+
+    @cached_property
     def at_turns(self) -> FloatArray:
         """Its values at the turns, shape (m,)."""
         return self.value(self.turns)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.loop import Loop, checked_name
-from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
+from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
 from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
@@ -23,7 +24,7 @@ SIDES_PER_OSCILLATION = 12
 
 
 class LoadPath(Loop):
-    """A closed loop of the normal and the tangential load, run through again and again.
+    """A closed loop of the normal and the tangential load and a bulk stress, run through again and again.
 
     Its sides are straight. Nothing depends on the speed, nor on the vertex at which it starts; the
     tangential load starts from zero at the first normal load. A loop run backwards is another loop.
@@ -33,9 +34,10 @@ class LoadPath(Loop):
     name
         For people, files and figures.
     vertices
-        Shape (k, 2), k ≥ 2: c_n and c_t, –. The normal load is 1 + its amplitude times c_n, the tangential
-        one its amplitude times c_t, of whatever is prescribed. Vertices on the line between their neighbours
-        are left out.
+        Shape (k, 2), k ≥ 2: c_n and c_t, –; or (k, 3), with c_b. The normal load is 1 + its amplitude times
+        c_n, the tangential one its amplitude times c_t, of whatever is prescribed; the bulk stress is its
+        mean plus its amplitude times c_b, 0 without that column. Vertices on the line between their
+        neighbours in all columns are left out.
 
     Raises
     ------
@@ -52,7 +54,7 @@ class LoadPath(Loop):
 
     def __init__(self, name: str, vertices: ArrayLike) -> None:
         self.name = checked_name(name)
-        #: Shape (k, 2), from the vertex that is the first in lexicographic order.
+        #: Shape (k, 2), or (k, 3) unless c_b is 0, from the vertex that is the first in lexicographic order.
         self.vertices = _canonical(_checked(vertices, self.name), self.name)
 
     @classmethod
@@ -62,6 +64,7 @@ class LoadPath(Loop):
         *,
         normal: tuple[float, float] = (0.0, 1.0),
         tangential: tuple[float, float] = (-1.0, 1.0),
+        bulk: tuple[float, float] = (0.0, 0.0),
     ) -> LoadPath:
         """Normal load on, tangential load up, down, normal load off: a rectangle of both loads.
 
@@ -71,22 +74,26 @@ class LoadPath(Loop):
             Its name.
         normal, tangential
             Least and largest c_n and c_t.
+        bulk
+            c_b where c_t is least and largest: the bulk stress goes with the tangential load.
         """
-        (low, high), (back, forth) = normal, tangential
-        return cls(name, [[low, back], [high, back], [high, forth], [low, forth]])
+        (low, high), back, forth = normal, *zip(tangential, bulk, strict=True)
+        return cls(name, [[low, *back], [high, *back], [high, *forth], [low, *forth]])
 
     @classmethod
-    def triangle(cls, name: str, *, normal: float = 0.0, tangential: float = 1.0) -> LoadPath:
-        """Both loads to and fro in proportion, in straight lines.
+    def triangle(
+        cls, name: str, *, normal: float = 0.0, tangential: float = 1.0, bulk: float = 0.0
+    ) -> LoadPath:
+        """Both loads and the bulk stress to and fro in proportion, in straight lines.
 
         Parameters
         ----------
         name
             Its name.
-        normal, tangential
-            c_n and c_t at one end; the other end is opposite.
+        normal, tangential, bulk
+            c_n, c_t and c_b at one end; the other end is opposite.
         """
-        return cls(name, [[normal, tangential], [-normal, -tangential]])
+        return cls(name, [[normal, tangential, bulk], [-normal, -tangential, -bulk]])
 
     def content(self) -> dict[str, Any]:
         return {"vertices": self.vertices.tolist()}
@@ -96,6 +103,7 @@ class LoadPath(Loop):
         name: str,
         normal: Sequence[tuple[int, float, float]],
         tangential: Sequence[tuple[int, float, float]],
+        bulk: Sequence[tuple[int, float, float]] = (),
     ) -> SmoothPath:
         """Major and minor cycles: sums of harmonics, which are solved without sampling.
 
@@ -103,8 +111,8 @@ class LoadPath(Loop):
         ----------
         name
             Its name.
-        normal, tangential
-            Order (0 to 64), amplitude and phase (rad) of each harmonic of c_n and c_t, which are
+        normal, tangential, bulk
+            Order (0 to 64), amplitude and phase (rad) of each harmonic of c_n, c_t and c_b, which are
             Σ amplitude · sin(order · φ + phase) over a period 2π of φ.
 
         Raises
@@ -112,10 +120,10 @@ class LoadPath(Loop):
         StudyError
             A ValueError with what is wrong with them.
         """
-        return SmoothPath(name, normal, tangential)
+        return SmoothPath(name, normal, tangential, bulk)
 
     @staticmethod
-    def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ArrayLike]]) -> SmoothPath:
+    def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:
         """A smooth loop from a function, as the harmonic sum that it is.
 
         Parameters
@@ -123,7 +131,8 @@ class LoadPath(Loop):
         name
             Its name.
         course
-            From φ in [0, 2π), shape (k,), to c_n and c_t there, each of shape (k,) or a single number.
+            From φ in [0, 2π), shape (k,), to c_n and c_t there, or c_n, c_t and c_b, each of shape (k,) or a
+            single number.
 
         Raises
         ------
@@ -136,7 +145,7 @@ class LoadPath(Loop):
     def of_content(cls, name: str, content: Mapping[str, Any]) -> Loop:
         if "vertices" in content:
             return cls(name, content["vertices"])
-        return SmoothPath(name, content["normal"], content["tangential"])
+        return SmoothPath.of_content(name, content)
 
     @cached_property
     def cost(self) -> int:
@@ -150,19 +159,24 @@ class LoadPath(Loop):
     def is_steady(self) -> bool:
         return bool(np.ptp(self.vertices[:, 0]) == 0.0)
 
+    @cached_property
+    def bulk(self) -> PolygonCourse | None:
+        if self.vertices.shape[1] < 3:
+            return None
+        return PolygonCourse(np.append(self.vertices[:, 2], self.vertices[0, 2]))
+
     @property
     def turn_count(self) -> int:
         # As many again where contact is made or lost.
         return len(self.vertices)
 
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
-        normal, tangential = self.vertices.T
-        return PolygonLoad.of(
-            [
-                np.stack([1.0 + n * normal, t * tangential], axis=1)
-                for n, t in zip(normal_amplitude, tangential_amplitude, strict=True)
-            ]
-        )
+        normal, tangential = self.vertices.T[:2]
+        loops = [
+            np.stack([1.0 + n * normal, t * tangential], axis=1)
+            for n, t in zip(normal_amplitude, tangential_amplitude, strict=True)
+        ]
+        return PolygonLoad.of(loops) if self.bulk is None else PolygonLoad.through(loops)
 
 
 def _checked(vertices: ArrayLike, name: str) -> FloatArray:
@@ -172,10 +186,12 @@ def _checked(vertices: ArrayLike, name: str) -> FloatArray:
     except (TypeError, ValueError):
         found = np.array("")
     if found.dtype.kind not in "iuf":
-        raise StudyError([Mistake(key, literal(vertices), "a list of pairs of numbers")])
+        allowed = "a list of pairs of numbers, or of triples with the bulk stress"
+        raise StudyError([_of_another_length(vertices, key) or Mistake(key, literal(vertices), allowed)])
     found = found.astype(np.float64)
-    if found.ndim != 2 or found.shape[1:] != (2,):
-        raise StudyError([Mistake(key, f"an array of shape {found.shape}", "pairs of numbers, shape (k, 2)")])
+    if found.ndim != 2 or found.shape[1] not in (2, 3):
+        allowed = "pairs of numbers, shape (k, 2), or triples with the bulk stress, (k, 3)"
+        raise StudyError([Mistake(key, f"an array of shape {found.shape}", allowed)])
     wrong = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if wrong.size:
         row = int(wrong[0])
@@ -185,8 +201,21 @@ def _checked(vertices: ArrayLike, name: str) -> FloatArray:
     return found
 
 
+def _of_another_length(vertices: object, key: str) -> Mistake | None:
+    """The first vertex that has not as many numbers as the one before."""
+    if not isinstance(vertices, Sequence) or not all(isinstance(each, Sequence) for each in vertices):
+        return None
+    for number, (before, each) in enumerate(itertools.pairwise(vertices), start=2):
+        if {len(before), len(each)} == {2, 3}:
+            allowed = f"{len(before)} numbers, as before: the third one is the bulk stress"
+            return Mistake(f"{key}, number {number}", literal(each), allowed)
+    return None
+
+
 def _canonical(vertices: FloatArray, name: str) -> FloatArray:
     """Without vertices on the line between their neighbours, and from the least vertex on."""
+    if vertices.shape[1] == 3 and not vertices[:, 2].any():
+        vertices = vertices[:, :2]
     lean = without_collinear(vertices) + 0.0
     if len(lean) < 2:
         raise StudyError([Mistake(f"vertices of {name}", "a single point", "2 distinct points at least")])

@@ -3,20 +3,35 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN
+from swtstudy.parameters import BUILT_IN, PAIRS
+
+
+class BulkCourse(Protocol):
+    """Course of a bulk stress over the angle φ of a loop."""
+
+    def value(self, instant: FloatArray) -> FloatArray:
+        """c_b at instants of any shape."""
+
+    @property
+    def turns(self) -> FloatArray:
+        """Instants at which it turns while the load may not, shape (k,)."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value."""
 
 
 class Loop(Named):
     """A closed loop of the normal and the tangential load, run through again and again.
 
     The normal load is 1 + its amplitude times c_n, the tangential one its amplitude times c_t, of whatever is
-    prescribed.
+    prescribed. A bulk stress may go with it: its mean plus its amplitude times c_b.
     """
 
     parameter: ClassVar[str] = "load"
@@ -30,6 +45,15 @@ class Loop(Named):
     @abstractmethod
     def is_steady(self) -> bool:
         """Whether the normal load is constant."""
+
+    @property
+    @abstractmethod
+    def bulk(self) -> BulkCourse | None:
+        """c_b; None where it is 0."""
+
+    @property
+    def scaled_by(self) -> tuple[str, ...]:
+        return (*PAIRS.values(), *(("bulk_stress_amplitude",) if self.bulk else ()))
 
     @property
     @abstractmethod

@@ -6,6 +6,7 @@ leaves a line of the diagram, and every passage is the root of a linear function
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -59,12 +60,16 @@ class PolygonLoad(Load):
             raise ValueError("a loop must have vertices of shape (k, 2), k ≥ 1")
         if not all(np.isfinite(loop).all() for loop in loops):
             raise ValueError("the vertices of a loop must be finite numbers")
-        lean = [without_collinear(np.asarray(loop, dtype=float)) for loop in loops]
-        sides = np.array([len(loop) for loop in lean], dtype=np.int64)
-        corners = np.empty((len(lean), int(sides.max(initial=1)) + 1, 2))
-        for row, loop in zip(corners, lean, strict=True):
+        return cls.through([without_collinear(np.asarray(loop, dtype=float)) for loop in loops])
+
+    @classmethod
+    def through(cls, loops: Sequence[FloatArray]) -> PolygonLoad:
+        """The same with every vertex: something else turns at those that `of` would leave out."""
+        sides = np.array([len(loop) for loop in loops], dtype=np.int64)
+        corners = np.empty((len(loops), int(sides.max(initial=1)) + 1, 2))
+        for row, loop in zip(corners, loops, strict=True):
             row[: len(loop)], row[len(loop) :] = loop, loop[0]
-        return cls(corners[..., 0], corners[..., 1], sides, np.arange(len(lean)))
+        return cls(corners[..., 0], corners[..., 1], sides, np.arange(len(loops)))
 
     def __len__(self) -> int:
         return len(self.sides)
@@ -173,13 +178,7 @@ class PolygonLoad(Load):
         return self.sides.astype(np.float64)
 
     def _side_and_share(self, instant: FloatArray) -> tuple[IntArray, FloatArray]:
-        """Number of the side on which each instant is, and the share of it that has passed."""
-        sides = align(self._count, instant)
-        place = instant * (sides / PERIOD)
-        vertex = np.rint(place)
-        place = np.where(np.abs(place - vertex) < AT_VERTEX * sides, vertex, place)
-        side = np.clip(np.floor(place), 0.0, sides - 1.0)
-        return side.astype(np.int64), place - side
+        return _side_and_share(instant, align(self._count, instant))
 
     def _ends(self, corner: FloatArray, side: IntArray) -> tuple[FloatArray, FloatArray]:
         """A component at both ends of sides."""
@@ -197,16 +196,56 @@ class PolygonLoad(Load):
         return (after - before) * (align(self._count, instant) / PERIOD)
 
 
+@dataclass(frozen=True)
+class PolygonCourse:
+    """What goes through values at the vertices of a polygon in straight lines, at the instants of its loads.
+
+    Attributes
+    ----------
+    corner
+        Shape (k + 1,): the values in the order of time, the first one again at the end.
+    """
+
+    corner: FloatArray
+
+    def value(self, instant: FloatArray) -> FloatArray:
+        """Values at instants of any shape."""
+        side, share = _side_and_share(instant, np.float64(len(self.corner) - 1))
+        before, after = self.corner[side], self.corner[side + 1]
+        return np.where(share < 1.0, before + share * (after - before), after)
+
+    @property
+    def turns(self) -> FloatArray:
+        """Instants at which it turns while the load does not: none."""
+        return np.zeros(0)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value."""
+        return float(self.corner.min()), float(self.corner.max())
+
+
+def _side_and_share(instant: FloatArray, sides: FloatArray | np.float64) -> tuple[IntArray, FloatArray]:
+    """Number of the side on which each instant is, and the share of it that has passed."""
+    place = instant * (sides / PERIOD)
+    vertex = np.rint(place)
+    place = np.where(np.abs(place - vertex) < AT_VERTEX * sides, vertex, place)
+    side = np.clip(np.floor(place), 0.0, sides - 1.0)
+    return side.astype(np.int64), place - side
+
+
 def without_collinear(loop: FloatArray) -> FloatArray:
-    """A closed polygon (k, 2) without repeated vertices and those on the straight line between neighbours."""
+    """A closed polygon (k, d) without repeated vertices and those on the straight line between neighbours."""
     moves = (loop != np.roll(loop, 1, axis=0)).any(axis=1)
     if not moves.any():
         return loop[:1]
     loop = loop[moves]
     before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
-    products = before[:, 0] * after[:, 1], before[:, 1] * after[:, 0]
-    size = np.abs(products[0]) + np.abs(products[1])
-    straight = np.abs(products[0] - products[1]) <= STRAIGHT * size
+    straight = np.ones(len(loop), dtype=bool)
+    for i, j in itertools.combinations(range(loop.shape[1]), 2):
+        products = before[:, i] * after[:, j], before[:, j] * after[:, i]
+        size = np.abs(products[0]) + np.abs(products[1])
+        straight &= np.abs(products[0] - products[1]) <= STRAIGHT * size
     # A vertex at which the loop turns back stays.
     straight &= (before * after).sum(axis=1) > 0.0
     return loop[~straight]

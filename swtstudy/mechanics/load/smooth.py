@@ -53,15 +53,15 @@ class SmoothLoad(Load):
 
     @property
     def least_normal(self) -> FloatArray:
-        return 1.0 + self.normal_amplitude * _ends(self.normal_sum)[0]
+        return 1.0 + self.normal_amplitude * self.normal_sum.ends[0]
 
     @property
     def largest_normal(self) -> FloatArray:
-        return 1.0 + self.normal_amplitude * _ends(self.normal_sum)[1]
+        return 1.0 + self.normal_amplitude * self.normal_sum.ends[1]
 
     @property
     def motion(self) -> FloatArray:
-        normal, tangential = (0.5 * np.ptp(_ends(one)) for one in (self.normal_sum, self.tangential_sum))
+        normal, tangential = (0.5 * np.ptp(one.ends) for one in (self.normal_sum, self.tangential_sum))
         return np.asarray(normal * self.normal_amplitude + tangential * self.tangential_amplitude)
 
     @property
@@ -159,9 +159,3 @@ class SmoothLoad(Load):
         rate = self.take(row)._slip_line(sense, 1)
         roots = monotone_roots(rate, np.zeros(len(row)), Brackets.of(rate, low, high))
         return filled_rows(row, np.mod(roots, PERIOD), len(self), PERIOD)
-
-
-def _ends(one: HarmonicSum) -> tuple[float, float]:
-    """Least and largest value."""
-    values = np.append(one.at_turns, one.value(np.zeros(1)))
-    return float(values.min()), float(values.max())

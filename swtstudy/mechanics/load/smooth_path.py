@@ -24,24 +24,24 @@ SAMPLES, ROUNDING = 1024, 1e-12
 
 
 class SmoothPath(Loop):
-    """A loop of two sums of harmonics; see `LoadPath.harmonic_sum`."""
+    """A loop of sums of harmonics; see `LoadPath.harmonic_sum`."""
 
-    def __init__(self, name: str, normal: object, tangential: object) -> None:
+    def __init__(self, name: str, normal: object, tangential: object, bulk: object = ()) -> None:
         self.name = checked_name(name)
-        #: Rows of order, amplitude and phase of c_n and c_t.
-        self.normal, self.tangential = (
-            _checked(rows, f"{key} of {name}")
-            for rows, key in ((normal, "normal"), (tangential, "tangential"))
-        )
-        if self._sums[0].is_constant and self._sums[1].is_constant:
+        columns = {"normal": normal, "tangential": tangential, "bulk": bulk}
+        #: Rows of order, amplitude and phase of c_n, c_t and c_b.
+        self.harmonics = {key: _checked(rows, f"{key} of {name}") for key, rows in columns.items()}
+        if self._bulk_sum.ends == (0.0, 0.0):
+            del self.harmonics["bulk"]
+        if all(_sum_of(rows).is_constant for rows in self.harmonics.values()):
             raise StudyError([Mistake(f"harmonics of {name}", "nothing that changes", "a loop")])
 
     def content(self) -> dict[str, Any]:
-        return {"normal": self.normal, "tangential": self.tangential}
+        return dict(self.harmonics)
 
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> SmoothPath:
-        return cls(name, content["normal"], content["tangential"])
+        return cls(name, content["normal"], content["tangential"], content.get("bulk", ()))
 
     @property
     def cost(self) -> int:
@@ -65,28 +65,36 @@ class SmoothPath(Loop):
 
     @cached_property
     def _sums(self) -> tuple[HarmonicSum, HarmonicSum]:
-        normal, tangential = (_sum_of(rows) for rows in (self.normal, self.tangential))
-        return normal, tangential
+        return _sum_of(self.harmonics["normal"]), _sum_of(self.harmonics["tangential"])
+
+    @cached_property
+    def _bulk_sum(self) -> HarmonicSum:
+        return _sum_of(self.harmonics.get("bulk", ()))
+
+    @property
+    def bulk(self) -> HarmonicSum | None:
+        return self._bulk_sum if "bulk" in self.harmonics else None
 
     @property
     def _order(self) -> int:
-        return max(one.highest for one in self._sums)
+        return max(one.highest for one in (*self._sums, self._bulk_sum))
 
 
-def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ArrayLike]]) -> SmoothPath:
+def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:
     """A smooth loop from a function; see `LoadPath.sampled`."""
     instant = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
     try:
         columns = [np.broadcast_to(np.asarray(each, float), instant.shape) for each in course(instant)]
-        normal, tangential = columns
+        if len(columns) not in (2, 3):
+            raise ValueError(f"{len(columns)} columns")
     except (TypeError, ValueError) as error:
-        allowed = "c_n and c_t, each of the shape of φ"
+        allowed = "c_n and c_t, or c_n, c_t and c_b, each of the shape of φ"
         raise StudyError(
             [Mistake(f"course of {name}", f"a function that fails ({error})", allowed)]
         ) from None
-    if not (np.isfinite(normal).all() and np.isfinite(tangential).all()):
+    if not all(np.isfinite(each).all() for each in columns):
         raise StudyError([Mistake(f"course of {name}", "a value that is no finite number", "finite numbers")])
-    return SmoothPath(name, _harmonics(normal, name), _harmonics(tangential, name))
+    return SmoothPath(name, *(_harmonics(each, name) for each in columns))
 
 
 def _harmonics(values: FloatArray, name: str) -> list[tuple[int, float, float]]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.load.loop import BulkCourse
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.criterion import Walker, combined
 from swtstudy.mechanics.points import FloatArray, Points
@@ -93,11 +94,47 @@ class HarmonicBulk(BulkStress):
         return np.sort(np.mod((quarter - self.phase[:, None]) / self.p, PERIOD), axis=1)
 
 
+@dataclass(frozen=True)
+class LoopBulk(BulkStress):
+    """n bulk stresses that go with a loop, B = mean + amplitude c_b.
+
+    Attributes
+    ----------
+    mean, amplitude
+        Shape (n,).
+    course
+        c_b.
+    """
+
+    mean: FloatArray
+    amplitude: FloatArray
+    course: BulkCourse
+
+    def take(self, index: NDArray[np.intp]) -> LoopBulk:
+        return LoopBulk(self.mean[index], self.amplitude[index], self.course)
+
+    def at(self, instant: FloatArray) -> FloatArray:
+        return align(self.mean, instant) + align(self.amplitude, instant) * self.course.value(instant)
+
+    @property
+    def least(self) -> FloatArray:
+        return self.mean + self.amplitude * self.course.ends[0]
+
+    @property
+    def largest(self) -> FloatArray:
+        return self.mean + self.amplitude * self.course.ends[1]
+
+    def turning_instants(self) -> FloatArray:
+        return np.tile(self.course.turns, (len(self.mean), 1))
+
+
 def bulk_of(points: Points) -> BulkStress | None:
-    """The bulk stresses of points with one frequency ratio; None where no point has any."""
+    """The bulk stresses of points with one course of the load; None where no point has any."""
     mean, amplitude = points.bulk_stress_mean, points.bulk_stress_amplitude
     if not (mean.any() or amplitude.any()):
         return None
+    if points.path is not None and points.path.bulk is not None:
+        return LoopBulk(mean, amplitude, points.path.bulk)
     return HarmonicBulk(mean, amplitude, points.bulk_stress_phase, int(points.p[0]))
 
 

@@ -2,7 +2,8 @@
 
 The strain of the body that carries an oscillating bulk stress drags its surface under the other body. For a
 Hertz contact of similar materials a stick circle off centre makes a uniform strain, which cancels that of
-the bulk stress along x if the shift is e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H.
+the bulk stress along x if the shift is e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A
+is half the range of the bulk stress, as of an oscillation.
 """
 
 from __future__ import annotations
@@ -25,6 +26,9 @@ def bulk_shift(points: Points) -> FloatArray:
     if points.profile != PLAIN:
         return np.full(len(points), np.nan)
     ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
+    if points.path is not None:
+        course = points.path.bulk
+        amplitude = amplitude * (0.0 if course is None else 0.5 * np.ptp(course.ends))
     with np.errstate(divide="ignore", invalid="ignore"):
         shift = 2.0 * amplitude / (μ * (1.0 + ν) * (4.0 - 3.0 * ν))
     width = np.full(len(points), np.nan)

@@ -1,0 +1,155 @@
+"""The sheet that a figure fills: a screen, a journal's column, or its page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from swtstudy.figures.figure import Figure
+from swtstudy.mistakes import Mistake, StudyError, literal
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+#: What a figure is made for; without it for a screen, where it grows with its panels.
+Width = Literal["column", "page"]
+
+_INCH = 2.54
+#: Widths of a journal's column and page, inches, and the height that a page has for figures.
+WIDTHS: dict[str, float] = {"column": 8.5 / _INCH, "page": 17.5 / _INCH}
+_TALLEST = 23.0 / _INCH
+#: Panels side by side in print, where they are no more than fit.
+_ACROSS = {"column": 1, "page": 3}
+#: Size of a panel on a screen, inches.
+PANEL = (4.0, 3.2)
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """What a figure is made for, and the panels that it has.
+
+    Attributes
+    ----------
+    rows
+        Rows of panels that belong together, such as a quantity each.
+    count
+        Panels of each row; they continue in the next line where the sheet ends.
+    width
+        "column", 8.5 cm; "page", 17.5 cm; or None for a screen.
+    panel
+        Width and height of a panel on a screen, inches.
+    most
+        Most panels side by side on a screen; None for any number.
+    least_height
+        Height of a panel in print, inches, where others would be lower.
+    fold
+        Whether there are more panels side by side in print where they would be longer than a page.
+    """
+
+    rows: int
+    count: int
+    width: Width | None = None
+    panel: tuple[float, float] = PANEL
+    most: int | None = None
+    least_height: float = 0.0
+    fold: bool = True
+
+    def __post_init__(self) -> None:
+        check_width(self.width)
+
+    @property
+    def across(self) -> int:
+        """Panels side by side."""
+        if self.width is None:
+            return min(self.count, self.most or self.count)
+        least = _ACROSS[self.width]
+        lines = -(-self.count // least)
+        # No more side by side than the lines need: four panels are two by two.
+        least = -(-self.count // lines)
+        most = min(self.count, _ACROSS[self.width] + 1) if self.fold else least
+        choices = range(least, max(least, most) + 1)
+        return next((n for n in choices if self._height(n) <= _TALLEST), choices[-1])
+
+    @property
+    def lines(self) -> int:
+        """Lines of panels of each row."""
+        return -(-self.count // self.across)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, inches."""
+        if self.width is None:
+            width, height = self.panel
+            return width * self.across, height * self.rows * self.lines
+        return WIDTHS[self.width], self._height(self.across)
+
+    def _height(self, across: int) -> float:
+        """Height in print with so many panels side by side: flatter where they are wide, 8 cm at most."""
+        each = min(0.85 + 0.45 * WIDTHS[self.width or "page"] / across, 8.0 / _INCH)
+        each = max(each, self.least_height)
+        return each * self.rows * -(-self.count // across)
+
+    def figure(self, beside: float = 0.0) -> Figure:
+        """An empty figure; on a screen it has so many inches more in width, for scales beside the panels."""
+        width, height = self.size
+        return new_figure((width + beside if self.width is None else width, height), self.width)
+
+    def panels(self, figure: Figure, share_x: str = "all", share_y: str = "row") -> NDArray[Any]:
+        """Panels of shape (rows, count).
+
+        Parameters
+        ----------
+        figure
+            Where they are.
+        share_x, share_y
+            Which panels have the axis in common: "all", those of a "row", or "none".
+        """
+        across, lines = self.across, self.lines
+        grid = figure.add_gridspec(self.rows * lines, across)
+        panels = np.empty((self.rows, self.count), dtype=object)
+        for row in range(self.rows):
+            for index in range(self.count):
+                line, column = divmod(index, across)
+                first = {"all": panels[0, 0], "row": panels[row, 0], "none": None}
+                shared = {"sharex": first[share_x], "sharey": first[share_y]}
+                one = figure.add_subplot(grid[row * lines + line, column], **shared)
+                panels[row, index] = one
+                one.tick_params(labelleft=column == 0 or share_y == "none")
+                last = row == self.rows - 1 and index + across >= self.count
+                one.tick_params(labelbottom=last or share_x != "all")
+        return panels
+
+    def first_of_lines(self, panels: NDArray[Any]) -> NDArray[Any]:
+        """The panels at the left end of their lines, of shape (rows, lines)."""
+        return panels[:, :: self.across]
+
+    def lowest(self, panels: NDArray[Any]) -> list[Axes]:
+        """The panels with nothing beneath them."""
+        return list(panels[-1, max(self.count - self.across, 0) :])
+
+
+def check_width(width: object) -> None:
+    """Refuse a width that there is not.
+
+    Raises
+    ------
+    StudyError
+        A ValueError that names what is allowed.
+    """
+    if width is not None and width not in WIDTHS:
+        allowed = ", ".join(f'"{name}"' for name in WIDTHS)
+        raise StudyError([Mistake("width", literal(width), f"{allowed}, or None for a screen")])
+
+
+def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
+    """An empty figure whose panels leave room for all that is written around them."""
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    pad = 0.06 if width is None else 0.03
+    layout = ConstrainedLayoutEngine(w_pad=pad, h_pad=pad, wspace=0.05 if width is None else 0.03)
+    figure = Figure(size, layout=layout)
+    figure.width = width
+    return figure

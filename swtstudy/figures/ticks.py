@@ -1,0 +1,76 @@
+"""Ticks at fractions of π and at cells, as many as an axis has room for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.ticker import FuncFormatter, Locator
+
+from swtstudy.wording import pi_words
+
+if TYPE_CHECKING:
+    from matplotlib.axis import Axis
+
+#: An end of an axis is a multiple of π if it is relatively this close to it.
+_TOLERANCE = 1e-9
+#: Most steps between ticks, however long the axis.
+_STEPS = 6
+#: Width of a letter, and distance of two labels upwards, in em.
+_LETTER, _UPWARDS = 0.62, 1.2
+#: Largest denominator of a multiple of π that is ticked.
+_DENOMINATOR = 4
+
+
+def tick_in_pi(axis: Axis, low: float, high: float) -> None:
+    """Put ticks at multiples of π/4, or at coarser ones over a long range or a short axis."""
+    axis.set_major_locator(_InPi(low / math.pi, high / math.pi))
+    axis.set_major_formatter(
+        FuncFormatter(lambda x, _: pi_words(Fraction(x / math.pi).limit_denominator(_DENOMINATOR)))
+    )
+
+
+def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:
+    """Put a tick with its words at each of the places 0, 1, …, or at some where there is no room for more."""
+    axis.set_major_locator(_Cells(words, most))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: words[round(x)] if 0 <= x < len(words) else ""))
+
+
+class _InPi(Locator):
+    """Multiples of π between two ends, which are given in π."""
+
+    def __init__(self, low: float, high: float) -> None:
+        self.low, self.high = low, high
+
+    def __call__(self) -> list[float]:
+        span = self.high - self.low
+        room = max(min(_STEPS, self.axis.get_tick_space()), 1)  # type: ignore[union-attr]
+        step = next((s for s in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / s <= room), None)
+        step = step or Fraction(math.ceil(span / room))
+        first, last = math.ceil(self.low / step - _TOLERANCE), math.floor(self.high / step + _TOLERANCE)
+        return [float(step * index) * math.pi for index in range(first, last + 1)]
+
+
+class _Cells(Locator):
+    """Every cell, or every second, third … one, with the shortest words that steps of this size give."""
+
+    def __init__(self, words: Sequence[str], most: int) -> None:
+        self.words, self.most = words, most
+
+    def __call__(self) -> list[float]:
+        least = next((step for step in range(1, len(self.words)) if self._fits(step)), len(self.words))
+        step = min(range(least, 2 * least), key=self._longest)
+        return [float(place) for place in range(0, len(self.words), step)]
+
+    def _longest(self, step: int) -> int:
+        return max(map(len, self.words[::step]))
+
+    def _fits(self, step: int) -> bool:
+        """Whether labels have room; matplotlib counts 3 em for each across, and 2 upwards."""
+        axis: Any = self.axis
+        count = -(-len(self.words) // step)
+        if axis.axis_name == "y":
+            return count <= min(self.most, axis.get_tick_space() * 2.0 / _UPWARDS)
+        return count <= min(self.most, axis.get_tick_space() * 3.0 / (_LETTER * self._longest(step) + 1.0))

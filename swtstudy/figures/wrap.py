@@ -1,0 +1,54 @@
+"""Titles and labels in print: broken into lines where they are longer than there is room."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.text import Text
+
+    from swtstudy.figures.figure import Figure
+
+#: A word with the blanks before it; a formula between $ is one word, and blanks before a sign belong to it.
+_WORD = re.compile(r"\s*(?:\$[^$]*\$|[^\s$])+")
+
+
+def wrap_texts(figure: Figure) -> None:
+    """Break titles and labels of axes that are longer than their panels; nothing to do on a screen."""
+    if figure.width is None:
+        return
+    figure.draw_without_rendering()
+    room = figure.bbox.width
+    if figure._suptitle is not None:  # type: ignore[attr-defined]
+        _wrap(figure._suptitle, 0.98 * room, False)  # type: ignore[attr-defined]
+    for axes in figure.axes:
+        ticks = axes.xaxis.get_tightbbox()
+        wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
+        for text in (axes.title, axes._left_title, axes._right_title):  # type: ignore[attr-defined]
+            _wrap(text, min(wide, room - axes.bbox.x0), False)
+        _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
+        _wrap(axes.yaxis.label, 1.15 * axes.bbox.height, True)
+
+
+def _wrap(text: Text, room: float, upright: bool) -> None:
+    """Break a text into lines no longer than the room, in pixels; a single word stays whole."""
+    lines = []
+    for given in text.get_text().splitlines():
+        line = ""
+        for word in _WORD.findall(given):
+            if line and _length(text, line + word, upright) > room:
+                lines.append(line)
+                word = word.lstrip()
+                line = ""
+            line += word
+        lines.append(line)
+    text.set_text("\n".join(lines))
+
+
+def _length(text: Text, words: str, upright: bool) -> Any:
+    before = text.get_text()
+    text.set_text(words)
+    box = text.get_window_extent()
+    text.set_text(before)
+    return box.height if upright else box.width

@@ -1,0 +1,177 @@
+"""Figures for print: as wide as asked, nothing cut off, nothing over anything else."""
+
+from io import BytesIO
+from itertools import pairwise
+
+import matplotlib
+import numpy as np
+import pytest
+from made_up import PANELS, made_up
+from matplotlib.transforms import Bbox
+from test_cli import call
+
+import swtstudy
+from swtstudy import Study
+from swtstudy.figures.sheet import Sheet
+from swtstudy.parameters import FAMILIES
+
+CM = 2.54
+WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
+PHASE = np.linspace(0.0, 2.0 * np.pi, 25)
+LONG = "One quantity over another, with a title that is longer than any column with $s = a$ is wide in print"
+
+FIGURES = {
+    "lines": (
+        {"phase": PHASE, "friction": np.linspace(0.1, 0.7, 7)},
+        {"x": "phase", "hue": "friction", "title": LONG},
+    ),
+    "panels": (
+        {"phase": PHASE, "friction": [0.1, 0.2], "normal_amplitude": [0.25, 0.5, 0.75, 0.9]},
+        {"x": "phase", "hue": "friction", "panels": "normal_amplitude", "y": ["s", "critical_angle"]},
+    ),
+    "names": (
+        {"phase": PHASE, "profile": [*FAMILIES], "tangential_amplitude": [1 / 3, 5 / 6]},
+        {"x": "phase", "hue": "profile", "panels": "tangential_amplitude"},
+    ),
+    "scale": (
+        {"phase": PHASE, "friction": np.linspace(0.1, 0.9, 9), "profile": [*FAMILIES]},
+        {"x": "phase", "hue": "friction", "panels": "profile"},
+    ),
+    "contours": (
+        {"phase": PHASE, "friction": np.linspace(0.1, 0.9, 9), "normal_amplitude": [0.25, 0.5]},
+        {"x": "phase", "vertical": "friction", "panels": "normal_amplitude", "kind": "contour"},
+    ),
+    "cells": (
+        {"phase": PHASE, "frequency_ratio": [p / 7 for p in range(1, 20)], "normal_amplitude": [0.25, 0.5]},
+        {"x": "phase", "vertical": "frequency_ratio", "panels": "normal_amplitude", "kind": "heatmap"},
+    ),
+}
+
+
+def wave(phase, **others):
+    """A made-up s that all parameters change, names in their order."""
+    return np.sin(phase) + 0.1 * sum(each.copy(data=np.arange(each.size)) for each in others.values())
+
+
+def drawn(name, width, **more):
+    axes, layout = FIGURES[name]
+    return made_up(wave, **axes).swt.panels(**layout, width=width, **more)
+
+
+def assert_printable(figure, width):
+    """As wide as asked; every artist on the sheet; texts, legends and panels apart."""
+    figure.savefig(BytesIO(), format="png")
+    assert figure.get_figwidth() == pytest.approx(WIDTHS[width])
+    tight = figure.get_tightbbox()
+    assert tight.x0 >= 0.0
+    assert tight.y0 >= 0.0
+    assert tight.x1 <= figure.get_figwidth()
+    assert tight.y1 <= figure.get_figheight()
+    panels = [axes.get_tightbbox() for axes in figure.axes]
+    for legend in figure.legends:
+        box = legend.get_window_extent()
+        assert not any(Bbox.intersection(box, panel) for panel in panels)
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            boxes = [text.get_window_extent() for text in axis.get_ticklabels() if text.get_text()]
+            visible = [box for box in boxes if box.width and box.height]
+            assert not any(Bbox.intersection(a, b) for a, b in pairwise(visible))
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("name", FIGURES)
+def test_nothing_is_cut_and_nothing_covered(name, width):
+    figure = drawn(name, width)
+    assert_printable(figure, width)
+    titles = [axes.title.get_window_extent() for axes in figure.axes]
+    titles += [axes._left_title.get_window_extent() for axes in figure.axes]
+    shown = [box for box in titles if box.width > 1.0]
+    for index, box in enumerate(shown):
+        assert not any(Bbox.intersection(box, other) for other in shown[index + 1 :])
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+def test_a_point_and_a_profile(width):
+    assert_printable(swtstudy.inspect(width=width), width)
+    assert_printable(swtstudy.draw_profile(profile="rounded_punch", flat_radius=0.5, width=width), width)
+
+
+def test_a_long_title_has_lines_and_its_formulae_are_whole():
+    figure = drawn("lines", "column")
+    lines = figure.get_suptitle().splitlines()
+    assert len(lines) == 2 + (len(lines) > 2)
+    assert " ".join(lines) == LONG
+    assert all(line.count("$") % 2 == 0 for line in lines)
+    assert drawn("lines", None).get_suptitle() == LONG
+
+
+@pytest.mark.parametrize(
+    ("rows", "count", "width", "across"),
+    [
+        (1, 1, "column", 1),
+        (1, 2, "column", 1),
+        (2, 2, "column", 2),  # four panels beneath each other are longer than a page
+        (1, 1, "page", 1),
+        (1, 3, "page", 3),
+        (1, 4, "page", 2),  # two by two rather than three and one
+        (1, 5, "page", 3),
+        (2, 2, "page", 2),
+        (1, 4, None, 4),
+    ],
+)
+def test_panels_side_by_side(rows, count, width, across):
+    sheet = Sheet(rows, count, width)
+    assert sheet.across == across
+    if width is None:
+        assert sheet.size == (4.0 * across, 3.2 * rows)
+    else:
+        assert sheet.size[0] == WIDTHS[width]
+        assert sheet.size[1] <= 23.0 / CM
+
+
+def test_letters_of_print_unless_the_user_wants_others():
+    def size(**more):
+        return drawn("lines", "column", **more).axes[0].xaxis.label.get_fontsize()
+
+    assert size() == 8.0
+    assert size(style={"font.size": 6.0}) == 6.0
+    with matplotlib.rc_context({"font.size": 9.5}):
+        assert size() == 9.5
+    assert drawn("lines", None).axes[0].xaxis.label.get_fontsize() == 10.0
+
+
+def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
+    from swtstudy.figures.save import save_figure
+
+    for width, dots in (("column", 8.5 / CM * 300), ("page", 17.5 / CM * 300), (None, 4.0 * 150)):
+        save_figure(drawn("lines", width), tmp_path / "figure.png")
+        head = (tmp_path / "figure.png").read_bytes()[16:20]
+        assert int.from_bytes(head, "big") == pytest.approx(dots, abs=1)
+
+
+def test_commands(tmp_path):
+    (tmp_path / "panels.toml").write_text(PANELS, encoding="utf-8")
+    assert call("run", tmp_path / "panels.toml", "--results", tmp_path, "--width", "page").exit_code == 0
+    archive = tmp_path / "panels.nc"
+    for command in (
+        ("plot", archive, "-o", tmp_path / "panels.png", "--width", "column"),
+        ("show", "--profile", "paraboloid", "-o", tmp_path / "profile.png", "--width", "column"),
+    ):
+        assert call(*command).exit_code == 0
+        picture = (tmp_path / command[command.index("-o") + 1]).read_bytes()
+        assert int.from_bytes(picture[16:20], "big") == pytest.approx(8.5 / CM * 300, abs=1)
+
+
+def test_a_width_that_there_is_not():
+    dataset = made_up(wave, **FIGURES["lines"][0])
+    words = 'width: found 12; allowed: "column", "page", or None for a screen'
+    with pytest.raises(ValueError, match=words):
+        dataset.swt.panels("phase", "friction", width=12)
+    with pytest.raises(ValueError, match="width: found"):
+        swtstudy.inspect(width="poster")
+    with pytest.raises(ValueError, match="width: found"):
+        swtstudy.draw_profile(profile="paraboloid", width="poster")
+    result = call("plot", "any.nc", "--width", "poster")
+    assert result.exit_code == 2
+    assert "'column', 'page'" in result.output
+    assert Study.from_text(PANELS).figure is not None
