@@ -98,8 +98,8 @@ class Look:
 
     def brackets(self, instants: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> TimeBrackets:
         """Brackets around instants, shape (n, X, e); for ``falling`` see `TimeBrackets.around`."""
-        at = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
-        return TimeBrackets.around(self.parts, self.count, *at, falling)
+        stretch, place = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
+        return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
