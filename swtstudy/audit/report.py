@@ -13,6 +13,7 @@ from swtstudy.archive.attributes import defined_in
 from swtstudy.audit.point import TOLERANCE, VERDICTS
 from swtstudy.audit.table import canonical_rows
 from swtstudy.grid.canonical import describe_point
+from swtstudy.mechanics.line.circle_gain import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ _WORDS = {
 }
 #: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
+_BULK = ("bulk_stress_mean", "bulk_stress_amplitude")
 #: How many of the points whose maximum the solver misses are listed one by one.
 _LISTED = 20
 
@@ -70,6 +72,9 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
     yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
     regime = np.array(REGIMES)[dataset["regime"].values]
     yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    # An older audit has no such columns.
+    if any(name in dataset.coords and dataset[name].values.any() for name in _BULK):
+        yield from _shares("bulk stress", _bulk_groups(dataset), finite, exceeded, excess, remainder)
     yield from _of_the_solver(dataset, exceeded)
 
 
@@ -118,6 +123,23 @@ def _shares(
             largest = f"{max(excess[inside].max(), 0.0):.2%} | {max(remainder[inside].max(), 0.0):.2%}"
             yield f"| {name} | {inside.sum()} | {(inside & exceeded).sum()} | {largest} |"
     yield ""
+
+
+def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_]]]:
+    """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
+    mean, ν = dataset["bulk_stress_mean"].values, dataset["poisson_ratio"].values
+    edge = (dataset["profile"].values == "truncated_paraboloid") & (
+        dataset["regime"].values == REGIMES.index("gross_slip")
+    )
+    hard, presses = ν > SAFE_POISSON_RATIO, mean < 0.0
+    limit = f"{SAFE_POISSON_RATIO:g}"
+    return [
+        (f"mean ≥ 0, ν ≤ {limit}, no truncated paraboloid that slides", ~presses & ~hard & ~edge),
+        (f"mean ≥ 0, ν ≤ {limit}, a truncated paraboloid that slides", ~presses & ~hard & edge),
+        (f"mean ≥ 0, ν > {limit}", ~presses & hard),
+        (f"mean < 0, ν ≤ {limit}", presses & ~hard),
+        (f"mean < 0, ν > {limit}", presses & hard),
+    ]
 
 
 def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:
