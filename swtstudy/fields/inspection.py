@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from swtstudy.fields.forces import course
+from swtstudy.fields.cycle_curves import (
+    Variables,
+    course_of_load,
+    edge_states,
+    instants_of,
+    marked_instants,
+    named,
+    of_states,
+    springs_of,
+)
 from swtstudy.fields.one_point import read_point
 from swtstudy.fields.places import turns
 from swtstudy.fields.slip import slip_map
-from swtstudy.fields.springs import spring_forces
-from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
-from swtstudy.mechanics.contact.cycle import NO_SLIP
+from swtstudy.mechanics.body.body import TimeNodes
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.events.nodes import Nodes
@@ -29,19 +34,12 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.parameters import PAIRS, Control
 from swtstudy.solving import solve
 
-Variables = dict[str, tuple[Any, Any, dict[str, str]]]
-
-#: Uniform instants for smooth curves: 360 for each oscillation of a cycle of up to 4, no fewer than 90 for
-#: each of longer cycles; and steps between two events.
-_SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
 #: The same for stick and slip, whose map has a cell for each.
 _SLIP_RADII, _SLIP_REACH = 601, 1.15
 #: How finely swt along the line is sampled: enough for a drawing.
 _RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, digits=8.0), 72
-#: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
-_MARKED, _APART = 4, 0.08
 
 
 def inspect_point(**parameters: object) -> xr.Dataset:
@@ -90,7 +88,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     points = read_point(parameters)
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
     if REGIMES[int(solved.regime)] == "no_equilibrium":
-        raise StudyError([_no_equilibrium(points.control, parameters)])
+        raise StudyError([no_equilibrium(points.control, parameters)])
     scene = scene_of(points)
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
@@ -101,19 +99,16 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
         double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
-    oscillations = max(scene.cycle.load.oscillations)
-    count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
-    uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
-    nodes = together(scene, time_nodes(scene, _STEPS, [abs(x)]), uniform)
+    nodes = instants_of(scene, [abs(x)])
     time = turns(scene) * nodes.instant
     unit = unit_half_load(points.profile, points.shape, 1)
-    cycle = _load(scene, unit, nodes) | _stress_cycle(scene, nodes, x, double_angle)
-    marked, reasons = _marked_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
+    cycle = course_of_load(scene, unit, nodes) | _stress_cycle(scene, nodes, x, double_angle)
+    marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
     some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
     shown: Variables = {
-        "shown_x": ((), x, _named("position at which the stress is shown", "x/a_H")),
+        "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), _named("SWT parameter", "swt")),
+        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), named("SWT parameter", "swt")),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
@@ -121,21 +116,17 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "x": (
             "x",
             _both_sides(radius, -radius),
-            _named("position in the direction of sliding", "x/a_H"),
+            named("position in the direction of sliding", "x/a_H"),
         ),
         "instant": np.arange(1, len(marked) + 1),
         "instant_time": ("instant", time[marked]),
         "reason": ("instant", reasons),
     }
     variables = (
-        cycle | extent | shown | _tractions(scene, some, radius) | _springs(scene, some, slip.r.values)
+        cycle | extent | shown | _tractions(scene, some, radius) | springs_of(scene, some, slip.r.values)
     )
-    variables["edge_state"] = "time", _edge_states(scene, nodes), _of_states(slip.state.attrs)
+    variables["edge_state"] = "time", edge_states(scene, nodes), of_states(slip.state.attrs)
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
-
-
-def _named(meaning: str, symbol: str) -> dict[str, str]:
-    return {"long_name": meaning, "units": "1", "symbol": symbol}
 
 
 def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
@@ -152,9 +143,9 @@ def _extent(scene: Scene) -> Variables:
         least = 0.0
     permanent = coordinate.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
     return {
-        "permanent_stick_radius": ((), permanent, _named("radius that always sticks", "c/a_H")),
-        "least_radius": ((), least, _named("least contact radius", "a/a_H")),
-        "largest_radius": ((), largest, _named("largest contact radius", "a/a_H")),
+        "permanent_stick_radius": ((), permanent, named("radius that always sticks", "c/a_H")),
+        "least_radius": ((), least, named("least contact radius", "a/a_H")),
+        "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
     }
 
 
@@ -167,40 +158,12 @@ def _radii(scene: Scene, special: list[float]) -> FloatArray:
     return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
 
 
-def _no_equilibrium(control: Control, parameters: Mapping[str, object]) -> Mistake:
+def no_equilibrium(control: Control, parameters: Mapping[str, object]) -> Mistake:
     """The force that friction does not carry, or the normal force that pulls."""
     pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
     name = next(name for name in pairs if name in PAIRS)
     found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
     return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
-
-
-def _load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
-    both = course(scene, unit, nodes)
-    return {
-        "depth": ("time", both.depth, _named("indentation depth", r"\delta/\delta_0")),
-        "displacement": (
-            "time",
-            both.displacement,
-            _named("tangential displacement", r"G^* u/(\mu E^* \delta_0)"),
-        ),
-        "normal_force": ("time", both.normal_force, _named("normal force", "F_N/F_0")),
-        "tangential_force": ("time", both.tangential_force, _named("tangential force", r"F_x/(\mu F_0)")),
-    }
-
-
-def _edge_states(scene: Scene, nodes: TimeNodes) -> NDArray[np.int8]:
-    """State of the outermost springs between each instant and the next, numbered as in `slip_map`."""
-    ends = np.append(nodes.instant[1:], nodes.instant[-1])
-    middle = nodes_at(scene, 0.5 * (nodes.instant + ends))
-    states = scene.cycle.states(middle.interval[None], middle.instant[None])
-    slips = np.where(states.sign > 0.0, 2, 3)
-    state = np.where(states.front >= (1.0 - NO_SLIP) * states.edge, 1, slips)
-    return np.where(states.edge > 0.0, state, 0)[0].astype(np.int8)
-
-
-def _of_states(flags: Mapping[str, Any]) -> dict[str, Any]:
-    return {**flags, "long_name": "state of the contact next to its edge, until the next instant"}
 
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
@@ -215,48 +178,19 @@ def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float)
     sigma_xx, _, _, sigma_xz = stresses(history, scene.poisson_ratio, scene.friction, side)
     bulk: Variables = {}
     if history.bulk is not None:
-        bulk["bulk_stress"] = "time", history.bulk[0, 0], _named("bulk stress", r"\sigma_B")
+        bulk["bulk_stress"] = "time", history.bulk[0, 0], named("bulk stress", r"\sigma_B")
     on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
     return {
-        "normal_stress": ("time", on_plane[0][0, 0], _named("stress normal to the plane", r"\sigma_n")),
+        "normal_stress": ("time", on_plane[0][0, 0], named("stress normal to the plane", r"\sigma_n")),
         "normal_strain": (
             "time",
             on_plane[1][0, 0],
-            _named("strain normal to the plane", r"\varepsilon_n"),
+            named("strain normal to the plane", r"\varepsilon_n"),
         ),
-        "sigma_xx": ("time", sigma_xx[0, 0], _named("stress xx", r"\sigma_{xx}")),
-        "sigma_xz": ("time", sigma_xz[0, 0], _named("stress xz", r"\sigma_{xz}")),
+        "sigma_xx": ("time", sigma_xx[0, 0], named("stress xx", r"\sigma_{xx}")),
+        "sigma_xz": ("time", sigma_xz[0, 0], named("stress xz", r"\sigma_{xz}")),
         **bulk,
     }
-
-
-def _marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[NDArray[np.intp], list[str]]:
-    """Instants at which curves over the cycle are extreme, in the order of time, and the reason for each."""
-    extremes = {
-        "σ_n largest": curves["normal_stress"].argmax(),
-        "ε_n smallest": curves["normal_strain"].argmin(),
-        "δ largest": curves["depth"].argmax(),
-        "δ smallest": curves["depth"].argmin(),
-        "u largest": curves["displacement"].argmax(),
-        "u smallest": curves["displacement"].argmin(),
-    }
-    touching = curves["depth"] > 0.0
-    distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
-    marked: dict[int, str] = {}
-
-    def mark(index: int, reason: str) -> None:
-        marked[index] = reason
-        nonlocal distance
-        distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
-
-    for reason, index in extremes.items():
-        of_swt = reason in ("σ_n largest", "ε_n smallest")
-        if len(marked) < _MARKED and distance[index] >= _APART and (of_swt or touching[index]):
-            mark(int(index), reason)
-    while len(marked) < _MARKED and np.ptp(curves["normal_strain"]) > 0.0:
-        mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
-    order = sorted(marked)
-    return np.array(order), [marked[index] for index in order]
 
 
 def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
@@ -265,19 +199,6 @@ def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
     p, q = history.pressure[0].T, -scene.friction * history.traction[0].T
     dims = ("instant", "x")
     return {
-        "pressure": (dims, _both_sides(p, p), _named("pressure", "p")),
-        "traction": (dims, _both_sides(q, q), _named("tangential traction in +x", "q")),
-    }
-
-
-def _springs(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
-    compression, force = spring_forces(scene, some, radius)
-    dims = ("instant", "r")
-    return {
-        "compression": (dims, compression, _named("compression of the springs", r"w/\delta_0")),
-        "force": (
-            dims,
-            force,
-            _named("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)"),
-        ),
+        "pressure": (dims, _both_sides(p, p), named("pressure", "p")),
+        "traction": (dims, _both_sides(q, q), named("tangential traction in +x", "q")),
     }
