@@ -206,6 +206,10 @@ def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
         f"| mean < 0, ν ≤ 0.35 | 1 | {off_line}",
         f"| mean < 0, ν > 0.35 | 1 | {off_line}",
     ]
+    assert lines[at + 8].startswith(
+        "With mean ≥ 0, ν ≤ 0.35, no truncated paraboloid that slides, the surface"
+    )
+    assert lines[at + 8].endswith("is enough at 2 of 2 points.")
     plain = report(made_up_audit())
     assert "bulk stress" not in plain
 
