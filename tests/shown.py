@@ -20,6 +20,7 @@ ROOT = Path(__file__).parent.parent
 PAGES = sorted(
     [
         ROOT / "README.md",
+        ROOT / "CONTRIBUTING.md",
         *(page for part in (".", "theory", "api") for page in (ROOT / "docs" / part).glob("*.md")),
     ]
 )

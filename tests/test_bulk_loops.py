@@ -309,3 +309,27 @@ def test_one_message_for_each_mistake_with_a_loop() -> None:
         assert len(caught.value.mistakes) == 1
     with pytest.raises(StudyError, match=r"course of mine: found .*4 columns"):
         LoadPath.sampled("mine", lambda t: (t, t, t, t))
+
+
+def test_of_a_real_contact_its_column_is_one_of_stresses() -> None:
+    still = LoadPath("mine", [[0, 1.0, -20.0], [0, -1.0, 80.0], [0, 0.2, 100.0]])
+    given: dict[str, Any] = {
+        "young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "normal_force": 200.0,
+        "friction": 0.5, "tangential_amplitude": 0.002, "load": still,
+    }  # fmt: skip
+    contact = swtstudy.physical(**given, bulk_stress_mean=10.0)
+    own, other = contact.parameters(0), contact.parameters(1)
+    assert own["bulk_stress_amplitude"] == pytest.approx(1.0 / contact.stress_scale)
+    assert own["bulk_stress_mean"] == pytest.approx(10.0 / contact.stress_scale)
+    # Said, since it would be 1 otherwise.
+    assert other["bulk_stress_amplitude"] == 0.0
+    scaled = still.vertices * [1.0, 1.0, 1.0 / contact.stress_scale]
+    own_s = swtstudy.solve(**{**own, "load": LoadPath("scaled", scaled), "bulk_stress_amplitude": 1.0})
+    found = contact.solve()
+    assert float(found.s[0]) == pytest.approx(float(own_s.s), rel=1e-9)
+    lean = LoadPath("lean", still.vertices[:, :2])
+    without = {**own, "load": lean, "bulk_stress_amplitude": 0.0, "bulk_stress_mean": 0.0}
+    assert float(found.s[1]) == pytest.approx(float(swtstudy.solve(**without).s), rel=1e-6)
+    # From -20 to 100: R = 0.25 wants 60 more, so that it goes from 40 to 160.
+    assert swtstudy.physical(**given, bulk_stress_ratio=0.25).bulk_stress_mean == pytest.approx(60.0)
+    assert contact.with_parameters(friction=0.4).bulk_stress_amplitude == pytest.approx(1.0)

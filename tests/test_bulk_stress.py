@@ -17,6 +17,7 @@ from test_values import ALIGNED
 import swtstudy
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics import Points, Solution, solve_points
+from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.stress.scene import scene_of
@@ -160,6 +161,25 @@ def test_where_the_bulk_stress_presses_the_circle_is_higher_than_the_line() -> N
     body, _ = body_maximum(scene_of(point), float(found.critical_x[0]))
     assert found.s_surface[0] > 1.015 * found.s[0]
     assert found.s_surface[0] == pytest.approx(body.swt, rel=5e-3)
+
+
+@pytest.mark.parametrize(("nu", "friction"), [(0.38, 0.05), (0.2, 0.0)])
+def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, friction: float) -> None:
+    """The pressure's own tension is radial: across the bulk stress it is what it was."""
+    pressed = with_bulk(points("paraboloid", nu, friction, 0.2, 0.9, 1.3), 0.0, -0.3, 0.0, 0.65)
+    found = solve_points(pressed)
+    assert found.s[0] < 1e-4 * found.s_surface[0]
+    scene, plain = scene_of(pressed), solve_points(replace(pressed, bulk_stress_mean=np.zeros(1)))
+    x = abs(found.critical_x[0]) if np.isfinite(found.critical_x[0]) else np.sqrt(1.2)
+    angle = np.linspace(0.0, 0.5 * np.pi, 41)
+    swt_there = Body(scene, time_nodes(scene, 20, [x]), 60).swt(x * np.cos(angle), x * np.sin(angle), 0.0).swt
+    # The instants are not those of the circle's own extremes: it is a lower bound.
+    assert 0.8 < found.s_surface[0] / swt_there.max() < 1.0 + 1e-3
+    body, _ = body_maximum(scene, float(found.critical_x[0]))
+    assert found.s_surface[0] <= body.swt * (1.0 + 1e-3)
+    if friction == 0.0:
+        # Then it is as high as it was on the line.
+        assert body.swt == pytest.approx(float(plain.s[0]), rel=1e-2)
 
 
 def test_the_body_says_the_same_as_the_line() -> None:

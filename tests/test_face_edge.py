@@ -146,3 +146,38 @@ def test_s_is_continuous_where_the_search_changes_hands() -> None:
     # Convex: the rise per step never falls.
     assert np.all(np.diff(found.s, 2) > -1e-4 * found.s[1:-1])
     assert np.all(solve_points(truncated(0.9, 0.75, 2.0, 0.7, [0.0, 1e-9, 1e-3])).s > 0.0)
+
+
+def pulled(mean: float, amplitude: float = 0.0, phase: float = 0.0, **other: float) -> Points:
+    own = {"friction": 0.0, "normal": 1.2, "tangential": 1.0, "phase": 1.0, "flat_radius": 1.0} | other
+    bulk = {"bulk_stress_mean": mean, "bulk_stress_amplitude": amplitude, "bulk_stress_phase": phase}
+    return replace(truncated(**own), **{name: np.array([value]) for name, value in bulk.items()})
+
+
+#: The contact is lost while φ + 1 is within 0.586 of 3π/2, whose sine is 0.553.
+LOST = {
+    "a constant pull": (pulled(0.05), True),
+    "a constant push": (pulled(-0.05), False),
+    "a pull while it is lost": (pulled(0.0, 0.1, 1.0 + np.pi), True),
+    "a push while it is lost": (pulled(0.0, 0.1, 1.0), False),
+    "a pull at the end of it": (pulled(-0.05, 0.1, 1.0 + 0.5 * np.pi), True),
+    "too little pull at the end of it": (pulled(-0.06, 0.1, 1.0 + 0.5 * np.pi), False),
+    "no friction for want of motion": (pulled(0.05, friction=0.3, tangential=0.0), True),
+    "the contact is not lost": (pulled(0.05, normal=0.9), False),
+    "slip pulls whatever the bulk stress": (pulled(-0.2, friction=0.3), True),
+}
+
+
+@pytest.mark.parametrize(("batch", "tears"), LOST.values(), ids=LOST)
+def test_a_bulk_stress_that_pulls_while_contact_is_lost_makes_s_infinite(batch: Points, tears: bool) -> None:
+    """It is all the tension that a plane needs: its strain swings with the pressure, without bound."""
+    found = sound(batch)
+    assert (regime_names(found) == ["not_finite"]) == tears
+    assert np.isnan(found.s[0]) == tears
+    distance = np.array([[1e3, 1e5]])
+    near, nearer = max(
+        (tuple(_swt(split_scene(batch), distance, side, start, 24, 7.0)[0][0]) for side in (1.0, -1.0)
+         for start in (0.5 * np.pi, 0.0, -0.5 * np.pi)),
+        key=lambda pair: pair[1],
+    )  # fmt: skip
+    assert (nearer > 50.0 * near > 0.0) == tears

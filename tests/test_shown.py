@@ -8,6 +8,7 @@ import re
 import shutil
 import sys
 from itertools import pairwise
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
@@ -148,6 +149,10 @@ def test_names_in_prose(name):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_in_prose_and_help(command, clone, monkeypatch):
     monkeypatch.chdir(clone)
+    # Whichever of the commands on mine.toml came before.
+    Path("mine.toml").unlink(missing_ok=True)
+    if "mine.toml" in command:
+        shown.run_command("swtstudy new mine")
     shown.run_command(FEWER.get(command, command))
     for kept in (shown.ROOT / "results").glob("*.md"):  # swtstudy check and audit write two of them anew
         assert (clone / "results" / kept.name).read_text("utf-8") == kept.read_text("utf-8"), kept
@@ -164,11 +169,26 @@ def test_a_block_of_text_is_what_the_block_before_it_prints():
             assert block.language != "text" or (before and before.language == "python"), block
 
 
-def test_links_of_the_readme_lead_somewhere():
-    for link in re.findall(
-        r"\]\((?!https?://)([^)#]+)", (shown.ROOT / "README.md").read_text(encoding="utf-8")
-    ):
-        assert (shown.ROOT / link).is_file(), link
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md"])
+def test_links_lead_somewhere(name):
+    for link in re.findall(r"\]\((?!https?://)([^)]+)", (shown.ROOT / name).read_text(encoding="utf-8")):
+        file, _, section = link.partition("#")
+        page = shown.ROOT / (file or name)
+        assert page.is_file(), link
+        assert not section or section in sections_of(page), link
+
+
+def sections_of(page):
+    """The anchors of the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_every_version_of_python_that_is_claimed_is_tested():
+    claimed = re.findall(r"Python :: (3\.\d+)", (shown.ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    workflow = (shown.ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8")
+    assert ast.literal_eval(re.search(r"python: (\[.*\])", workflow)[1]) == claimed
+    assert "- run: .ci/run\n" in workflow
 
 
 def test_blocks_that_show_files_show_files_that_are_there():

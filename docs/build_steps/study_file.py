@@ -43,7 +43,7 @@ def _table(entries: dict[str, Any], required: set[str]) -> str:
     rows = (
         (
             f"`{name}`",
-            entry["description"],
+            _plain(entry["description"]),
             _value(entry),
             "required" if name in required else _default(entry),
         )
@@ -54,8 +54,13 @@ def _table(entries: dict[str, Any], required: set[str]) -> str:
 
 def _parameters(entries: dict[str, Any]) -> str:
     """The meaning of a parameter says already what it may be."""
-    rows = ((f"`{name}`", entry["description"], _default(entry)) for name, entry in entries.items())
+    rows = ((f"`{name}`", _plain(entry["description"]), _default(entry)) for name, entry in entries.items())
     return table(("key", "meaning and values", "default"), rows)
+
+
+def _plain(text: str) -> str:
+    """Text as it stands: the asterisk of E* begins no italics."""
+    return text.replace("*", r"\*")
 
 
 def _default(entry: dict[str, Any]) -> str:

@@ -179,10 +179,12 @@ class PhysicalContact:
         own["profile"] = self._pure_profile()
         if body != self.bulk_stress_body:
             own |= {name: row.default for name, row in PARAMETERS.items() if row.part == "bulk"}
+        # What scales a loop is 1 unless it is given.
+        scaling = self.load.scaled_by if isinstance(self.load, Named) else ()
         return {
             name: number_of(name, own[name], self)
             for name, row in PARAMETERS.items()
-            if own.get(name) is not None and not row.goes_without_saying(own[name])
+            if own.get(name) is not None and (name in scaling or not row.goes_without_saying(own[name]))
         }
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:

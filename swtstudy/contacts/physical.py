@@ -25,8 +25,10 @@ from swtstudy.contacts.scales import least_depths, length_of
 from swtstudy.grid.reading import given_twice, read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
+from swtstudy.mechanics.load.loop import Loop
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PAIRS, PARAMETERS, family_of, is_profile, replaced_by
+from swtstudy.named import Named
+from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, family_of, is_profile, replaced_by
 from swtstudy.units.moduli import Moduli
 
 #: Parameters of a contact with what they are unless given, None for those that must be: a real contact has
@@ -75,7 +77,8 @@ def physical(
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
         waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
-        bulk_stress_mean are stresses, 0 unless given. Angles, numbers, frequency_ratio, profile and exponent
+        bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
+        its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
 
     Returns
@@ -115,7 +118,8 @@ def physical(
         raise StudyError(mistakes)
     if bulk_stress_ratio is not None:
         ratio, amplitude = plain_number(bulk_stress_ratio), plain_number(given["bulk_stress_amplitude"])
-        given["bulk_stress_mean"] = amplitude * (1.0 + ratio) / (1.0 - ratio)
+        least, largest = _ends_of_bulk(given["load"])
+        given["bulk_stress_mean"] = amplitude * (ratio * largest - least) / (1.0 - ratio)
     contact = replace(_contact(given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=_depth_at(contact, plain_number(normal_force)))
@@ -129,8 +133,18 @@ def physical(
 
 def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
     """The defaults of what has nothing given in its place."""
-    replaced = replaced_by(parameters)
-    return {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+    replaced, load = replaced_by(parameters), parameters.get("load")
+    defaults = {name: default for name, default in _DEFAULTS.items() if name not in replaced}
+    if isinstance(load, Named) and "bulk_stress_amplitude" in load.scaled_by:
+        defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
+    return defaults
+
+
+def _ends_of_bulk(load: object) -> tuple[float, float]:
+    """Least and largest value of what the amplitude of the bulk stress scales."""
+    if isinstance(load, Loop):
+        return (0.0, 0.0) if load.bulk is None else load.bulk.ends
+    return -1.0, 1.0
 
 
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import resolved_shape, roughness
 from swtstudy.mechanics.line.accuracy import Accuracy
-from swtstudy.mechanics.line.circle_gain import circle_gain
+from swtstudy.mechanics.line.circle_gain import surface_maximum
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.load import Load
@@ -68,9 +68,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         shape = {name: values[index] for name, values in points.shape.items()}
         _, left_out = resolved_shape(points.profile, shape, scene.profile.largest_depth)
         error[index] = np.maximum(found.error + left_out * found.swt, LEAST_ERROR * found.swt)
-        gain, _ = circle_gain(scene, found.position, found.double_angle)
         critical = found.swt > 0.0
-        surface[index] = np.where(found.swt == 0.0, 0.0, found.swt * (1.0 + gain))
+        surface[index] = surface_maximum(scene, found)
         position[index] = np.where(critical, found.position, np.nan)
         angle[index] = np.where(critical, _fold_angle(np.degrees(found.double_angle) / 2.0), np.nan)
         regime[index] = _regime(scene.cycle, lost)

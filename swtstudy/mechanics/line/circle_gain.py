@@ -8,10 +8,13 @@ line may be the lowest place of the circle, whose highest has its own instants a
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, extreme_instants
+from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.line.samples import of_extremes, on_plane
 from swtstudy.mechanics.planes.ascent import climb, normal_weights
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
@@ -29,43 +32,43 @@ SAFE_POISSON_RATIO = 0.35
 #: points with ν > 0.35, no faster.
 ANGLES = np.linspace(0.0, 0.5 * np.pi, 17)
 CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
-#: With a bulk stress, at each ν: angles of a look at planes that turn with them by these shares, and the fall
-#: of swt below which no climb is tried, over sin²θ: on most circles it falls like that to the square or more.
+#: With a bulk stress, at each ν: angles of a look at planes that turn with them by these shares or are
+#: radial, and the fall of swt below which no climb is tried, over sin²θ: on most circles it falls like that
+#: to the square or more.
 LOOK_ANGLES, TURNS, SLOW_FALL = ANGLES[2::3], np.array([0.0, 0.5, 1.0]), 0.4
+#: Where the base is less than this share of the line's maximum the two have nothing in common: rounding of no
+#: tension at all.
+SAME_SHARE = 0.5
 #: Steps of a smooth stretch of the cycle, and digits of tables. Half of the steps: 3e-4 at 6 of 300 points;
 #: 3.5 digits: 1e-4 at 8; no faster. Twice: 7e-5; 7.5: 4e-6.
 TIME_STEPS, DIGITS = 4, 5.5
 
 
-def circle_gain(
-    scene: Scene, position: FloatArray, double_angle: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """By how much swt on the circle through the line's maximum exceeds swt on the line.
+def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
+    """swt on the circle through the line's maximum, over all plane orientations, shape (n,).
+
+    Found at the instants that make swt on the line; that of the line where nothing on the circle exceeds it,
+    NaN where the maximum is at the edge of a flat face itself: on that circle the pressure has no bound.
+    Where a bulk stress leaves no tension on the line, or swt is largest far away, it is the circle of the
+    largest contact radius.
 
     Parameters
     ----------
     scene
         n points.
-    position
-        Shape (n,): signed x in a_H of the line's maximum.
-    double_angle
-        Shape (n,): 2θ of its critical plane, rad.
-
-    Returns
-    -------
-    gain, angle
-        Shape (n,): the relative excess, 0 where the line has the maximum, and where on the circle it is, rad
-        from the line; over all plane orientations, at the instants that make swt on the line. NaN where the
-        maximum is at the edge of a flat face itself: on that circle the pressure has no bound.
+    found
+        The line's maxima.
     """
-    r, flat = np.abs(position), scene.profile.flat_radius
+    if scene.bulk is not None:
+        found = _somewhere(scene, found)
+    r, flat = np.abs(found.position), scene.profile.flat_radius
     at_edge = (flat > 0.0) & (r == flat)
-    gain, angle = (np.where(at_edge, np.nan, 0.0) for _ in range(2))
+    surface = np.where(at_edge, np.nan, found.swt)
     doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | (scene.bulk is not None)
     rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
     if rows.size:
         some = scene.take(rows)
-        history, normal = _decisive_history(some, position[rows], double_angle[rows])
+        history, normal = _decisive_history(some, found.position[rows], found.double_angle[rows])
         if scene.bulk is not None:
             slow = np.flatnonzero(
                 (some.poisson_ratio > SAFE_POISSON_RATIO) | _falls_slowly(some, history, normal)
@@ -73,14 +76,27 @@ def circle_gain(
             rows, some, history, normal = rows[slow], some.take(slow), history.take(slow), normal[slow]
         swt = _on_circle(some, history, normal, np.broadcast_to(ANGLES, (rows.size, ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
-        off = np.flatnonzero((best > 0) & (base > 0.0))
+        off = np.flatnonzero((best > 0) & ((base > 0.0) | (scene.bulk is not None)))
         if off.size:
             near = ANGLES[best[off], None] + CLOSER
-            found = _on_circle(some.take(off), history.take(off), normal[off], near)
-            top = found.argmax(axis=1), np.arange(off.size)
-            gain[rows[off]] = found[top[::-1]] / base[off] - 1.0
-            angle[rows[off]] = near[top[::-1]]
-    return gain, angle
+            top = _on_circle(some.take(off), history.take(off), normal[off], near).max(axis=1)
+            surface[rows[off]] = _relative(found.swt[rows[off]], base[off], top)
+    return surface
+
+
+def _somewhere(scene: Scene, found: Maximum) -> Maximum:
+    """The maxima with a place on the largest contact radius for those that have none."""
+    nowhere = (found.swt == 0.0) | (np.isnan(found.position) & np.isfinite(found.swt))
+    largest = scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[:, 0]
+    position = np.where(nowhere, largest, found.position)
+    return replace(found, position=position, double_angle=np.where(nowhere, 0.0, found.double_angle))
+
+
+def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray:
+    """swt on a circle whose ``top`` and ``base`` on the line share their errors, which the line's has not."""
+    same = base > SAME_SHARE * line
+    gain = np.divide(top, base, out=np.ones_like(top), where=same)
+    return np.where(same, line * gain, np.maximum(line, top))
 
 
 def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:
@@ -89,8 +105,8 @@ def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray
     stress, strain = _circle(scene, history, angle)
     walker = scene.walker and scene.walker.take(np.arange(len(scene)))
     highest = np.zeros(angle.shape)
-    for share in TURNS:
-        weights = normal_weights(_turned(normal, share * angle))[..., None]
+    for planes in (*(_turned(normal, share * angle) for share in TURNS), _radial(angle)):
+        weights = normal_weights(planes)[..., None]
         tension, elongation = ((v @ weights)[..., 0] for v in (stress, strain))
         tops = (curve.max(axis=-1) for curve in curves(tension, elongation))
         highest = np.maximum(highest, of_maxima(*tops, walker=walker))
@@ -102,6 +118,11 @@ def _turned(normal: FloatArray, angle: FloatArray) -> FloatArray:
     """Normals (n, 3) of planes through y turned about z by angles (n, k), shape (n, k, 3)."""
     c, s = np.cos(angle), np.sin(angle)
     return np.stack([c * normal[:, :1], s * normal[:, :1], normal[:, 2:] + 0.0 * c], axis=-1)
+
+
+def _radial(angle: FloatArray) -> FloatArray:
+    """Normals in the surface along the radii at angles (n, k): tension where it presses on the line."""
+    return _turned(np.broadcast_to([1.0, 0.0, 0.0], (len(angle), 3)), angle)
 
 
 def _circle(scene: Scene, history: History, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -145,7 +166,7 @@ def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatA
     walker = scene.walker and scene.walker.take(np.repeat(np.arange(len(scene)), angle.shape[1]), 0)
     starts = [np.broadcast_to(normal[:, None], (*angle.shape, 3))]
     if scene.bulk is not None:
-        starts.append(_turned(normal, angle))
+        starts += [_turned(normal, angle), _radial(angle)]
     histories = stress.reshape(flat), strain.reshape(flat)
     found = [climb(*histories, start.reshape(-1, 3), walker)[0] for start in starts]
     return np.asarray(np.max(found, axis=0).reshape(angle.shape))

@@ -10,6 +10,7 @@ position, so that distances far below what a number near b can hold cost nothing
 * Contact is lost: springs that just touch at r pull with a finite stress before the pressure of −L comes.
   Short of that s ~ ln(1/(1 − δA/δ0)), at the least radius of the contact, and is given up once that is nearer
   than `NEAREST` (of the profile).
+* Contact is lost and a bulk stress pulls meanwhile: that is the tension then, with friction or without.
 
 In these cases s is not finite, for every exponent of the criterion. Else it is; if the whole contact slides,
 σ_n falls like (1 − μ) L while Δε_n rises like L, and the maximum lies at an L of some γπ/(1 − μ).
@@ -73,9 +74,23 @@ def not_finite(scene: Scene) -> NDArray[np.bool_]:
     tears |= cycle.gross_slip & (friction >= 1.0)
     # Once contact is lost, or nearly, the maximum is where its edge turns.
     turn = scene.coordinate.radius(cycle.load.least_normal[:, None])
-    tears |= (turn <= nearest)[:, 0]
+    lost = (turn <= nearest)[:, 0]
+    tears |= lost
     moves = (friction > 0.0) & cycle.load.moves_tangentially
-    return np.asarray(tears & moves & (profile.flat_radius > 0.0))
+    tears &= moves
+    if scene.bulk is not None:
+        # Pressure alone swings no strain at ν = 1/2.
+        tears |= lost & (scene.poisson_ratio < 0.5) & _pulls_while_lost(scene, scene.coordinate.of(nearest))
+    return np.asarray(tears & (profile.flat_radius > 0.0))
+
+
+def _pulls_while_lost(scene: Scene, margin: FloatArray) -> NDArray[np.bool_]:
+    """Whether a bulk stress pulls at an instant without contact, or nearly, by a margin (n, 1)."""
+    assert scene.bulk is not None
+    # Within the intervals of the cycle both are monotone.
+    ends = np.concatenate([scene.cycle.begin, scene.cycle.end], axis=1)
+    pulls = scene.bulk.at(ends) > 0.0
+    return np.asarray((pulls & (scene.cycle.load.normal(ends) <= margin)).any(axis=1))
 
 
 def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]:
