@@ -173,7 +173,9 @@ def test_as_a_harmonic_sum_it_is_the_harmonic_load() -> None:
 def test_neither_the_first_vertex_nor_what_is_on_a_line_matters() -> None:
     rolled = np.roll(LOOP, 2, axis=0)
     between = np.insert(LOOP, 1, 0.25 * LOOP[1] + 0.75 * LOOP[0], axis=0)
-    same = [LoadPath("a", each).code for each in (LOOP, rolled, between, np.repeat(LOOP, 2, axis=0))]
+    resting = np.insert(LOOP, 3, [0.5, 0.2, 0.1], axis=0)
+    every = (LOOP, rolled, between, resting, np.repeat(LOOP, 2, axis=0))
+    same = [LoadPath("a", each).code for each in every]
     assert len({*same}) == 1
     assert len(LoadPath("a", LOOP).vertices) == len(LOOP)
     for column in range(3):
