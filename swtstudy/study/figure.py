@@ -8,8 +8,9 @@ import unicodedata
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
-from swtstudy.grid.values import Value, read_value
-from swtstudy.parameters import LETTERS, PARAMETERS
+from swtstudy.axes import AXES
+from swtstudy.grid.values import Value, read_exact, read_value
+from swtstudy.parameters import LETTERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -101,8 +102,10 @@ def reference(y: str) -> tuple[str, Value] | None:
         raise ValueError("not a quantity")
     name, raw = match.groups()
     name = LETTERS.get(unicodedata.normalize("NFKC", name), name)  # a keyboard's µ is not the letter μ
-    if name not in PARAMETERS:
+    if name not in AXES:
         raise ValueError(f"unknown parameter {name}")
-    if PARAMETERS[name].kind == "name":
+    if AXES[name].kind == "name":
         return name, raw.strip()  # what results or a study define has names of its own
-    return name, read_value(PARAMETERS[name], raw.strip())
+    if AXES[name].scale or AXES[name].part == "contact":
+        return name, float(read_exact(raw.strip()))  # whose range depends on its unit
+    return name, read_value(AXES[name], raw.strip())

@@ -24,6 +24,8 @@ _ALLOWED = {
     "sample.ranges": "a table of ranges",
     "sample.file": "the path of a CSV file",
     "sample.points": "a table of lists of values",
+    "units": "a table with length, force and stress",
+    "material": "a table of fatigue constants",
     "loads": "a table of loops, [loads.NAME]",
     "profiles": "a table of profiles, [profiles.NAME]",
     "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",

@@ -84,6 +84,9 @@ class StudyTable(_Table):
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     sample: SampleTable | None = None
+    # Checked where units and constants are read.
+    units: dict[str, Any] | None = None
+    material: dict[str, Any] | None = None
     loads: dict[str, LoadTable] = {}
     profiles: dict[str, ProfileTable] = {}
     figure: FigureTable | None = None
