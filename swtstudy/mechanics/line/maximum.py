@@ -54,7 +54,7 @@ SHOWN = 1.5
 NEIGHBOURS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8])
 FARTHER = np.outer([-1, 1], 8 ** np.arange(2, 7)).ravel()
 #: Zooms and digits more with which they are looked at: other instants, and tables, show other rounding.
-LOOKS = ((0, 0.0), (1, 0.0), (3, 2.0))
+LOOKS = ((0, 0.0), (1, 0.0), (2, 2.0), (3, 2.0), (4, 0.0))
 
 
 @dataclass(frozen=True)
