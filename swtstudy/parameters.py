@@ -83,7 +83,8 @@ class Parameter:
         """
         if self.kind == "name":
             return ""
-        words = re.sub(r"\\sqrt\{(\w+)\}", r"√(\1)", self.symbol.replace(r"\ell", "ℓ"))
+        words = re.sub(r"\\mathrm\{(\w+)\}", r"\1", self.symbol)
+        words = re.sub(r"\\sqrt\{(\w+)\}", r"√(\1)", words.replace(r"\ell", "ℓ"))
         words = re.sub(r"\\([a-z]+)", lambda found: _greek(found[1]), words)
         return re.sub(r"_(?!H)|[\^{}, ]", "", words)
 

@@ -33,7 +33,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, each a single value or a one-dimensional sequence of
-        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
+        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1. Along
+        an axis of friction tangential_amplitude, G* uA/(μ E* δ0), stays, so that uA itself moves with μ.
 
     Returns
     -------

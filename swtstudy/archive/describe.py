@@ -14,6 +14,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
+from swtstudy.records.real import ATTRIBUTE, is_real, read_contact
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import request_of
 from swtstudy.wording import value_words
@@ -44,6 +45,7 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
             yield f"  of each body   {name}: {_axis_words(name, values)}{unit}"
         else:
             yield f"  sampled        {name}: {_range_words(name, values)}{unit}"
+    yield from _contact(dataset)
     yield f"  prescribed     {grid_of(dataset).control.name}"
     asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
     if asked.names:
@@ -73,6 +75,15 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     if len(failures) > _LISTED:
         yield f"  failed         {len(failures) - _LISTED} more"
     yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
+
+
+def _contact(dataset: xr.Dataset) -> Iterator[str]:
+    """What the results of a study with units say of its contacts, beside the values of parameters."""
+    if is_real(dataset):
+        given, _ = read_contact(dataset.attrs[ATTRIBUTE])
+        yield f"  units          {', '.join(vars(given.units).values())}"
+        for material in dict.fromkeys(given.materials):
+            yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"
 
 
 def _unit(coordinate: xr.DataArray) -> str:

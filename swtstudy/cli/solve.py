@@ -32,7 +32,9 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         for parameter in reversed(PARAMETERS.values()):
             default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
-            words = f"{parameter.described}; {parameter.allowed}{default}"
+            words = "; ".join(
+                filter(None, (parameter.described, parameter.note, parameter.allowed + default))
+            )
             option = f"--{parameter.name.replace('_', '-')}"
             command = click.option(option, metavar=metavar, help=words)(command)
         return command

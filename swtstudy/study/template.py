@@ -130,6 +130,7 @@ def _fixed() -> str:
     for name, parameter in (*PARAMETERS.items(), (DISTANCE, QUANTITY_AXES[DISTANCE])):
         if name == "profile" or name in _USED:
             continue
-        lines.append(f"# {parameter.described}: {parameter.allowed}")
+        note = f"; {parameter.note}" if parameter.note else ""
+        lines.append(f"# {parameter.described}: {parameter.allowed}{note}")
         lines.append(f"# {name} = {_default(parameter)}")
     return "\n".join(lines)
