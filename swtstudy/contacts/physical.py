@@ -57,6 +57,9 @@ def physical(
 ) -> PhysicalContact | PhysicalContacts:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
+    Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
+    sequence of values.
+
     Parameters
     ----------
     young_modulus, poisson_ratio
@@ -82,9 +85,6 @@ def physical(
         bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
         its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
-
-    Each of them but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
-    sequence of values.
 
     Returns
     -------

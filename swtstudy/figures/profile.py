@@ -37,7 +37,7 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     Parameters
     ----------
     style, width
-        As for `swtstudy.figures.draw.draw`.
+        As for `swtstudy.accessor.SwtAccessor.figure`.
     **parameters
         profile, a name or a `TabulatedProfile`, and its shape parameters, as for `swtstudy.solve`.
 

@@ -61,7 +61,7 @@ def part_words(part: xr.Dataset, name: str) -> str:
     """
     shape = family_of(part[name].item()).shape if name == "profile" else ()
     fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
-    return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in [name, *fixed])
+    return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
 
 
 def is_life(attributes: Mapping[Any, Any]) -> bool:

@@ -136,7 +136,8 @@ def label(
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
     dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
-    dataset = with_units(dataset, grid, asked) if isinstance(grid, PhysicalGrid) else dataset
+    if isinstance(grid, PhysicalGrid):
+        dataset = with_units(dataset, grid, asked)
     for variable in dataset.variables.values():
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":

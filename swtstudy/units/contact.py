@@ -18,19 +18,14 @@ from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, m
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
 from swtstudy.parameters import HARMONIC, PAIRS, PARAMETERS, family_of, is_profile
-from swtstudy.units.bodies import (
-    Values,
-    bodies_of,
-    checked_body,
-    cycles_from,
-    swt_from,
-)
+from swtstudy.units.bodies import bodies_of, checked_body, cycles_from, swt_from
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import length_of, number_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.units.bodies import Values
     from swtstudy.units.life import FatigueConstants
 
 #: Radii at which the largest pressure is looked for, and its digits.
@@ -164,7 +159,7 @@ class Contact:
 
     @property
     def pure_profile(self) -> str | TabulatedProfile:
-        """The non-dimensional profile: a table in a_H and δ0."""
+        """The non-dimensional profile, a table in a_H and δ0."""
         if isinstance(self.profile, str):
             return self.profile
         return _pure(self.profile, self.length_scale, self.depth)
