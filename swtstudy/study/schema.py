@@ -68,7 +68,8 @@ _LOAD_DESCRIPTIONS = {
     "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
+    "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
+    "scatter or histogram of a sample.",
     "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",
