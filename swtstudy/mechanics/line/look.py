@@ -99,7 +99,9 @@ class Look:
     def brackets(self, instants: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> TimeBrackets:
         """Brackets around instants, shape (n, X, e); for ``falling`` see `TimeBrackets.around`."""
         stretch, place = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
-        return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
+        # A turn of the bulk stress is no event: a short stretch before it leaves no layer.
+        graded = None if self.line.bulk is not None else falling
+        return TimeBrackets.around(self.parts, self.count, stretch, place, graded)
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
