@@ -47,7 +47,7 @@ HOT = 0.1
 NEAREST = 6
 #: Peaks of each curve beside which instants are added in each round. Places whose swt grew by less than the
 #: share need no other one.
-PEAKS, SETTLED = (2, 1, 1, 1), 1e-3
+PEAKS, SETTLED = (3, 1, 1, 1), 1e-3
 #: What is missing at last, over what each round added: means of scenes all over the parameters miss less.
 DOUBTS = (0.1, 0.5, 0.5, 0.5)
 

@@ -46,7 +46,7 @@ SPAN = 40.0
 SHOWN = 3, 7
 #: How finely swt is searched for: finer while a mean is not as accurate
 #: as asked for.
-FINENESS = (Fineness(3, 32), Fineness(6, 60))
+FINENESS = (Fineness(3, 40), Fineness(6, 60))
 #: Abscissae of the integrals of the interpolation along a line.
 ABSCISSAE = 32
 
