@@ -31,7 +31,11 @@ default_role = "py:obj"
 nitpicky = True
 # Types of attributes that have no page of their own.
 nitpick_ignore = [
-    ("py:class", name) for name in ("Grid", "FigureLayout", "Request", "Sample", "swtstudy.named.Named")
+    ("py:class", name)
+    for name in (
+        *("Grid", "FigureLayout", "Request", "Sample"),
+        *("swtstudy.named.Named", "swtstudy.units.grid.PhysicalGrid"),
+    )
 ]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say shapes and units

@@ -16,8 +16,10 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import styled
 from swtstudy.mechanics import Points, solve_points
 
 COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
@@ -28,6 +30,11 @@ REPEATS = 3
 FEW = 3
 #: Points in a call, p and q, whose memory is measured.
 BATCHES = ((1, 1, 1), (64, 1, 1), (4096, 1, 1), (64, 1, 4), (2, 1, 64), (2, 32, 1))
+#: The words of sweeps as formulae.
+LABELS = {
+    "q, ω2/ω1 = 1/q": r"$q$, with $\omega_2/\omega_1 = 1/q$",
+    "p, ω2/ω1 = p": r"$p$, with $\omega_2/\omega_1 = p$",
+}
 START_UP = {
     "python -c pass": ["-c", "pass"],
     "swtstudy --help": ["-m", "swtstudy", "--help"],
@@ -83,6 +90,21 @@ def peak_memory(*arguments: int) -> float:
     return float(run.stdout) / 1024
 
 
+def chart(samples: list[tuple[str, Sequence[float], Sequence[float]]]) -> Figure:
+    """The cost over each sweep, of which there are words, places and milliseconds."""
+    with styled(width="page"):
+        sheet = Sheet(1, len(samples), "page")
+        figure = sheet.figure()
+        panels = sheet.panels(figure, share_x="none")
+        for axes, letter, (words, x, y) in zip(panels[0], "ABCD", samples, strict=True):
+            axes.loglog(x, y, "o-", color="#0072B2")
+            axes.set_xlabel(LABELS.get(words, words))
+            axes.set_title(f"({letter})  like the power ${growth(x, y):.2f}$ at the end", loc="left")
+        for axes in sheet.first_of_lines(panels)[0]:
+            axes.set_ylabel("ms a value")
+    return figure
+
+
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the files")
@@ -103,28 +125,25 @@ def report(results: Path, few: int | None, batches: int | None, some: int, repea
         ),
         "p": ("p, ω2/ω1 = p", TERMS, lambda p: milliseconds(batch(max(some // int(p), 2), int(p), 1), 1e-4)),
     }
-    figure = Figure((10.0, 3.2), layout=ConstrainedLayoutEngine())
-    panels = figure.subplots(1, len(sweeps), sharey=True)
     lines = ["Processor time a value (paraboloid, Table 1), one thread.", ""]
-    for axes, (words, all_x, cost) in zip(panels, sweeps.values(), strict=True):
+    samples = []
+    for words, all_x, cost in sweeps.values():
         x = all_x[:few]
         y = [cost(value) for value in x]
-        exponent = growth(x, y)
-        axes.loglog(x, y, "o-", color="#0072B2", markersize=4)
-        axes.set_xlabel(words)
-        axes.set_title(f"∝ x^{exponent:.2f} at the end", fontsize="small")
-        axes.grid(color="0.9", linewidth=0.6)
+        samples.append((words, x, y))
         lines += [f"| {words} | " + " | ".join(f"{value:.4g}" for value in x) + " |"]
         lines += ["|---" * (len(x) + 1) + "|"]
         lines += ["| ms a value | " + " | ".join(f"{value:.3g}" for value in y) + " |", ""]
-        lines += [f"Over the second half of the samples the cost grows like the power {exponent:.2f}.", ""]
-    panels[0].set_ylabel("ms a value")
+        lines += [
+            f"Over the second half of the samples the cost grows like the power {growth(x, y):.2f}.",
+            "",
+        ]
     lines += ["| points in a call, p, q | peak memory of the process, MB |", "|---|---|"]
     lines += [f"| {n}, {p}, {q} | {peak_memory(n, p, q):.0f} |" for n, p, q in BATCHES[:batches]]
     lines += ["", f"| start-up (median of {repeats} processes) | s |", "|---|---|"]
     lines += [f"| {words} | {start_up(arguments, repeats):.2f} |" for words, arguments in START_UP.items()]
     results.mkdir(exist_ok=True)
-    figure.savefig(results / "scaling.png", dpi=150)
+    save_figure(chart(samples), results / "scaling.png")
     (results / "scaling.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 

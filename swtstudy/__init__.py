@@ -11,7 +11,6 @@ from swtstudy.version import __version__
 if TYPE_CHECKING:
     from swtstudy.archive.open import open_results
     from swtstudy.audit.audit import audit_study
-    from swtstudy.contacts.life import FatigueConstants
     from swtstudy.contacts.physical import physical
     from swtstudy.fields.history import swt_of_history
     from swtstudy.fields.inspection import inspect_point
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.suite import run_suite
+    from swtstudy.units.life import FatigueConstants
 
 __all__ = [
     "FatigueConstants",
@@ -56,7 +56,7 @@ __all__ = [
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
-    "FatigueConstants": "swtstudy.contacts.life",
+    "FatigueConstants": "swtstudy.units.life",
     "LoadPath": "swtstudy.mechanics.load.load_path",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",

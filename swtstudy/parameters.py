@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections import ChainMap
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeGuard
 
@@ -38,14 +37,17 @@ class Parameter:
         "number", "ratio" (a rational number p/q), or "name": built in, or of what the user has defined.
     part
         What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
-        "bulk" (the bulk stress of one body), "criterion", or "quantity" (of what is computed beside s).
+        "bulk" (the bulk stress of one body), "criterion", "quantity" (of what is computed beside s), or
+        "contact" (of a real one).
     units
         CF units: "1", or "rad" for the phase.
     scale
         What it is measured in where it is a length, a force or a stress, a key of
-        `swtstudy.contacts.scales.SCALES`; else empty.
+        `swtstudy.units.scales.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
+    note
+        What else there is to know, in one line.
     optional
         Whether the default means that the scene lacks it: results leave it out at its default.
     """
@@ -64,6 +66,7 @@ class Parameter:
     scale: str = ""
     instead_of: str = ""
     optional: bool = False
+    note: str = ""
 
     def goes_without_saying(self, value: object) -> bool:
         """Whether a value means that the scene lacks what the parameter is about."""
@@ -80,7 +83,8 @@ class Parameter:
         """
         if self.kind == "name":
             return ""
-        words = re.sub(r"\\sqrt\{(\w+)\}", r"√(\1)", self.symbol.replace(r"\ell", "ℓ"))
+        words = re.sub(r"\\mathrm\{(\w+)\}", r"\1", self.symbol)
+        words = re.sub(r"\\sqrt\{(\w+)\}", r"√(\1)", words.replace(r"\ell", "ℓ"))
         words = re.sub(r"\\([a-z]+)", lambda found: _greek(found[1]), words)
         return re.sub(r"_(?!H)|[\^{}, ]", "", words)
 
@@ -160,6 +164,7 @@ PARAMETERS: dict[str, Parameter] = {
             0.0,
             100.0,
             scale="μ E* δ0/G*",
+            note="along an axis of friction it stays, so that uA itself moves with μ",
         ),
         Parameter(
             "tangential_force_amplitude",
@@ -171,6 +176,7 @@ PARAMETERS: dict[str, Parameter] = {
             100.0,
             scale="μ F0",
             instead_of="tangential_amplitude",
+            note="along an axis of friction it stays, so that QA itself moves with μ",
         ),
         Parameter(
             "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
@@ -275,29 +281,6 @@ PARAMETERS: dict[str, Parameter] = {
 
 #: Into the body from the critical point: straight down, or along the critical plane.
 DIRECTIONS = ("depth", "critical_plane")
-
-#: What quantities beside s range over, while the points do not.
-QUANTITY_AXES: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter(
-            "critical_distance",
-            r"\ell/a_H",
-            "ℓ",
-            "critical distance of the nonlocal values",
-            None,
-            0.0,
-            10.0,
-            open_lower=True,
-            part="quantity",
-            scale="a_H",
-        ),
-        Parameter("direction", "", "", "direction from the critical point", kind="name", part="quantity"),
-    )
-}
-
-#: Everything that a dimension of results may be.
-AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES)
 
 #: Parameters of which one of two is given, by the one that takes the other's place.
 PAIRS: dict[str, str] = {

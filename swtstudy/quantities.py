@@ -39,7 +39,7 @@ class Quantity:
     units
         CF units.
     dims
-        Dimensions of its own, of `swtstudy.parameters.QUANTITY_AXES`, beside those of the points. With
+        Dimensions of its own, of `swtstudy.axes.QUANTITY_AXES`, beside those of the points. With
         `DISTANCE` among them it is asked by giving critical distances, else by its name.
     """
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.canonical import points_from
@@ -35,7 +33,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, each a single value or a one-dimensional sequence of
-        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
+        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1. Along
+        an axis of friction tangential_amplitude, G* uA/(μ E* δ0), stays, so that uA itself moves with μ.
 
     Returns
     -------
@@ -65,7 +64,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     axes: dict[str, Sequence[object] | None] = {}
     mistakes: list[Mistake] = []
     for name, raw in parameters.items():
-        dimensions = _dimensions(raw)
+        dimensions = dimensions_of(raw)
         if dimensions == 0:
             fixed[name] = raw
         elif dimensions == 1:
@@ -93,7 +92,9 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
     from swtstudy.mechanics.quantities import quantities_of
+    from swtstudy.quantities import columns_of
     from swtstudy.records.bulk_shift import shifts
+    from swtstudy.records.columns import columns_at, wanted
     from swtstudy.records.labelled import arrays_of, label
     from swtstudy.records.solutions import joined, solution_at
 
@@ -102,17 +103,22 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     batches = [points_from(block, unique.definitions) for block in blocks]
     solution = joined([solve_points(batch, rtol) for batch in batches])
     arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored) | shifts(unique)
-    columns: dict[str, NDArray] = {}
-    if asked.items:
-        starts = np.cumsum([0, *map(len, blocks)]).tolist()
-        known = [solution_at(solution, slice(*ends)) for ends in itertools.pairwise(starts)]
-        parts = [quantities_of(batch, asked.items, own) for batch, own in zip(batches, known, strict=True)]
-        columns = {name: np.concatenate([part[name] for part in parts])[unique.index] for name in parts[0]}
+    items, of = wanted(grid, asked, unique)
+    known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
+    ends = block_ends(unique.table).tolist()
+    for batch, begin, end in zip(batches, [0, *ends[:-1]], ends, strict=True):
+        for one in np.unique(of[begin:end], axis=0) if items else ():
+            rows = np.flatnonzero((of[begin:end] == one).all(axis=1))
+            own = [items[index] for index in np.flatnonzero(one)]
+            found = quantities_of(batch.take(rows), own, solution_at(solution, begin + rows))
+            for name, values in found.items():
+                known[name][begin + rows] = values
+    columns = columns_at(grid, asked, unique, known.__getitem__)
     dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
-def _dimensions(raw: object) -> int:
+def dimensions_of(raw: object) -> int:
     """Number of dimensions of a value; 0 for text and bytes, although they are sequences."""
     if isinstance(raw, str | bytes | bytearray | memoryview):
         return 0

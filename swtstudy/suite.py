@@ -82,7 +82,7 @@ def run_and_draw(
     done
         Called with every archive once its figure is drawn; not always in this thread.
     width
-        What the figures are made for, as for `swtstudy.figures.draw.draw`.
+        What the figures are made for, as for `swtstudy.accessor.SwtAccessor.figure`.
     **options
         Further arguments of `swtstudy.run`.
     """

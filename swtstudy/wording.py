@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
+from typing import Any
 
-from swtstudy.parameters import AXES
+from swtstudy.axes import AXES
 
 #: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
 _TOLERANCE = 1e-9
@@ -13,27 +15,31 @@ _TOLERANCE = 1e-9
 _LARGEST_DENOMINATOR = 20
 
 
-def parameter_words(name: str) -> str:
-    """Symbol of a parameter, as matplotlib's math text.
+#: Attributes of a coordinate, which say the unit of results that have one.
+_NONE: Mapping[Any, Any] = {}
+
+
+def parameter_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """Symbol of a parameter, or of its coordinate with these attributes, as matplotlib's math text.
 
     Examples
     --------
     >>> parameter_words("friction")
     '$\\\\mu$'
     """
-    return f"${AXES[name].symbol}$"
+    return f"${attributes.get('symbol', AXES[name].symbol)}$"
 
 
-def axis_words(name: str) -> str:
-    """Symbol of a parameter with its unit, if it has one.
+def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """Symbol of a parameter, or of its coordinate, with its unit, if it has one.
 
     Examples
     --------
     >>> axis_words("phase"), axis_words("friction")
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
-    units = AXES[name].units
-    return parameter_words(name) + ("" if units == "1" else f" ({units})")
+    units = attributes.get("units", AXES[name].units)
+    return parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({units})")
 
 
 def value_words(name: str, value: float | str) -> str:
@@ -65,16 +71,17 @@ def value_words(name: str, value: float | str) -> str:
     return f"{value:.4g}"
 
 
-def place_words(name: str, value: float | str) -> str:
-    """A value of a parameter with its symbol; the name alone for a profile.
+def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
 
     Examples
     --------
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
     """
-    symbol = "" if AXES[name].kind == "name" else f"{parameter_words(name)} = "
-    return symbol + value_words(name, value)
+    symbol = "" if AXES[name].kind == "name" else f"{parameter_words(name, attributes)} = "
+    units = attributes.get("units", "1")
+    return symbol + value_words(name, value) + ("" if units in ("1", "rad", "") else f" {units}")
 
 
 def pi_words(multiple: Fraction) -> str:

@@ -63,7 +63,8 @@ def test_long_ranges_are_logarithmic(top, scale):
 
 def test_equal_ratios():
     assert in_equal_ratios(np.array([0.01, 0.1, 1.0]))
-    assert not in_equal_ratios(np.array([0.0101, 0.1005, 1.0]))  # less than two decades
+    assert in_equal_ratios(np.array([0.1, 0.4, 1.6]))
+    assert not in_equal_ratios(np.array([0.102, 0.319374388, 1.0]))  # less than a decade
     assert not in_equal_ratios(np.array([0.01, 1.0]))
     assert not in_equal_ratios(np.array([0.0, 1.0, 100.0]))
     assert in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2))
@@ -82,6 +83,97 @@ def test_a_regime_is_marked_where_it_begins(axes):
     words = [line.get_label() for line in axes.lines]
     assert words == ["partial slip begins", "lift-off begins", "not finite from here on"]
     assert {line.get_color() for line in axes.lines} == {"red"}
+    # On white, above lines: they are not buried where many come together.
+    assert {line.get_markerfacecolor() for line in axes.lines} == {"white"}
+    assert min(line.get_zorder() for line in axes.lines) > 2
+
+
+@pytest.mark.parametrize(("end", "rotation"), [(4, 0), (5, 90)])
+def test_where_no_line_has_a_value_is_said(end, rotation):
+    """Of 0 to 6 one line ends at x = 2, one further on: beyond that there is none."""
+    x = np.arange(7.0)
+    dataset = results(
+        lambda frequency_ratio, phase: frequency_ratio + phase, frequency_ratio=[0.5, 1.0], phase=x
+    )
+    dataset.regime[0, 3:] = dataset.regime[1, end + 1 :] = REGIMES.index("not_finite")
+    dataset["s"] = dataset.s.where(dataset.regime == 1)
+    layout = FigureLayout("phase", "frequency_ratio", regimes=True)
+    (axes,) = draw(dataset, layout).axes
+    (zone,) = axes.patches
+    box = zone.get_extents().transformed(axes.transData.inverted())
+    assert (box.x0, box.x1) == pytest.approx((end, 6.0))
+    (words,) = axes.texts
+    assert (words.get_text(), words.get_position()[0]) == ("not finite", 0.5 * (end + 6.0))
+    assert words.get_rotation() == rotation
+    # A line that goes on leaves nothing to say.
+    dataset.regime[1] = 1
+    dataset["s"] = dataset.s.fillna(1.0)
+    assert not draw(dataset, layout).axes[0].patches
+
+
+@pytest.mark.parametrize("role", ["hue", "panels"])
+@pytest.mark.parametrize("kind", ["lines", "heatmap"])
+def test_a_place_on_the_axis_of_lines_or_panels(role, kind):
+    """s over s at one of the lines is what the accessor says: each part alone lacks the place."""
+    dataset = results(
+        lambda friction, phase, normal_amplitude: friction + phase * friction**2 + normal_amplitude,
+        friction=[0.5, 1.0],
+        phase=[0.0, 1.0, 2.0],
+        normal_amplitude=[0.25],
+    )
+    if kind == "heatmap" and role == "hue":
+        pytest.skip("no lines")
+    dataset = dataset.isel(normal_amplitude=0) if kind == "lines" else dataset
+    y = "s/s(friction=0.5)"
+    vertical = "normal_amplitude" if kind == "heatmap" else None
+    layout = FigureLayout("phase", y=(y,), kind=kind, vertical=vertical, **{role: "friction"})
+    panels = draw(dataset, layout).axes
+    expected = dataset.swt.normalised("friction=0.5")
+    assert float(expected.max()) > 2.0
+    if kind == "lines":
+        drawn = [line.get_ydata() for one in panels for line in one.lines]
+    else:
+        drawn = [np.asarray(one.collections[0].get_array()).ravel() for one in panels[:2]]
+    np.testing.assert_array_equal(drawn, expected.transpose("friction", "phase", ...).values.reshape(2, 3))
+
+
+def test_a_profile_is_named_with_its_shape():
+    names = ["paraboloid", "rounded_punch", "wavy_paraboloid"]
+    dataset = results(lambda profile, phase: phase + 1.0, profile=names, phase=[0.0, 1.0])
+    fixed = {"flat_radius": 0.5, "waviness_amplitude": 0.01, "wavelength": 20**0.5}
+    expected = [
+        "paraboloid",
+        "rounded punch, $b/a_H$ = 0.5",
+        r"wavy paraboloid, $h/\delta_0$ = 0.01, $\lambda/\sqrt{hR}$ = √20",
+    ]
+    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", "profile"))
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == expected
+    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", panels="profile"))
+    titles = [axes.get_title("left") for axes in figure.axes]
+    assert titles == [f"({letter})  {words}" for letter, words in zip("ABC", expected, strict=True)]
+    # A shape along another axis is no part of the name.
+    figure = draw(dataset, FigureLayout("phase", "profile"))
+    assert figure.legends[0].get_texts()[1].get_text() == "rounded punch"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (0.002, 0.05, ["0.002", "0.005", "0.01", "0.02", "0.05"]),
+        (0.1, 1.0, ["0.1", "0.2", "0.5", "1"]),
+        (0.1, 1000.0, None),
+    ],
+)
+def test_ticks_of_a_logarithmic_axis(low, high, words):
+    """A short one has plain numbers, so that it shows where it begins."""
+    x = np.geomspace(low, high, 5)
+    dataset = results(lambda waviness_amplitude: waviness_amplitude, waviness_amplitude=x)
+    (axes,) = draw(dataset, FigureLayout("waviness_amplitude")).axes
+    assert axes.get_xscale() == "log"
+    shown = [
+        t.get_text() for t in axes.get_xticklabels() if low * 0.999 <= t.get_position()[0] <= high * 1.001
+    ]
+    assert shown == words or (words is None and all("10^" in each for each in shown))
 
 
 def test_flags_are_steps_with_their_meanings():
@@ -123,21 +215,111 @@ def surface():
     )
 
 
+def path_of(axes, label):
+    return next(line.get_xydata() for line in axes.lines if line.get_label() == label)
+
+
 def test_contours_have_their_values_and_the_optimum():
-    figure = draw(surface(), FigureLayout("phase", kind="contour", vertical="friction"))
-    axes = figure.axes[0]
-    lines = {line.get_label(): line for line in axes.lines}
-    np.testing.assert_allclose(lines["least $s$"].get_xdata(), [0.5, 1.0, 1.5])
-    assert lines["least $s$"].get_ydata().tolist() == [0.5, 1.0, 1.5]
-    # The greatest leaps from x = 2 to x = 0: there it is broken.
-    np.testing.assert_array_equal(lines["greatest $s$"].get_xdata(), [2.0, np.nan, 0.0])
-    words = {text.get_text(): text.get_position() for text in axes.texts}
-    assert words["57°"] == pytest.approx((1.0, 1.0))  # 1 rad
+    """The least is at x = v, between points of the grid; the greatest leaps from x = 2 to x = 0."""
+    v = np.linspace(0.55, 1.45, 10)
+    dataset = results(
+        lambda friction, phase: 1 + (phase - friction) ** 2, friction=v, phase=np.linspace(0.0, 2.0, 9)
+    )
+    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    np.testing.assert_allclose(path_of(axes, "least $s$")[1:], np.stack([v, v], axis=1))
+    greatest = [[2.0, each] if each < 1.0 else [0.0, each] for each in v]
+    greatest.insert(5, [np.nan, np.nan])
+    np.testing.assert_array_equal(path_of(axes, "greatest $s$")[1:], greatest)
     filled = axes.collections[0]
-    levels = filled.levels
-    assert levels[0] <= 1.0
-    assert levels[-1] >= 1 + 1.5**2
-    assert 8 <= len(levels) <= 15
+    assert filled.levels[0] <= 1.0
+    assert filled.levels[-1] >= 1 + 1.45**2
+    assert 8 <= len(filled.levels) <= 15
+
+
+def test_the_optimum_goes_through_the_end_of_a_period():
+    """Least at ψ = 0.1 − 0.05 v, modulo the period π: it leaves at ψ = 0 and comes back below π."""
+    v = np.linspace(0.0, 1.0, 11)
+    phase = np.linspace(0.0, np.pi, 37)
+    dataset = results(
+        lambda friction, phase: 2 - np.cos(2 * (phase - 0.1 + 0.21 * friction)), friction=v, phase=phase
+    )
+    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    path = path_of(axes, "least $s$")
+    path = path[np.isfinite(path[:, 0])]
+    np.testing.assert_allclose(path[:, 1], v)
+    # A parabola through points 5° apart misses the vertex of a cosine by less than 1e-3.
+    np.testing.assert_allclose(path[:, 0], (0.1 - 0.21 * v) % np.pi, atol=1e-3)
+    # Of what is no angle an end is an end.
+    dataset = dataset.rename(phase="poisson_ratio").assign_coords(poisson_ratio=phase / 10)
+    axes = draw(dataset, FigureLayout("poisson_ratio", kind="contour", vertical="friction")).axes[0]
+    path = path_of(axes, "least $s$")
+    assert path[np.abs(path[:, 1] - 0.55) < 0.1, 0].tolist() == [0.0, 0.0]
+
+
+def test_a_flat_row_and_a_few_rows_have_no_optimum():
+    """s is flat at v = 0; at two rows the least is elsewhere."""
+    v = np.linspace(0.0, 1.0, 31)
+    shift = xr.DataArray(np.where((v > 0.39) & (v < 0.45), 1.8, 0.5), {"friction": v}, dims="friction")
+    dataset = results(
+        lambda friction, phase: 1 + (0.1 + friction) * (friction > 0) * (phase - shift) ** 2,
+        friction=v,
+        phase=np.linspace(0.0, 2.0, 21),
+    )
+    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    path = path_of(axes, "least $s$")
+    path = path[np.isfinite(path[:, 0])]
+    assert path[:, 1] == pytest.approx([*v[1:12], *v[14:]])
+    np.testing.assert_allclose(path[:, 0], 0.5)
+
+
+def test_a_tiny_island_is_left_out_and_a_corner_is_not():
+    """One point of 41 × 41 in the middle, and one in a corner, beyond a level each."""
+    dataset = results(
+        lambda friction, phase: 1 + 0.3 * phase + 0 * friction,
+        friction=np.linspace(0.0, 1.0, 41),
+        phase=np.linspace(0.0, 1.0, 41),
+    )
+    dataset.s[20, 20] += 0.03
+    dataset.s[40, 0] += 0.1
+    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    for contours in axes.collections[:2]:
+        places = np.concatenate([path.vertices for path in contours.get_paths() if len(path)])
+        near = np.hypot(places[:, 0] - 0.5, places[:, 1] - 0.5) < 0.03
+        across = np.ptp(places[near, 1]) if near.any() else 0.0
+        assert across == pytest.approx(0.05, abs=0.03) or not across
+        assert (np.hypot(places[:, 0], places[:, 1] - 1.0) < 0.03).any()
+    closed = [
+        part
+        for contours in axes.collections[:2]
+        for path in contours.get_paths()
+        for part in path.to_polygons(closed_only=False)
+        if np.ptp(part, axis=0).max() < 0.05 and (part > 0.03).all() and (part < 0.97).all()
+    ]
+    assert not closed
+
+
+@pytest.mark.parametrize("kind", ["contour", "heatmap"])
+def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
+    def scales(factor):
+        dataset = results(
+            lambda friction, phase, normal_amplitude: (
+                1 + (phase + friction) * (1 + factor * normal_amplitude)
+            ),
+            friction=[0.1, 0.5, 1.0],
+            phase=np.linspace(0.0, 2.0, 9),
+            normal_amplitude=[0.0, 1.0],
+        )
+        layout = FigureLayout("phase", panels="normal_amplitude", kind=kind, vertical="friction")
+        figure = draw(dataset, layout)
+        assert [axes.get_title("left")[:3] for axes in figure.axes[:2]] == ["(A)", "(B)"]
+        return [axes.collections[0].norm for axes in figure.axes[:2]], len(figure.axes)
+
+    (one, other), count = scales(2.8)
+    assert count == 3
+    assert one is other
+    (one, other), count = scales(3.0)
+    assert count == 4
+    assert one.vmax < 0.5 * other.vmax
 
 
 def test_cells_have_the_values_of_the_points():
@@ -211,23 +393,3 @@ def test_slip_map(axes):
     for code, patch in enumerate(patches):
         assert mesh.cmap(mesh.norm(code)) == patch.get_facecolor()
     np.testing.assert_array_equal(axes.lines[0].get_ydata(), states.contact_radius)
-
-
-def test_places_of_the_optimum_are_labelled():
-    """At five of thirteen heights, half a sixth from the ends on; at the frame on its inner side."""
-    dataset = results(
-        lambda friction, phase: 1 + (phase - friction) ** 2,
-        friction=np.linspace(0.0, 1.2, 13),
-        phase=np.linspace(0.0, 1.0, 41),
-    )
-    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
-    labels = [text for text in axes.texts if text.get_text().endswith("°") and text.get_zorder() == 4]
-    least = {text.get_position()[1]: text for text in labels[:5]}
-    np.testing.assert_allclose(list(least), [0.2, 0.4, 0.6, 0.8, 1.0])
-    for height, text in least.items():
-        assert text.get_position()[0] == pytest.approx(height)
-        assert text.get_text() == f"{np.degrees(height):.0f}°"
-        assert text.get_ha() == ("right" if height > 0.96 else "center")
-    greatest = labels[5:]
-    assert [text.get_position()[0] for text in greatest] == [1.0, 1.0, 0.0, 0.0, 0.0]
-    assert [text.get_ha() for text in greatest] == ["right", "right", "left", "left", "left"]

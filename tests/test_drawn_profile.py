@@ -36,3 +36,20 @@ def test_a_table_is_drawn_with_its_points_and_its_fit() -> None:
 def test_a_load_is_no_part_of_a_profile() -> None:
     with pytest.raises(ValueError, match="friction: found a parameter of the load or the bodies"):
         draw_profile(profile="paraboloid", friction=0.3)
+
+
+def test_lengths_of_a_shape_are_drawn():
+    """b from the axis on; λ = Λ √h from one crest to the next, half a wave from the axis."""
+    sketch = draw_profile(profile="rounded_punch", flat_radius=0.5).axes[0]
+    (face,) = [text for text in sketch.texts if text.get_text() == "$b$"]
+    assert face.get_position() == (0.25, -0.77)
+    ends = [(text.xy[0], text.xyann[0]) for text in sketch.texts if text.get_text() == ""]
+    assert (0.5, 0.0) in ends
+    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0.01, "wavelength": 5.0}
+    sketch = draw_profile(**wavy).axes[0]
+    (words,) = [text for text in sketch.texts if "lambda" in text.get_text()]
+    assert words.get_text() == r"$\lambda$, height $2h$ = 0.02 $\delta_0$"
+    (arrow,) = [t for t in sketch.texts if t.get_text() == "" and t.xyann[0] == words.get_position()[0]]
+    assert arrow.xy[0] - arrow.xyann[0] == pytest.approx(0.5)
+    assert arrow.xyann[0] / 0.5 % 1.0 == pytest.approx(0.5)
+    assert not [t for t in draw_profile(profile="paraboloid").axes[0].texts if "b$" in t.get_text()]

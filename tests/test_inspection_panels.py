@@ -249,3 +249,25 @@ def test_what_does_not_change_has_room_too():
     low, high = panels._limits(np.array([1.0, 1.0 + 9e-14]), 0.0, 0.0)
     assert high - low == pytest.approx(0.1)
     assert panels._limits(np.array([1.0, 1.0 + 1e-9]), 0.0, 0.0) == (1.0, 1.0 + 1e-9)
+
+
+def test_instants_of_one_place_have_one_mark(cattaneo, axes):
+    """At a constant depth the path goes to and fro: its middle is passed twice, its ends once."""
+    panels.draw_load(axes, cattaneo)
+    places = {text.get_text(): text.get_position() for text in axes.texts if text.get_text()}
+    u = 0.36 * np.sin(cattaneo.instant_time.values)
+    names = {}
+    for number, place in zip(cattaneo.instant.values, u.round(6), strict=True):
+        names.setdefault(place, []).append(str(number))
+    assert len(names) == 3
+    assert {", ".join(each): (place, 1.0) for place, each in names.items()} == {
+        words: pytest.approx(place, abs=1e-6) for words, place in places.items()
+    }
+
+
+def test_marks_over_time_are_at_one_height(moving):
+    figure = Figure()
+    axes = figure.subplots()
+    panels.draw_stress(axes, moving)
+    low, high = axes.get_ylim()
+    assert {round((place[1] - low) / (high - low), 6) for place in numbers(axes).values()} == {0.94}

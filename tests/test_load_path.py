@@ -15,6 +15,7 @@ from swtstudy import LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.merge import merge
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import unique_points
+from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
 from swtstudy.parameters import CONTROLS, Control
 
 PLAIN = ("normal_amplitude", "tangential_amplitude")
@@ -120,6 +121,39 @@ def test_major_and_minor_cycles_are_their_polygon_of_many_sides() -> None:
         errors.append(abs(s_of(np.stack(course(t), axis=1), **own) / smooth - 1.0))
     assert errors[1] < 3e-4
     assert errors[1] < 0.5 * errors[0]
+
+
+# Normal loads that almost stop while they rise: instants, and what sticks there, change at once.
+ALMOST_STOPPING = [
+    [(5, 0.0288138, 1.36408761), (1, 0.64085263, 5.56455201), (2, 0.20727671, 2.30102214)],
+    [(1, 0.73251138, 3.85995961), (5, 0.12092728, 1.47432116), (2, 0.12053666, 3.66847055)],
+]
+
+
+@pytest.mark.parametrize("rows", ALMOST_STOPPING)
+def test_the_instant_of_a_value_where_a_harmonic_sum_almost_stops(
+    rows: list[tuple[int, float, float]],
+) -> None:
+    order, amplitude, phase = (np.array(column) for column in zip(*rows, strict=True))
+    one = HarmonicSum(order, amplitude, phase)
+    for stretch, begin in enumerate(one.turns):
+        end = np.append(one.turns[1:], one.turns[0] + 2.0 * np.pi)[stretch]
+        instant = begin + (end - begin) * np.linspace(0.0, 1.0, 1001)
+        value = sum(a * np.sin(k * instant + b) for k, a, b in rows)
+        found = one.inverse(value, np.full(value.shape, stretch))
+        np.testing.assert_allclose(sum(a * np.sin(k * found + b) for k, a, b in rows), value, atol=1e-12)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_a_normal_load_that_almost_stops_while_all_sticks(rtol: float) -> None:
+    tangential = [(2, 0.20445448, 3.67845041), (1, 0.93671587, 2.84211607)]
+    own = {"poisson_ratio": 0.3, "friction": 0.5, "normal_amplitude": 1.15467, "tangential_amplitude": 0.2352}
+    own |= {"load": LoadPath.harmonic_sum("mine", ALMOST_STOPPING[1], tangential)}
+    found, closest = swtstudy.solve(**own, rtol=rtol), swtstudy.solve(**own, rtol=1e-8)
+    assert abs(found.s.item() - closest.s.item()) <= found.s_error.item()
+    assert found.s_error.item() <= rtol * found.s.item()
+    # Its polygon of 800 sides.
+    assert found.s.item() == pytest.approx(0.161137934, rel=3e-5)
 
 
 def test_a_function_with_corners_is_no_harmonic_sum() -> None:

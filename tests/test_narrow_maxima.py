@@ -139,7 +139,8 @@ FROZEN = [
 def test_the_largest_of_narrow_maxima(profile, values, lengths, s, rtol):
     found = solve_points(points(profile, *values, **lengths), rtol)
     assert found.s[0] == pytest.approx(s, rel=rtol)
-    assert found.s_error[0] <= 2.0 * rtol * s
+    # The least of these values are those of stresses of 1e-4 beside pressures whose rounding is 1e-8.
+    assert found.s_error[0] <= 2.0 * rtol * s + 1e-9 * s**0.5
 
 
 # Where the values are the largest of all planes 0.001° apart at 200 or more steps to a stretch.
@@ -254,3 +255,14 @@ def test_five_values_on_two_planes_are_no_polynomial(rtol):
     )
     found = solve_points(points("paraboloid", *load, 3, 2), rtol)
     assert found.s[0] == pytest.approx(0.1855460438, rel=max(0.3 * rtol, 1e-8))
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-5, 1e-6, 1e-8])
+def test_an_extreme_in_a_layer_behind_two_events_that_follow_closely(rtol):
+    # The spring at x slips 2e-4 before it lifts off; the largest σ_n is 6e-5 later, at the begin of a stretch
+    # of the length 0.7. The value is the largest of all planes 0.0015° apart at 5,000 steps to a stretch.
+    load = 0.038002, 0.060607, 0.850945, 0.91391, 0.912985, 3, 2
+    lengths = {"waviness_amplitude": 0.0370796, "wavelength": 5.95356}
+    found = solve_points(points("wavy_paraboloid", *load, **lengths), rtol)
+    assert found.s[0] == pytest.approx(0.0693624488, rel=max(0.1 * rtol, 1e-7))
+    assert abs(found.s[0] - 0.0693624488) <= found.s_error[0]

@@ -17,9 +17,9 @@ from scipy.integrate import trapezoid
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.contacts.scales import SCALES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.scales import SCALES
 from swtstudy.units.sizes import wrong_size
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
@@ -312,11 +312,11 @@ def test_mistakes_are_named(changes, words):
             {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 1e-9},
             ["wavelength: found 1e-09 at waviness_amplitude 0.001; allowed: at least 0.62"],
         ),
-        ({"friction": [0.5]}, ["friction: found [0.5] (not a number)"]),
+        ({"friction": [[0.5]]}, ["friction: found [[0.5]] (not a number)"]),
         ({"friction": 0}, ["tangential_amplitude: found 0.002 without friction; allowed: 0"]),
         ({"young_modulus": -1}, ["young_modulus: found -1; allowed: a positive number"]),
         ({"normal_amplitude": "0"}, ["normal_amplitude: found '0'"]),
-        ({"profile": ["paraboloid"]}, ["profile: found ['paraboloid'] (not a name)"]),
+        ({"profile": [["paraboloid"]]}, ["profile: found [['paraboloid']] (not a name)"]),
         ({"similar": None}, ["similar: found None"]),
         ({"young_modulus": 5e-324}, ["young_modulus: found 5e-324; allowed: a positive number, or a pair"]),
         ({"young_modulus": 1e308}, ["young_modulus: found 1e+308; allowed: a positive number, or a pair"]),

@@ -257,7 +257,10 @@ def test_a_scatter_has_a_panel_for_each_parameter(results):
         for line, profile in zip(axes.lines, ("paraboloid", "rounded_punch"), strict=True):
             assert line.get_xdata().tolist() == results[name].values.tolist()
             assert line.get_ydata().tolist() == results.s.sel(profile=profile).values.tolist()
-    assert [text.get_text() for text in figure.legends[0].texts] == ["paraboloid", "rounded punch"]
+    assert [text.get_text() for text in figure.legends[0].texts] == [
+        "paraboloid",
+        "rounded punch, $b/a_H$ = 0.5",
+    ]
 
 
 def test_a_histogram_counts_and_has_percentiles(results):

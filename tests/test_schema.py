@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from swtstudy import Study, StudyError
+from swtstudy.axes import CONTACT_AXES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.study.schema import SCHEMA_FILE, SCHEMA_LINE, schema_text, study_schema
 
@@ -48,8 +49,9 @@ def test_every_key_is_explained():
     for table in tables:
         for key, entry in table["properties"].items():
             assert entry["description"], key
-    for name in ("fixed", "axes"):
-        assert list(schema["properties"][name]["properties"]) == [*PARAMETERS, "critical_distance"]
+    for name, others in (("fixed", ["similar"]), ("axes", [])):
+        known = [*PARAMETERS, "critical_distance", *CONTACT_AXES, *others]
+        assert list(schema["properties"][name]["properties"]) == known
 
 
 def test_three_mistakes(validator):

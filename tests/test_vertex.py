@@ -45,7 +45,7 @@ def brackets(corner: bool) -> TimeBrackets:
     """One bracket, −1 ≤ c ≤ 1."""
     side = np.zeros((1, 1, 1, 2))
     flags = np.full((1, 1, 1), corner)
-    return TimeBrackets(side, side, side.astype(int), side, 1.0, flags, np.zeros((1, 1, 1)), 1.0)
+    return TimeBrackets(side, side, side.astype(int), side, 1.0, side, flags, np.zeros((1, 1, 1)), 1.0)
 
 
 def peak(corner: bool, curve: np.ndarray) -> float:

@@ -61,7 +61,18 @@ class House:
 
 WHOLE = House(
     "swtstudy",
-    ("parameters", "mistakes", "numbers", "named", "accuracy", "version", "files", "wording", "quantities"),
+    (
+        "parameters",
+        "axes",
+        "mistakes",
+        "numbers",
+        "named",
+        "accuracy",
+        "version",
+        "files",
+        "wording",
+        "quantities",
+    ),
     (
         *(
             "mechanics",

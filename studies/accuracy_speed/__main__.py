@@ -1,6 +1,7 @@
 """Accuracy against speed: ``OMP_NUM_THREADS=1 python studies/accuracy_speed``, from the project's folder.
 
-Writes results/accuracy_speed.png, .csv and .md. Needs the extra ``bench``.
+Writes results/accuracy_speed.png, .csv and .md; with ``--redraw`` the picture alone, from the table that is
+there. Needs the extra ``bench``.
 """
 
 from __future__ import annotations
@@ -14,13 +15,24 @@ from chart import chart
 from methods import METHODS, until_patience_ends
 from scenes import COARSE, FINE, SCENES
 
+from swtstudy.figures.save import save_figure
+
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the files")
     arguments.add_argument("--quick", action="store_true", help="one sample a curve, to see that it runs")
+    arguments.add_argument("--redraw", action="store_true", help="draw the table that is there")
     given = arguments.parse_args()
-    samples = 1 if given.quick else None
+    table = given.results / "accuracy_speed.csv"
+    if not given.redraw:
+        measure(given.results, given.quick)
+    save_figure(chart(table), table.with_suffix(".png"))
+
+
+def measure(results: Path, quick: bool) -> None:
+    """Write the table of samples, and what confirms the reference values."""
+    samples = 1 if quick else None
     curves = {
         scene.title: {
             name: until_patience_ends(islice(method(scene), samples)) for name, method in METHODS.items()
@@ -28,22 +40,21 @@ def main() -> None:
         for scene in SCENES
     }
     references = {scene.title: scene.reference() for scene in SCENES}
-    given.results.mkdir(exist_ok=True)
-    chart(curves, references).savefig(given.results / "accuracy_speed.png", dpi=150)
-    with (given.results / "accuracy_speed.csv").open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["scene", "method", "resolution", "s", "relative error", "seconds a value"])
+    results.mkdir(exist_ok=True)
+    with (results / "accuracy_speed.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["scene", "method", "resolution", "s", "relative error", "seconds a value"])
         for title, methods in curves.items():
             for name, samples in methods.items():
                 for resolution, s, seconds in samples:
                     error = abs(s / references[title] - 1.0)
-                    table.writerow([title, name, resolution, f"{s:.12f}", f"{error:.1e}", f"{seconds:.2e}"])
+                    writer.writerow([title, name, resolution, f"{s:.12f}", f"{error:.1e}", f"{seconds:.2e}"])
     lines = ["| scene | s at rtol 1e-9 | textbook, fine aligned grid | difference |", "|---|---|---|---|"]
     for scene in SCENES:
-        s, other = references[scene.title], scene.independent(COARSE if given.quick else FINE)
+        s, other = references[scene.title], scene.independent(COARSE if quick else FINE)
         lines.append(f"| {scene.title} | {s:.8f} | {other:.6f} | {other / s - 1.0:+.1e} |")
     text = "Reference values of the chart, and what confirms them.\n\n" + "\n".join(lines) + "\n"
-    (given.results / "accuracy_speed.md").write_text(text, encoding="utf-8")
+    (results / "accuracy_speed.md").write_text(text, encoding="utf-8")
     print(text)
 
 

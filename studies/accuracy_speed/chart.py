@@ -1,61 +1,83 @@
-"""The chart: error of s over processor time per value, with a panel for each scene."""
+"""The chart of the table of samples: error of s over processor time per value, a panel for each scene."""
 
 from __future__ import annotations
 
+import csv
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
-from methods import Sample
+
+from swtstudy.figures.legend import add_legend
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import styled
 
 #: Errors below this are rounding errors of the reference; they are drawn at this value.
 SMALLEST_ERROR = 1e-9
 STYLES = {
     "this solver, in batches of 64": ("#0072B2", "o", "-"),
-    "this solver, one point alone": ("#56B4E9", "o", "--"),
+    "this solver, one point alone": ("#56B4E9", "D", "--"),
     "textbook, fixed grids": ("#D55E00", "s", "-"),
-    "textbook, aligned instants": ("#E69F00", "s", "--"),
+    "textbook, aligned instants": ("#E69F00", "X", "--"),
     "FFT half-space (tamaas), same contact": ("#009E73", "^", "-"),
     "plane loop in Python, at the critical point": ("#CC79A7", "v", ":"),
 }
-SYMBOLS = {"δA/δ0": r"\delta_A/\delta_0", "ω2/ω1": r"\omega_2/\omega_1", "b/a_H": "b/a_H", "ψ": r"\psi"}
+SYMBOLS = {
+    "δA/δ0": r"\delta_A/\delta_0",
+    "ω2/ω1": r"\omega_2/\omega_1",
+    "b/a_H": "b/a_H",
+    "ψ": r"\psi",
+}
 
 
-def chart(curves: dict[str, dict[str, list[Sample]]], references: dict[str, float]) -> Figure:
+def chart(table: Path) -> Figure:
     """Draw the samples of every scene and method.
+
+    A marker is a sample: what takes longer is at times less accurate. The line is the lower envelope, the
+    least error that was reached by then.
 
     Parameters
     ----------
-    curves
-        Samples by scene and method.
-    references
-        s of every scene.
+    table
+        The CSV file of the samples.
     """
-    figure = Figure((9.0, 7.4), layout=ConstrainedLayoutEngine())
-    panels = figure.subplots(2, 2, sharex=True, sharey=True)
-    for axes, (title, methods) in zip(panels.flat, curves.items(), strict=True):
-        for method, samples in methods.items():
-            colour, marker, line = STYLES[method]
-            errors = [max(abs(sample.s / references[title] - 1.0), SMALLEST_ERROR) for sample in samples]
-            seconds = [sample.seconds for sample in samples]
-            axes.loglog(seconds, errors, line, color=colour, marker=marker, markersize=4.5, label=method)
-        axes.axhspan(0.0, 2.0 * SMALLEST_ERROR, color="0.92")
-        axes.text(
-            1.0,
-            2.2 * SMALLEST_ERROR,
-            "no difference ",
-            transform=axes.get_yaxis_transform(),
-            ha="right",
-            color="0.4",
-            fontsize="small",
-        )
-        axes.set_title(_in_symbols(title), fontsize="medium")
-        axes.grid(color="0.9", linewidth=0.6)
-    for axes in panels[-1]:
-        axes.set_xlabel("processor time a value, s")
-    for axes in panels[:, 0]:
-        axes.set_ylabel("relative error of s")
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False)
+    with table.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    with styled(width="page"):
+        sheet = Sheet(2, 2, "page")
+        figure = sheet.figure()
+        panels = sheet.panels(figure, share_y="all")
+        for axes, letter, scene in zip(panels.flat, "ABCD", scenes, strict=False):
+            for method in STYLES:
+                samples = [row for row in rows if (row["scene"], row["method"]) == (scene, method)]
+                if samples:
+                    _draw(axes, method, samples)
+            axes.axhspan(0.0, 2.0 * SMALLEST_ERROR, color="0.92")
+            place = {"transform": axes.get_yaxis_transform(), "ha": "right", "fontsize": "small"}
+            axes.text(1.0, 2.2 * SMALLEST_ERROR, "no difference ", color="0.4", **place)
+            axes.set_title(f"({letter})  {_in_symbols(scene)}", loc="left")
+        for axes in panels[-1]:
+            axes.set_xlabel("processor time a value, s")
+        for axes in panels[:, 0]:
+            axes.set_ylabel("relative error of $s$")
+        add_legend(figure, panels[:1, :1])
     return figure
+
+
+def _draw(axes: Axes, method: str, samples: list[dict[str, str]]) -> None:
+    colour, marker, line = STYLES[method]
+    seconds = np.array([float(row["seconds a value"]) for row in samples])
+    errors = np.maximum([float(row["relative error"]) for row in samples], SMALLEST_ERROR)
+    order = np.argsort(seconds)
+    asked = f"{samples[0]['resolution']} to {samples[-1]['resolution']}"
+    envelope = np.minimum.accumulate(errors[order])
+    axes.loglog(seconds, errors, marker, color=colour, linestyle="none", alpha=0.6)
+    label = f"{method}: {asked}" if len(samples) > 1 else method
+    axes.loglog(seconds[order], envelope, line, color=colour, marker="", label=label)
+    # The marker of the legend; the line alone would not tell methods apart in grey.
+    axes.lines[-1].set(marker=marker, markevery=np.flatnonzero(errors[order] == envelope).tolist())
 
 
 def _in_symbols(title: str) -> str:

@@ -7,11 +7,13 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 import swtstudy
+from swtstudy.figures.legend import place_legend
 from swtstudy.figures.maps import draw_slip_map
 from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import styled
 
 
 def main() -> None:
@@ -22,12 +24,15 @@ def main() -> None:
     fine = 0.1 if given.quick else 1.0
     position = np.linspace(0.0, 1.4, 1 + round(280 * fine))
     time = np.linspace(0.0, 2.0 * np.pi, 1 + round(360 * fine))
-    figure = Figure(figsize=(13.0, 3.8), layout="constrained")
-    for axes, phase in zip(figure.subplots(1, 3, sharey=True), (0.0, 0.5, 2.0), strict=True):
-        handles = draw_slip_map(axes, swtstudy.slip_map(position, time=time, phase=phase))
-        axes.label_outer()
-        axes.set_title(rf"$\psi$ = {phase:g}", loc="left", fontsize="medium")
-    figure.legend(handles=handles, loc="outside right upper", frameon=False)
+    with styled(width="page"):
+        sheet = Sheet(1, 3, "page")
+        figure = sheet.figure()
+        panels = sheet.panels(figure)[0]
+        for axes, letter, phase in zip(panels, "ABC", (0.0, 0.5, 2.0), strict=True):
+            handles = draw_slip_map(axes, swtstudy.slip_map(position, time=time, phase=phase))
+            axes.label_outer()
+            axes.set_title(rf"({letter})  $\psi$ = {phase:g}", loc="left")
+        place_legend(figure, handles, [str(handle.get_label()) for handle in handles])
     save_figure(figure, given.results / "slip_map.png")
 
 

@@ -7,11 +7,12 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures.maps import draw_stress_cycle
 from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import styled
 
 
 def main() -> None:
@@ -21,11 +22,13 @@ def main() -> None:
     given = arguments.parse_args()
     x = float(swtstudy.solve().critical_x)
     time = np.linspace(0.0, 2.0 * np.pi, 73 if given.quick else 721)
-    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
-    for axes, z in zip(figure.subplots(1, 2, sharey=True), (0.0, 0.1), strict=True):
-        draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
-        axes.label_outer()
-        axes.set_title(f"$x/a_H = {x:.3f}$, $z/a_H = {z:g}$", fontsize="medium")
+    with styled(width="page"):
+        sheet = Sheet(1, 2, "page")
+        figure = sheet.figure()
+        for axes, letter, z in zip(sheet.panels(figure)[0], "AB", (0.0, 0.1), strict=True):
+            draw_stress_cycle(axes, swtstudy.stress_field(x, 0.0, z, time=time))
+            axes.label_outer()
+            axes.set_title(f"({letter})  $x/a_H$ = ${x:.3f}$, $z/a_H$ = {z:g}", loc="left")
     save_figure(figure, given.results / "stress_cycle.png")
 
 

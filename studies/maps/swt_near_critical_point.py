@@ -7,11 +7,15 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures.maps import draw_swt_map
 from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import styled
+
+#: How many times larger the depth is drawn than the distance along the surface.
+STRETCH = 20
 
 
 def main() -> None:
@@ -24,17 +28,23 @@ def main() -> None:
     x = float(point.critical_x)
     near = x + np.linspace(-0.3, 0.3, 1 + round(120 * fine))
     depth = 0.03 * np.linspace(0.0, 1.0, 1 + round(40 * fine)) ** 2
-    across = np.linspace(-0.5, 0.5, 1 + round(60 * fine))
+    across = np.linspace(-0.3, 0.3, 1 + round(60 * fine))
     section = swtstudy.swt_field(x=near, y=0.0, z=depth)
     surface = swtstudy.swt_field(x=near, y=across, z=0.0)
 
-    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
-    both = figure.subplots(1, 2)
-    for axes, dataset in zip(both, (section, surface), strict=True):
-        mesh = draw_swt_map(axes, dataset, highest=float(point.s))
-        dot = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "black", "clip_on": False}
-        axes.plot(x, 0.0, **dot)
-    figure.colorbar(mesh, ax=both, label=r"swt over $E^* \delta_0/R$")
+    with styled(width="page"):
+        sheet = Sheet(1, 2, "page")
+        figure = sheet.figure()
+        panels = sheet.panels(figure, share_x="none", share_y="none")[0]
+        for axes, dataset, words in zip(
+            panels, (section, surface), ("(A)  $y$ = 0", "(B)  $z$ = 0"), strict=True
+        ):
+            mesh = draw_swt_map(axes, dataset, float(point.s), STRETCH if dataset is section else 1.0)
+            dot = {"marker": "o", "markerfacecolor": "white", "markeredgecolor": "black", "clip_on": False}
+            axes.plot(x, 0.0, **dot)
+            axes.set_title(words, loc="left")
+            axes.grid(False)
+        figure.colorbar(mesh, ax=panels, label=r"$\mathrm{swt}/\mathrm{SWT}_0$")
     save_figure(figure, given.results / "swt_near_critical_point.png")
 
 

@@ -15,8 +15,8 @@ from swtstudy.archive.attributes import definitions_text
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
-from swtstudy.quantities import columns_of
 from swtstudy.records.bulk_shift import shifts
+from swtstudy.records.columns import columns_at
 from swtstudy.records.labelled import arrays_of, label
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
@@ -59,7 +59,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
     arrays |= shifts(points)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
-    columns = {name: records.quantity(name)[points.index] for name in columns_of(study.asked.items)}
+    columns = columns_at(study.grid, study.asked, points, records.quantity)
     dataset = label(study.grid, arrays, study.asked, columns)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
@@ -100,8 +100,8 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "study": study.text,
         "runs": json.dumps([run.to_json() for run in records.runs]),
     }
-    if study.grid.definitions:
-        attributes["definitions"] = definitions_text(study.grid.definitions)
+    if study.grid.given:
+        attributes["definitions"] = definitions_text(study.grid.given)
     if study.figure is not None:
         attributes["figure"] = study.figure.to_json()
     return attributes

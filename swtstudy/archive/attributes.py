@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Collection, Hashable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
@@ -71,8 +71,8 @@ def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Named]
     return read_definitions(attributes.get("definitions", "[]"))
 
 
-def read_figure(text: object) -> FigureLayout:
-    """The layout of the figure."""
+def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
+    """The layout of the figure, which may show others than what every study may have."""
     raw = _json(text, dict)
     try:
         layout = FigureLayout.from_json(str(text))
@@ -85,7 +85,7 @@ def read_figure(text: object) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        if reference(y) is None and y.strip() not in (*VARIABLES, *every_variable()):
+        if reference(y) is None and y.strip() not in (*VARIABLES, *every_variable(), *others):
             raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 

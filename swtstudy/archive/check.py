@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import fields
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -18,6 +19,7 @@ from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of, every_variable, item_of
 from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import request_of
 
@@ -61,16 +63,21 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     if "definitions" in attributes:
         yield from _unread("definitions", attributes["definitions"], read_definitions)
     if "figure" in attributes:
-        yield from _unread("figure", attributes["figure"], read_figure)
+        others = [str(name) for name in dataset.data_vars] if is_real(dataset) else []
+        yield from _unread("figure", attributes["figure"], partial(read_figure, others=others))
     yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)
     for name, words in (("regime", REGIMES), ("status", STATES)):
         meanings = dataset[name].attrs["flag_meanings"]
         # An older archive may not know the last of them.
         if not isinstance(meanings, str) or tuple(meanings.split()) != words[: len(meanings.split())]:
             yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
-    expected = {name: parameter.units for name, parameter in PARAMETERS.items()}
+    real = is_real(dataset)
+    if real:
+        yield from _unread(ATTRIBUTE, attributes[ATTRIBUTE], read_contact)
+    expected = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
     expected |= {name: attributes_of(name)["units"] for name in every_variable()}
+    dataset = without_units(dataset) if real else dataset
     for name, units in expected.items():
         found = dataset[name].attrs.get("units", units) if name in dataset else units
         if str(found) != units:
@@ -86,6 +93,7 @@ def _unread(name: str, text: object, read: Callable[[object], object]) -> Iterat
 
 def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     asked = _asked(dataset)
+    dataset = without_units(dataset) if is_real(dataset) else dataset
     for name in asked.variables:
         if name not in dataset:
             yield name, "nothing", "a quantity that the attribute runs says is there"

@@ -9,9 +9,12 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
 from swtstudy.archive.recall import grid_of
+from swtstudy.axes import AXES, CONTACT_AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
+from swtstudy.quantities import DISTANCE
+from swtstudy.records.real import ATTRIBUTE, is_real, read_contact
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import request_of
 from swtstudy.wording import value_words
@@ -31,18 +34,25 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
         if name == SAMPLE:
             yield f"  sample         {_sample_words(dataset[SAMPLE])}"
         else:
-            yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}"
-    for name in PARAMETERS:
-        if name in dataset.coords and not dataset[name].ndim:
-            yield f"  fixed          {name}: {value_words(name, dataset[name].item())}"
-        elif name in dataset.coords and name not in dataset.dims:
-            yield f"  sampled        {name}: {_range_words(name, dataset[name].values)}"
+            yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}{_unit(dataset[name])}"
+    for name in (*PARAMETERS, *CONTACT_AXES):
+        if name not in dataset.coords or name in dataset.dims:
+            continue
+        values, unit = dataset[name].values, _unit(dataset[name])
+        if not values.ndim:
+            yield f"  fixed          {name}: {value_words(name, dataset[name].item())}{unit}"
+        elif dataset[name].dims == ("body",):
+            yield f"  of each body   {name}: {_axis_words(name, values)}{unit}"
+        else:
+            yield f"  sampled        {name}: {_range_words(name, values)}{unit}"
+    yield from _contact(dataset)
     yield f"  prescribed     {grid_of(dataset).control.name}"
     asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
     if asked.names:
         yield f"  quantities     {', '.join(asked.names)}"
     if asked.distances:
-        yield f"  distances      {', '.join(f'{value:.4g}' for value in asked.distances)}"
+        distances = ", ".join(f"{value:.4g}" for value in asked.distances)
+        yield f"  distances      {distances}{_unit(dataset[DISTANCE])}"
     yield f"  complete       {_completeness(dataset)}"
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"
@@ -65,6 +75,21 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     if len(failures) > _LISTED:
         yield f"  failed         {len(failures) - _LISTED} more"
     yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
+
+
+def _contact(dataset: xr.Dataset) -> Iterator[str]:
+    """What the results of a study with units say of its contacts, beside the values of parameters."""
+    if is_real(dataset):
+        given, _ = read_contact(dataset.attrs[ATTRIBUTE])
+        yield f"  units          {', '.join(vars(given.units).values())}"
+        for material in dict.fromkeys(given.materials):
+            yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"
+
+
+def _unit(coordinate: xr.DataArray) -> str:
+    """The unit that a coordinate has in a study with units."""
+    units, own = coordinate.attrs.get("units", ""), AXES[str(coordinate.name)].units
+    return f" {units}" if units not in ("", "1", own) else ""
 
 
 def _axis_words(name: str, values: np.ndarray) -> str:

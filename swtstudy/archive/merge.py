@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,19 +11,22 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line
-from swtstudy.archive.attributes import read_figure
+from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
+from swtstudy.axes import AXES, QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.quantities import DISTANCE, Request
+from swtstudy.records.columns import wanted
+from swtstudy.records.real import ATTRIBUTE, is_real
 from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
+from swtstudy.records.requested import request_of
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
@@ -62,6 +66,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
+    _refuse_other_contacts(datasets)
     grids = [grid_of(dataset) for dataset in datasets]
     _refuse_other_controls(paths, grids)
     grid = _union(grids)
@@ -80,13 +85,23 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         made += f", {gaps} in none of them"
     merged = matching(points.table, records, records.status != MISSING)
     axis = any(DISTANCE in dataset.dims for dataset in datasets)
-    asked = Request.of(made_by(records.runs), axis)
+    asked = _asked(datasets, made_by(records.runs), axis)
     if not sparse:
-        _refuse_gaps_in_quantities(paths, merged, asked.items, points.definitions)
+        _refuse_gaps_in_quantities(paths, merged, wanted(grid, asked, points), points.definitions)
     study = _study(paths, datasets, grid, asked)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
+
+
+def _asked(datasets: Sequence[xr.Dataset], items: tuple[str, ...], axis: bool) -> Request:
+    """What the archives have together; distances of real contacts are lengths."""
+    if not is_real(datasets[0]):
+        return Request.of(items, axis)
+    own = [request_of(dataset, made_by(read_runs(dataset.attrs["runs"]))) for dataset in datasets]
+    lengths = sorted({length for each in own for length in each.distances})
+    names = sorted({name for each in own for name in each.names})
+    return Request(tuple(names), tuple(lengths), axis or len(lengths) > 1)
 
 
 def _names(paths: Sequence[Path]) -> str:
@@ -131,15 +146,24 @@ def _refuse_conflicts(
 
 
 def _refuse_gaps_in_quantities(
-    paths: Sequence[Path], merged: Records, names: tuple[str, ...], definitions: Definitions
+    paths: Sequence[Path],
+    merged: Records,
+    asked: tuple[tuple[str, ...], NDArray[np.bool_]],
+    definitions: Definitions,
 ) -> None:
-    for name, lacks in zip(names, merged.lacking(names).T, strict=True):
+    names, of = asked
+    for name, lacks in zip(names, (merged.lacking(names) & of).T, strict=True):
         if lacks.any():
             example = describe_point(merged.table[np.flatnonzero(lacks)[0]], definitions)
             raise GapsError(
                 f"{name} is known of some points in {_names(paths)}, but not of {int(lacks.sum())} others, "
                 f"such as {example}; --sparse (sparse=True in Python) leaves it NaN, and a run computes it"
             )
+
+
+def _refuse_other_contacts(datasets: Sequence[xr.Dataset]) -> None:
+    if len({dataset.attrs.get(ATTRIBUTE) for dataset in datasets}) > 1:
+        raise ConflictError("results with other units, materials or pairs of bodies cannot be merged")
 
 
 def _union(grids: list[Grid]) -> Grid:
@@ -158,11 +182,12 @@ def _union(grids: list[Grid]) -> Grid:
     )
     samples = dict(zip(sampled[0], zip(*points, strict=True), strict=True)) if points else {}
     names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
-    values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in PARAMETERS}
-    others = [name for name in PARAMETERS if name not in (*names, *samples)]
+    every = [name for name in AXES if any(grid.values(name) for grid in grids)]
+    values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in every}
+    others = [name for name in every if name not in (*names, *samples)]
     names += [name for name in others if len(values[name]) > 1]
     fixed = {name: values[name][0] for name in others if name not in names and values[name]}
-    return Grid(fixed, {name: values[name] for name in names}, samples)
+    return replace(grids[0], fixed=fixed, axes={name: values[name] for name in names}, samples=samples)
 
 
 def _distinct(values: list[Value]) -> tuple[Value, ...]:
@@ -179,7 +204,7 @@ def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, asked:
     rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
     figure = None
     if "figure" in datasets[0].attrs:
-        layout = read_figure(datasets[0].attrs["figure"])
+        layout = read_figure(datasets[0].attrs["figure"], [str(name) for name in datasets[0].data_vars])
         if {name for _, name in layout.roles()} - {*QUANTITY_AXES} == set(grid.dims):
             figure = layout
     text = to_toml(" + ".join(titles), rtol, grid, figure, asked)

@@ -19,9 +19,16 @@ from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS, Control, Parameter, replaced_by
+from swtstudy.quantities import DISTANCE
+from swtstudy.records.columns import columns_back
 from swtstudy.records.labelled import arrays_of
+from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
 from swtstudy.records.records import FAILED, Records, made_by
-from swtstudy.records.requested import columns_from
+from swtstudy.records.requested import columns_from, request_of
+from swtstudy.units.admissible import check_contacts
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.reading import completed
+from swtstudy.units.rows import MEAN_LOADS, rows
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -37,12 +44,14 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     axes: list[str] = []
     sampled: list[str] = []
     dims = [str(name) for name in dataset.s.dims]
+    given, pairs = read_contact(dataset.attrs[ATTRIBUTE]) if is_real(dataset) else (None, {})
+    table = PARAMETERS if given is None else rows(given.units)
     for name in dims:
-        if name != SAMPLE and (name not in PARAMETERS or name not in dataset.coords):
-            mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
+        if name != SAMPLE and (name not in table or name not in dataset.coords):
+            mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(table)))
     known = defined_in(dataset.attrs)
-    for name, parameter in PARAMETERS.items():
-        if name not in dataset.coords:
+    for name, parameter in table.items():
+        if name not in dataset.coords or name in pairs or name == DISTANCE:
             continue
         coordinate = dataset[name]
         if name in dims and coordinate.dims == (name,):
@@ -55,15 +64,38 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         raw = np.atleast_1d(coordinate.values).tolist()
         values[name] = tuple(_values(parameter, raw, known.get(name, {}), mistakes))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
-    mistakes += _lacking({*values, *dims}, shapes_needed(profiles))
+    mistakes += _lacking({*values, *dims, *pairs}, shapes_needed(profiles))
     mistakes += _wrong_control(dataset, {*values, *dims})
     if SAMPLE in dims and not sampled:
-        mistakes.append(Mistake(SAMPLE, "a dimension without values of a parameter", ", ".join(PARAMETERS)))
+        mistakes.append(Mistake(SAMPLE, "a dimension without values of a parameter", ", ".join(table)))
     if mistakes:
         raise StudyError(mistakes)
     fixed = {name: value[0] for name, value in values.items() if name not in (*axes, *sampled)}
     samples = {name: values[name] for name in sampled}
-    return complete(fixed, {name: values[name] for name in dims if name != SAMPLE}, samples)
+    along = {name: values[name] for name in dims if name != SAMPLE}
+    if given is None:
+        return complete(fixed, along, samples)
+    return _of_contacts(completed(fixed, along, samples, {**vars(given), "pairs": pairs}))
+
+
+def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
+    """A grid of contacts that can be."""
+    mistakes: list[Mistake] = []
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed))
+
+    lacking = [name for name in ("young_modulus", "poisson_ratio", "friction") if name not in grid.pairs]
+    for name in lacking:
+        if not grid.values(name):
+            report(name, "nothing", grid.row(name).allowed)
+    if len([name for name in MEAN_LOADS if grid.values(name)]) != 1:
+        report(", ".join(MEAN_LOADS), "none or both", "one of the two")
+    if not mistakes:
+        check_contacts(grid, str, report)
+    if mistakes:
+        raise StudyError(mistakes)
+    return grid
 
 
 def _lacking(given: set[str], shape: Sequence[str]) -> Iterator[Mistake]:
@@ -110,7 +142,9 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
         raise ArchiveError(
             f"{source}: an archive of another version of swtstudy, without {', '.join(lacking)}"
         )
-    points = unique_points(grid_of(dataset))
+    grid = grid_of(dataset)
+    points = unique_points(grid)
+    dataset = without_units(dataset) if is_real(dataset) else dataset
     at = np.zeros(len(points.table), np.int64)
     at[points.index] = np.arange(len(points.index))
     flat = {
@@ -119,7 +153,8 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     }
     status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
     runs = read_runs(dataset.attrs["runs"])
-    quantities = columns_from(dataset, made_by(runs), at)
+    asked = request_of(dataset, made_by(runs))
+    quantities = columns_back(grid, asked, points, columns_from(dataset, asked.items))
     # Mirroring a second time gives the canonical point back.
     solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
     failures = read_failures(dataset.status.attrs["failures"])

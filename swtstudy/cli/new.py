@@ -12,7 +12,8 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 
 @click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
 @click.argument("name")
-def new(name: str) -> None:
+@click.option("--units", is_flag=True, help="A study of real contacts, in N, mm and MPa.")
+def new(name: str, units: bool) -> None:
     """Write NAME.toml, a small commented study to start from.
 
     Beside it goes the schema that editors use to complete and check studies. An existing study is never
@@ -20,7 +21,7 @@ def new(name: str) -> None:
     """
     from swtstudy.files import check_writable
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
-    from swtstudy.study.template import template
+    from swtstudy.study.template import template, template_with_units
 
     if Path(name).name in ("", ".toml"):
         raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
@@ -28,7 +29,7 @@ def new(name: str) -> None:
     check_writable(target)
     try:
         with open(target, "x", encoding="utf-8") as file:
-            file.write(template(target.stem.replace("_", " ")))
+            file.write((template_with_units if units else template)(target.stem.replace("_", " ")))
     except FileExistsError:
         raise FileExistsError(f"{target} already exists; choose another name") from None
     click.echo(str(target))

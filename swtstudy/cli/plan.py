@@ -37,6 +37,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     """What a run would do, in lines."""
     from swtstudy.grid.cost import duration
     from swtstudy.grid.unique import loads
+    from swtstudy.quantities import DISTANCE, distance_of
     from swtstudy.runner.chunk import solve_points
     from swtstudy.runner.estimate import estimate
     from swtstudy.runner.pace import CHUNK_SECONDS
@@ -58,7 +59,9 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
         f"  to be computed     {todo} ({shared} of them share another's contact solution)",
     ]
     if study.asked.items:
-        lines.insert(-3, f"  quantities         {', '.join(study.asked.items)}")
+        unit = grid.row(DISTANCE).units.replace("1", "")
+        asked = [f"{item} {unit}".strip() if distance_of(item) else item for item in study.asked.items]
+        lines.insert(-3, f"  quantities         {', '.join(asked)}")
     if work.incomplete.any():
         lines.append(f"  without s          {int(work.incomplete.sum())} of them lack quantities alone")
     if work.outdated:

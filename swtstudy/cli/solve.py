@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from swtstudy.accuracy import DEFAULT_RTOL
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import SEVERAL
-from swtstudy.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 
 if TYPE_CHECKING:
@@ -31,7 +32,9 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         for parameter in reversed(PARAMETERS.values()):
             default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
-            words = f"{parameter.described}; {parameter.allowed}{default}"
+            words = "; ".join(
+                filter(None, (parameter.described, parameter.note, parameter.allowed + default))
+            )
             option = f"--{parameter.name.replace('_', '-')}"
             command = click.option(option, metavar=metavar, help=words)(command)
         return command

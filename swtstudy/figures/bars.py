@@ -31,7 +31,7 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
     indices
         From `swtstudy.sensitivity`.
     style, width
-        As for `swtstudy.figures.draw.draw`.
+        As for `swtstudy.accessor.SwtAccessor.figure`.
 
     Returns
     -------

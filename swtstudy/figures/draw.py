@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from swtstudy.axes import AXES
+from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
-from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
 from swtstudy.figures.sheet import Sheet, Width, check_width
@@ -16,12 +18,11 @@ from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import AXES
-from swtstudy.results.quantity import quantity
+from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.results.select import require_points
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.figure_check import wrong_axes, wrong_layout
-from swtstudy.wording import axis_words, place_words
+from swtstudy.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -120,43 +121,68 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
-    columns = _slices(dataset, layout.panels)
-    lines = layout.kind == "lines"
+    parts = _slices(dataset, layout.panels)
+    lines = layout.kind in LINE_KINDS
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
-    sheet = Sheet(len(layout.y), len(columns), width)
+    sheet = Sheet(len(layout.y), len(parts), width)
     figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
-    axes = sheet.panels(figure, share_y="row" if lines else "all")
+    upright = layout.kind == "life"
+    axes = sheet.panels(
+        figure, share_x="row" if upright else "all", share_y="row" if lines and not upright else "all"
+    )
     for row, y in enumerate(layout.y):
-        values = [quantity(panel, y) for panel in columns]
-        words = quantity_words(values[0], y)
+        values = quantity(dataset, y)
+        panels = _slices(_shown(dataset, y, values), layout.panels)
+        words = quantity_words(values, y)
         if lines:
-            for one, panel in zip(axes[row], columns, strict=True):
-                draw_lines(one, panel, layout, y, scale)
+            for one, panel in zip(axes[row], panels, strict=True):
+                draw_lines(one, panel, layout, scale)
         else:
-            surfaces = [each.transpose(layout.vertical, layout.x) for each in values]
+            surfaces = [
+                each.value.rename(values.name).transpose(layout.vertical, layout.x) for each in panels
+            ]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
+            if layout.regimes:
+                for one, panel in zip(axes[row], panels, strict=True):
+                    mark_borders(one, panel.regime.transpose(layout.vertical, layout.x))
+        bottom_words = words if upright else axis_words(layout.x, dataset[layout.x].attrs)
+        if not lines or upright:
+            name = layout.vertical or layout.x
+            words = axis_words(name, dataset[name].attrs)
+        for bottom in sheet.lowest(axes[: row + 1]) if upright or row == len(layout.y) - 1 else []:
+            bottom.set_xlabel(bottom_words)
         for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel(words if layout.vertical is None else axis_words(layout.vertical))
-        for column, (one, panel) in enumerate(zip(axes[row], columns, strict=True)):
-            _title_panel(one, panel, layout, row * len(columns) + column, axes.size)
-    for bottom in sheet.lowest(axes):
-        bottom.set_xlabel(axis_words(layout.x))
+            first.set_ylabel(words)
+        title = [title_words(values, y)] if len(layout.y) > 1 else []
+        for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
+            _title_panel(one, part, layout.panels, title, axes.size > 1, row * len(parts) + column)
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:
-        add_scale(figure, axes, scale, layout.hue)
+        add_scale(figure, axes, scale, dataset[layout.hue])
     add_legend(figure, axes)
     return figure
+
+
+def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray) -> xr.Dataset:
+    """What is drawn of a quantity: its values, their errors and the regime where known, with attributes."""
+    import xarray as xr
+
+    # Of the whole results: a part may lack the place that normalises the quantity.
+    shown = {"value": values, "error": quantity_error(dataset, y)}
+    if "regime" in dataset:
+        shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
+    return xr.Dataset({name: values for name, values in shown.items() if values is not None})
 
 
 def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
     return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
 
 
-def _title_panel(axes: Axes, panel: xr.Dataset, layout: FigureLayout, index: int, count: int) -> None:
-    words = []
-    if count > 1:
-        words.append(f"({chr(ord('A') + index % 26)})")
-    if layout.panels:
-        words.append(place_words(layout.panels, panel[layout.panels].item()))
-    axes.set_title("  ".join(words), loc="left")
+def _title_panel(
+    axes: Axes, part: xr.Dataset, panels: str | None, words: list[str], several: bool, index: int
+) -> None:
+    """The letter of a panel, what it shows where that differs between rows, and its place."""
+    letter = [f"({chr(ord('A') + index % 26)})"] if several else []
+    place = [part_words(part, panels)] if panels else []
+    axes.set_title("  ".join([*letter, ",  ".join([*words, *place])]).strip(), loc="left")

@@ -12,7 +12,8 @@ from swtstudy.figures.inspection_panels import (
     _draw_direction,
     _instants,
     _limits,
-    _mark,
+    _mark_along,
+    _mark_over_time,
     draw_edge_states,
     thin,
 )
@@ -49,10 +50,10 @@ def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
     axes.axhline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
     both = np.concatenate([dataset.normal_force.values, dataset.tangential_force.values])
     axes.set_ylim(_limits(both, 0.08, 0.34))
-    for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+    for when in dataset.instant_time.values:
         axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
-        _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
     draw_time_axis(axes, time)
+    _mark_over_time(axes, dataset, 0.94)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=2, fontsize="small")
     axes.set_title("forces over the cycle", loc="left")
 
@@ -74,10 +75,8 @@ def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     axes.axhline(1.0 if up == "normal_force" else 0.0, color=_FAINT, linewidth=thin(), zorder=0)
     axes.set_xlim(_limits(x, 0.14, 0.14, 1.0))
     axes.set_ylim(_limits(y, 0.14, 0.14, 1.0))
-    places = _instants(dataset)
-    _draw_direction(axes, x, y, [index for _, index in places])
-    for number, index in places:
-        _mark(axes, number, x[index], y[index])
+    _draw_direction(axes, x, y, [index for _, index in _instants(dataset)])
+    _mark_along(axes, dataset, x, y)
     axes.set_xlabel(_words(dataset, across))
     axes.set_ylabel(_words(dataset, up))
 

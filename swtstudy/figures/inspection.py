@@ -38,7 +38,7 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     Parameters
     ----------
     style, width
-        As for `swtstudy.figures.draw.draw`.
+        As for `swtstudy.accessor.SwtAccessor.figure`.
     **parameters
         Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
 
@@ -64,7 +64,7 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Widt
     dataset
         The point, as from `swtstudy.inspect_point`.
     style, width
-        As for `swtstudy.figures.draw.draw`.
+        As for `swtstudy.accessor.SwtAccessor.figure`.
 
     Returns
     -------

@@ -33,6 +33,8 @@ _PRESCRIBED = {
     "normal_force+tangential_displacement": "$u$ and $F_N$",
     "normal_displacement+tangential_force": "$F_x$ and $\\delta$",
 }
+#: Instants closer than this share of a panel in both directions have one mark.
+_NEAR = 0.02
 #: A curve whose range is a smaller fraction of its size is constant but for rounding.
 _ROUNDING = 1e-13
 
@@ -60,8 +62,7 @@ def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
         axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
     _draw_direction(axes, u, depth, [index for _, index in _instants(dataset)])
-    for number, index in _instants(dataset):
-        _mark(axes, number, u[index], depth[index])
+    _mark_along(axes, dataset, u, depth)
     axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
     axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
     axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
@@ -107,9 +108,9 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
         if radius > 0.0:
             look: dict[str, Any] = {"color": "black", "linewidth": thin(), "linestyle": dashes}
             handles.append(axes.axhline(radius, label=words, **look))
-    for number, time in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+    for time in dataset.instant_time.values:
         axes.axvline(time, color="black", linewidth=thin(), alpha=0.6)
-        _mark(axes, number, time, 0.95 * top)
+    _mark_over_time(axes, dataset, 0.95)
     # Beneath the axis with its label, by its distance in letters.
     below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
     axes.legend(handles=handles, ncols=3, handlelength=1.4, columnspacing=1.0, fontsize="small", **below)
@@ -168,9 +169,8 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
     words: dict[str, Any] = {"color": dashed.get_color(), "ha": "right", "va": "center", "bbox": box}
     other.text(0.915 * float(time[-1]), 0.5 * (high + low), r"$\Delta\varepsilon_n$", **words)
-    for number, when in zip(dataset.instant.values, dataset.instant_time.values, strict=True):
+    for when in dataset.instant_time.values:
         axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
-        _mark(axes, number, when, 0.94, transform=axes.get_xaxis_transform())
     draw_time_axis(axes, dataset.time)
     axes.set_ylabel(r"$\sigma_n\,a_H/(E^* \delta_0)$", color=line.get_color())
     other.set_ylabel(r"$\varepsilon_n\,a_H/\delta_0$", color=dashed.get_color())
@@ -182,6 +182,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
         shown = np.concatenate([shown, dataset.bulk_stress.values])
     for one, values in ((axes, shown), (other, strain.values)):
         one.set_ylim(_limits(values, 0.08, 0.22))
+    _mark_over_time(axes, dataset, 0.94)
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
     axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
 
@@ -283,8 +284,32 @@ def _dot() -> float:
     return float(_DOT * rcParams["lines.markersize"])
 
 
-def _mark(axes: Axes, number: int, x: float, y: float, **options: Any) -> None:
-    """The number of an instant in a disc."""
-    disc = {"boxstyle": "circle,pad=0.18", "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
-    look = {"fontsize": _NUMBER * rcParams["font.size"]}
-    axes.text(x, y, str(number), ha="center", va="center", bbox=disc, zorder=5, **look, **options)
+def _mark_along(axes: Axes, dataset: xr.Dataset, x: FloatArray, y: FloatArray) -> None:
+    """The numbers of the instants along a loop."""
+    _mark(axes, [(number, x[index], y[index]) for number, index in _instants(dataset)])
+
+
+def _mark_over_time(axes: Axes, dataset: xr.Dataset, height: float) -> None:
+    """The numbers of the instants over time, at a height as a share of the panel's."""
+    low, high = axes.get_ylim()
+    at = zip(dataset.instant.values, dataset.instant_time.values, strict=True)
+    _mark(axes, [(int(number), float(time), low + height * (high - low)) for number, time in at])
+
+
+def _mark(axes: Axes, marks: list[tuple[int, float, float]]) -> None:
+    """Numbers in discs; those of one place in one, for the later would hide the earlier."""
+    near = _NEAR * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
+    groups: list[list[tuple[int, float, float]]] = []
+    for mark in marks:
+        apart = [np.abs(np.subtract(mark, group[0])[1:]) for group in groups]
+        group = next((g for g, each in zip(groups, apart, strict=True) if np.all(each < near)), None)
+        if group is None:
+            groups.append([mark])
+        else:
+            group.append(mark)
+    for group in groups:
+        words = ", ".join(str(number) for number, _, _ in group)
+        shape = "circle,pad=0.18" if len(group) == 1 else "round,pad=0.18,rounding_size=0.6"
+        disc = {"boxstyle": shape, "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
+        look: dict[str, Any] = {"fontsize": _NUMBER * rcParams["font.size"], "bbox": disc, "zorder": 5}
+        axes.text(*group[0][1:], words, ha="center", va="center", **look)

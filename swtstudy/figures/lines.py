@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.quantity_words import flag_words
-from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes
-from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.parameters import AXES
-from swtstudy.results.quantity import known_regime, quantity, quantity_error
+from swtstudy.axes import AXES
+from swtstudy.figures.quantity_words import flag_words, is_life, part_words
+from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
+from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
+from swtstudy.quantities import DISTANCE
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +26,7 @@ _VISIBLE_ERROR = 0.004
 
 
 def draw_lines(
-    axes: Axes, panel: xr.Dataset, layout: FigureLayout, y: str, scale: ScalarMappable | None = None
+    axes: Axes, panel: xr.Dataset, layout: FigureLayout, scale: ScalarMappable | None = None
 ) -> None:
     """Draw the curves of one panel.
 
@@ -36,35 +35,57 @@ def draw_lines(
     axes
         The panel.
     panel
-        Results over x and hue.
-    layout, y
-        What is drawn. A band around a curve shows its estimated error, where it is visible.
+        Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; and
+        ``regime``, if that is to be marked.
+    layout
+        What goes where.
     scale
         Colours of the values of hue; without it the curves have the styles of the property cycle, and labels.
     """
     panel = panel.sortby(layout.x)
-    x = panel[layout.x].values
+    x, whole = panel[layout.x].values, panel.value
     parts = [panel.isel({layout.hue: i}) for i in range(panel.sizes[layout.hue])] if layout.hue else [panel]
-    curves, whole = [quantity(part, y) for part in parts], quantity(panel, y)
     visible = _VISIBLE_ERROR * float(whole.max() - whole.min())
-    for part, curve in zip(parts, curves, strict=True):
+    for part in parts:
         look: dict[str, Any] = {"markevery": _MARK_EVERY}
         if scale:
             look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
         elif layout.hue:
-            look["label"] = place_words(layout.hue, part[layout.hue].item())
-        if flag_words(curve):
+            look["label"] = part_words(part, layout.hue)
+        if flag_words(whole):
             look["drawstyle"] = "steps-mid"
-        (line,) = axes.plot(x, curve.values, **look)
-        error = quantity_error(part, y)
-        if error is not None and visible > 0.0 and np.any(error.values > visible):
-            low, high = curve.values - error.values, curve.values + error.values
+        curve = part.value.values
+        across, up = (curve, x) if layout.kind == "life" else (x, curve)
+        (line,) = axes.plot(across, up, **look)
+        banded = layout.kind != "life" and visible > 0.0 and "error" in part
+        if banded and np.any(part.error.values > visible):
+            low, high = curve - part.error.values, curve + part.error.values
             axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
         if layout.regimes:
-            names, regime = panel.regime.attrs["flag_meanings"].split(), known_regime(part).values
-            regimes = [names[int(value)] if np.isfinite(value) else None for value in regime]
-            mark_regimes(axes, x, curve.values, regimes, line.get_color())
+            mark_regimes(axes, x, curve, _names(part.regime), line.get_color())
+    if layout.kind == "life":
+        _scale_upright(axes, x, layout.x)
+        return
     _scale_axes(axes, x, whole, layout.x)
+    if layout.regimes:
+        shade_without(axes, x, [_names(part.regime) for part in parts])
+
+
+def _names(regime: xr.DataArray) -> list[str | None]:
+    """Regimes by name; None where unknown."""
+    names = regime.attrs["flag_meanings"].split()
+    return [names[int(value)] if np.isfinite(value) else None for value in regime.values]
+
+
+def _scale_upright(axes: Axes, x: NDArray[Any], name: str) -> None:
+    """Limits and ticks of a panel whose upright axis is x, over a logarithmic one."""
+    axes.set_xscale("log")
+    axes.set_ylim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    if in_equal_ratios(x):
+        axes.set_yscale("log")
+        tick_in_ratios(axes.yaxis, float(x[0]), float(x[-1]))
+    if AXES[name].units == "rad":
+        tick_in_pi(axes.yaxis, float(x.min()), float(x.max()))
 
 
 def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
@@ -76,8 +97,13 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) ->
         axes.set_ylim(-0.5, len(words) - 0.5)
     if in_equal_ratios(x):
         axes.set_xscale("log")
+        tick_in_ratios(axes.xaxis, float(x[0]), float(x[-1]))
         ratio = float(values.max()) / float(values.where(values > 0.0).min())
-        if not words and float(values.min()) >= 0.0 and ratio > LOG_RATIO:
+        if not words and float(values.min()) >= 0.0 and (ratio > LOG_RATIO or name == DISTANCE):
             axes.set_yscale("log")
+    if is_life(values.attrs) and float(values.min()) > 0.0:
+        axes.set_yscale("log")
+    if axes.get_yscale() == "log":
+        tick_in_ratios(axes.yaxis, float(values.where(values > 0.0).min()), float(values.max()))
     if AXES[name].units == "rad":
         tick_in_pi(axes.xaxis, float(x.min()), float(x.max()))

@@ -22,7 +22,7 @@ _ROUNDING = 1e-9
 STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 
 
-def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
+def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float, stretch: float = 1.0) -> QuadMesh:
     """Draw swt over the section that the Dataset spans, depth downwards.
 
     Parameters
@@ -33,6 +33,8 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
         From `swtstudy.swt_field`, with two of the dimensions x, y and z.
     highest
         swt at the upper end of the colour scale, whose lower end is 0.
+    stretch
+        How many times larger the upright direction is drawn; the label of its axis says so.
 
     Returns
     -------
@@ -51,7 +53,9 @@ def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float) -> QuadMesh:
     look: Any = {"cmap": "cividis", "shading": "gouraud", "rasterized": True}
     mesh = axes.pcolormesh(swt[across], swt[along], swt, vmin=0.0, vmax=highest, **look)
     axes.set_xlabel(f"${across}/a_H$")
-    axes.set_ylabel(f"${along}/a_H$")
+    stretched = "" if stretch == 1.0 else f", drawn {stretch:g} times larger"
+    axes.set_ylabel(f"${along}/a_H$" + stretched)
+    axes.set_aspect(stretch)
     if along == "z":
         axes.invert_yaxis()
     return mesh
@@ -72,10 +76,10 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
     shown = [name for name in names if float(abs(dataset[name]).max()) > _ROUNDING * largest]
     for index, name in enumerate(shown):
         words = f"${dataset[name].attrs['symbol']}$"
-        look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)]}
+        look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)], "marker": ""}
         axes.plot(dataset.time, dataset[name], label=words, **look)
     draw_time_axis(axes, dataset.time)
-    axes.set_ylabel(r"stress over $E^* \sqrt{\delta_0/R}$")
+    axes.set_ylabel(r"$\sigma\,a_H/(E^* \delta_0)$")
     axes.grid(color="0.9", linewidth=0.6)
     axes.legend(frameon=False)
 
@@ -102,7 +106,7 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     norm = BoundaryNorm(np.arange(len(STATE_COLOURS) + 1) - 0.5, colours.N)
     state = dataset.state.transpose("r", "time")
     axes.pcolormesh(state.time, state.r, state, cmap=colours, norm=norm, shading="nearest", rasterized=True)
-    axes.plot(dataset.time, dataset.contact_radius, color="black", linewidth=1.2)
+    axes.plot(dataset.time, dataset.contact_radius, color="black", linestyle="-", marker="", linewidth=1.2)
     words = state.attrs["flag_meanings"].split()
     draw_time_axis(axes, dataset.time)
     axes.set_ylabel("$r/a_H$")

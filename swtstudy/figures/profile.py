@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,7 +37,7 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     Parameters
     ----------
     style, width
-        As for `swtstudy.figures.draw.draw`.
+        As for `swtstudy.accessor.SwtAccessor.figure`.
     **parameters
         profile, a name or a `TabulatedProfile`, and its shape parameters, as for `swtstudy.solve`.
 
@@ -66,6 +68,7 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
         figure = sheet.figure()
         sketch, springs = sheet.panels(figure, share_x="none", share_y="none")[0]
         _draw_sketch(sketch, profile, edge)
+        _draw_lengths(sketch, profile, {name: float(value[0]) for name, value in shape.items()})
         _draw_springs(springs, profile, edge)
         if isinstance(given, TabulatedProfile):
             sketch.plot(given.radius, given.height - 1.0, ".", ms=3, color="C1", label="table")
@@ -95,12 +98,35 @@ def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
         axes.annotate(word, end, offset, textcoords="offset points")
     load = {**arrow, "color": "C3", "lw": 2.0}
     axes.annotate("", (0.0, 0.5 * top), (0.0, top), arrowprops=load)
-    axes.annotate("normal load: depth $\\delta$, force", (0.04 * reach, 0.8 * top), color="C3", fontsize=9)
+    words: dict[str, Any] = {"color": "C3", "fontsize": "small"}
+    axes.annotate("normal load: depth $\\delta$, force", (0.04 * reach, 0.8 * top), **words)
     axes.annotate("", (-0.45 * reach, 0.3 * top), (-0.85 * reach, 0.3 * top), arrowprops=load)
-    axes.annotate("tangential: $u$, force", (-0.97 * reach, 0.38 * top), color="C3", fontsize=9)
+    axes.annotate("tangential: $u$, force", (-0.97 * reach, 0.38 * top), **words)
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
     axes.set_title("f, undeformed, at the depth δ0", loc="left")
+
+
+def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float]) -> None:
+    """The radius of the face, or the length of a wave and its height, above the lower end of the indenter."""
+    look: dict[str, Any] = {"arrowstyle": "<|-|>", "color": "k", "lw": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
+    right = axes.get_xlim()[1]
+    face = shape.get("flat_radius", 0.0)
+    if face:
+        end = min(face, right)
+        axes.annotate("", (end, -0.8), (0.0, -0.8), arrowprops={**look, "mutation_scale": 8.0})
+        axes.plot([face, face], [-1.0, -0.72], color="k", lw=0.6, ls="-", marker="")
+        axes.annotate("$b$", (0.5 * end, -0.77), ha="center", va="bottom")
+    height = shape.get("waviness_amplitude", 0.0)
+    length = shape.get("wavelength", 0.0) * height**0.5
+    if length:
+        # The waves are −h cos kx about the paraboloid: crests half a wave from the axis.
+        first = length * (0.5 + math.floor(0.5 * right / length))
+        crests = np.array([first, first + length])
+        level = float(_height(profile, crests).max()) - 1.0 + 0.12
+        axes.annotate("", (crests[1], level), (crests[0], level), arrowprops={**look, "mutation_scale": 6.0})
+        words = f"$\\lambda$, height $2h$ = {2.0 * height:.3g} $\\delta_0$"
+        axes.annotate(words, (crests[0], level + 0.03), ha="center", va="bottom", fontsize="small")
 
 
 def _draw_springs(axes: Axes, profile: Profile, edge: float) -> None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.grid.values import as_number
+from swtstudy.parameters import family_of
 from swtstudy.quantities import attributes_of, every_variable
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
@@ -38,6 +40,33 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"
+
+
+def title_words(values: xr.DataArray, y: str) -> str:
+    """The quantity in the title of a panel: its symbol."""
+    if y.strip() == "s":
+        return "$s$"
+    return quantity_words(values.assign_attrs(units="1"), y)
+
+
+def part_words(part: xr.Dataset, name: str) -> str:
+    """What a part of results is at one value of a parameter; of a profile with its shape where that is fixed.
+
+    Parameters
+    ----------
+    part
+        Results at one value.
+    name
+        The parameter.
+    """
+    shape = family_of(part[name].item()).shape if name == "profile" else ()
+    fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
+    return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
+
+
+def is_life(attributes: Mapping[Any, Any]) -> bool:
+    """Whether a quantity with these attributes is a number of cycles, which people read in decades."""
+    return str(attributes.get("symbol", "")).startswith("N")
 
 
 def flag_words(values: xr.DataArray) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rcParams
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import WITHOUT_S
@@ -26,8 +27,16 @@ _WORDS = {
     "no_equilibrium": "no equilibrium from here on",
     "lift_off": "lift-off begins",
 }
-#: An axis is logarithmic from this ratio of its ends: two decades.
+#: A vertical axis over a logarithmic one is so, too, from this ratio of its ends: two decades.
 LOG_RATIO = 100.0
+#: Values in equal ratios make a logarithmic axis from this ratio of their ends: one decade.
+_DECADE = 10.0
+#: Where no line has a value: what is said there.
+_WITHOUT = {"not_finite": "not finite", "no_equilibrium": "no equilibrium"}
+#: Size of a mark over that of other markers.
+_SIZE = 1.4
+#: Words stand upright where they have less than this share of a panel.
+_NARROW = 0.3
 #: Relative difference of ratios that are equal but for the digits in which a study gives values.
 _EQUAL = 1e-6
 
@@ -41,13 +50,41 @@ def mark_regimes(
         if name and before and name != before:
             at = place - 1 if name in WITHOUT_S else place
             words = _WORDS.get(name, f"{name.replace('_', ' ')} begins")
-            style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markersize": 5}
+            # On white and above all lines, or marks where these come together were buried.
+            style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "white", "zorder": 4}
+            style["markersize"] = _SIZE * rcParams["lines.markersize"]
             axes.plot(x[at : at + 1], s[at : at + 1], marker=MARKS[name], color=colour, label=words, **style)
+
+
+def shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]]) -> None:
+    """Shade the end of a panel where no line has a value, and say why.
+
+    Parameters
+    ----------
+    axes
+        The panel, with its limits.
+    x
+        Places in ascending order.
+    regimes
+        For each line those at the places; None if unknown.
+    """
+    without = np.array([all(name in WITHOUT_S for name in names) for names in zip(*regimes, strict=True)])
+    if not without[-1] or without.all():
+        return
+    last = int(np.flatnonzero(~without)[-1])
+    low, high = float(x[last]), axes.get_xlim()[1]
+    axes.axvspan(low, high, color="0.93", zorder=0)
+    middle = (low * high) ** 0.5 if axes.get_xscale() == "log" else 0.5 * (low + high)
+    words = " or ".join(dict.fromkeys(_WITHOUT[str(line[-1])] for line in regimes))
+    look: dict[str, Any] = {"ha": "center", "va": "center", "color": "0.3", "fontsize": "small"}
+    wide = high - low > _NARROW * (high - axes.get_xlim()[0])
+    transform = axes.get_xaxis_transform()
+    axes.text(middle, 0.5, words, rotation=0 if wide else 90, transform=transform, **look)
 
 
 def in_equal_ratios(x: NDArray[Any]) -> bool:
     """Whether ascending values have equal ratios, and a long range."""
-    if len(x) < 3 or x[0] <= 0.0 or x[-1] < LOG_RATIO * x[0]:
+    if len(x) < 3 or x[0] <= 0.0 or x[-1] < _DECADE * x[0]:
         return False
     ratio = x[1:] / x[:-1]
     return bool(np.ptp(ratio) <= _EQUAL * ratio[0])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.legend import add_legend
-from swtstudy.figures.quantity_words import flag_words, quantity_words
+from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_in_pi
@@ -15,7 +15,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import axis_words, place_words, value_words
+from swtstudy.wording import axis_words, value_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,7 +50,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 )
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
-            one.set_xlabel(axis_words(name))
+            one.set_xlabel(axis_words(name, dataset[name].attrs))
             _scale_axes(one, dataset, name, quantity(dataset, y))
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
@@ -139,7 +139,7 @@ def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Data
     if name is None:
         return [(None, dataset)]
     parts = [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
-    return [(place_words(name, part[name].item()), part) for part in parts]
+    return [(part_words(part, name), part) for part in parts]
 
 
 def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:

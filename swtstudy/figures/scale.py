@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.regimes import in_equal_ratios
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.parameters import AXES
 from swtstudy.wording import axis_words
 
 if TYPE_CHECKING:
@@ -37,8 +37,8 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
     return ScalarMappable(norm, ListedColormap(colours))
 
 
-def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, name: str) -> None:
+def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, values: xr.DataArray) -> None:
     """Add the colour bar of a parameter beside all panels."""
-    bar = figure.colorbar(scale, ax=axes, label=axis_words(name), pad=0.02)
-    if AXES[name].units == "rad":
+    bar = figure.colorbar(scale, ax=axes, label=axis_words(str(values.name), values.attrs), pad=0.02)
+    if AXES[str(values.name)].units == "rad":
         tick_in_pi(bar.ax.yaxis, *bar.ax.get_ylim())

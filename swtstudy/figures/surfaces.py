@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rcParams
+from matplotlib.path import Path
 
-from swtstudy.figures.quantity_words import flag_words
+from swtstudy.axes import AXES
+from swtstudy.figures.loci import jumps, lowest
+from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
-from swtstudy.parameters import AXES
-from swtstudy.results.extrema import extrema
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
@@ -17,20 +21,28 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
+    from matplotlib.contour import ContourSet
     from matplotlib.figure import Figure
+    from matplotlib.transforms import BboxBase
     from numpy.typing import NDArray
 
-#: Largest numbers of ticks of a heat map's axes whose labels do not overlap, and of labels along an extremum.
-_TICKS_ACROSS, _TICKS_UP, _LABELLED = 9, 20, 5
+#: Most ticks of a heat map's axes.
+_TICKS_ACROSS, _TICKS_UP = 9, 20
 
 #: Approximate number of contours: as many as are legible with labels.
 _LEVELS = 13
+
+#: Panels have a scale of colours each where one fills less than this share of their common one.
+_COMMON = 0.25
+
+#: Contours that are smaller than this share of a panel in both directions are left out.
+_ISLAND = 0.05
 
 
 def draw_surfaces(
     figure: Figure, axes: NDArray[Any], surfaces: list[xr.DataArray], kind: str, words: str
 ) -> None:
-    """Draw a row of panels with one colour scale.
+    """Draw a row of panels, with one scale of colours unless a panel would have few of them.
 
     Parameters
     ----------
@@ -45,6 +57,10 @@ def draw_surfaces(
         Label of the colour bar.
     """
     names = flag_words(surfaces[0])
+    if not names and not _in_common(surfaces):
+        for one, surface in zip(axes, surfaces, strict=True):
+            draw_surfaces(figure, np.array([one]), [surface], kind, words)
+        return
     look = _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind)}
     for one, surface in zip(axes, surfaces, strict=True):
         if kind == "heatmap":
@@ -54,22 +70,46 @@ def draw_surfaces(
         else:
             filled = draw_contours(one, surface, look)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
+    if is_life(surfaces[0].attrs) and kind == "contour":
+        bar.ax.yaxis.set_major_formatter(lambda value, _: _power(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
 
 
+def _in_common(surfaces: list[xr.DataArray]) -> bool:
+    """Whether every panel fills enough of a common scale of colours to be read."""
+    ends = np.array([[float(surface.min()), float(surface.max())] for surface in surfaces])
+    whole = np.nanmax(ends) - np.nanmin(ends) if np.isfinite(ends).any() else 0.0
+    return bool(np.all(~(ends[:, 1] - ends[:, 0] < _COMMON * whole)))
+
+
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     """One colour scale for all panels of a row, in steps for contours."""
-    from matplotlib.colors import BoundaryNorm, Normalize
+    from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
     from matplotlib.ticker import MaxNLocator
 
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if is_life(surfaces[0].attrs) and low > 0.0:
+        return LogNorm(low, high) if kind == "heatmap" else _decades(low, high)
     if kind == "heatmap":
         return Normalize(low, high)
     return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
+
+
+def _decades(low: float, high: float) -> Normalize:
+    """Levels in equal ratios, whole or broken parts of decades."""
+    from matplotlib.colors import BoundaryNorm
+
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
+    levels = [digit * 10.0**power for power in range(first, last + 1) for digit in digits]
+    inner = [level for level in levels if low < level < high]
+    begin = max((level for level in levels if level <= low), default=low)
+    end = min((level for level in levels if level >= high), default=high)
+    return BoundaryNorm([begin, *inner, end], 256)
 
 
 def _flag_colours(names: list[str]) -> dict[str, Any]:
@@ -95,7 +135,7 @@ def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
 
 
 def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Draw contours of a surface over (vertical, x); for s also its minima and maxima along x, labelled."""
+    """Draw contours of a surface over (vertical, x); for s also where it is least and greatest along x."""
     vertical, x = map(str, surface.dims)
     levels = look["norm"].boundaries
     surface = surface.sortby([vertical, x])
@@ -103,7 +143,11 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     axes.set_facecolor("0.8")
     filled = axes.contourf(*at, surface, levels=levels, **look)
     lines = axes.contour(*at, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
-    axes.clabel(lines, levels[::2], fontsize="x-small", fmt="%g")
+    if bool(surface.notnull().all()):
+        for contours in (filled, lines):
+            _leave_out_islands(contours, axes.dataLim)
+    shown = levels if is_life(surface.attrs) else levels[::2]
+    axes.clabel(lines, shown, fontsize="x-small", fmt=_power if is_life(surface.attrs) else "%g")
     if surface.name == "s":
         _draw_extrema(axes, surface)
     axes.grid(False)
@@ -111,39 +155,54 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     return filled
 
 
+def _power(value: float) -> str:
+    """A number of cycles: 5·10⁴."""
+    power = math.floor(math.log10(value) + 1e-9)
+    digit = round(value / 10.0**power)
+    return f"$10^{{{power}}}$" if digit == 1 else rf"${digit} \cdot 10^{{{power}}}$"
+
+
+def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
+    """Remove what is too small to be labelled: between two points of a grid a level may come and go."""
+
+    def island(part: Path) -> bool:
+        box = part.get_extents()
+        inside = panel.x0 < box.x0 and box.x1 < panel.x1 and panel.y0 < box.y0 and box.y1 < panel.y1
+        return bool(inside and box.width < _ISLAND * panel.width and box.height < _ISLAND * panel.height)
+
+    kept = [[part for part in _parts(path) if not island(part)] for path in contours.get_paths()]
+    contours.set_paths([Path.make_compound_path(*parts) for parts in kept])
+
+
+def _parts(path: Path) -> list[Path]:
+    """The connected parts of a path."""
+    codes = np.array([] if path.codes is None else path.codes, dtype=np.uint8)
+    begins = np.flatnonzero(codes == Path.MOVETO).tolist()
+    places: Any = path.vertices
+    return [Path(places[a:b], codes[a:b]) for a, b in pairwise([*begins, len(codes)])]
+
+
 def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
+    """Lines where the surface is least and greatest along x; with a gap where another extremum takes over."""
     vertical, x = map(str, surface.dims)
-    found = extrema(surface.to_dataset(name="s"), x)
-    for kind, look in (("minimum", {"linestyle": "-"}), ("maximum", {"linestyle": (0, (4, 2))})):
-        places = found[f"at_{kind}"]
-        # The curve has a gap where the extremum jumps from one place to another.
-        jumps = np.abs(np.diff(places, prepend=places[0])) > 0.25 * np.ptp(surface[x].values)
-        label = "least $s$" if kind == "minimum" else "greatest $s$"
-        with_gaps = np.where(jumps, np.nan, places)
-        # Not clipped: an extremum may lie on the frame.
+    at, heights = surface[x].values, surface[vertical].values
+    dashes: Any = (0, (4, 2))
+    width = 1.2 * rcParams["lines.linewidth"]
+    for words, sign, look in (("least", 1.0, "-"), ("greatest", -1.0, dashes)):
+        places = lowest(at, sign * surface.values, AXES[x].units == "rad")
+        # A gap before each run; not clipped, since an extremum may lie on the frame.
+        gaps = jumps(places, float(np.ptp(at)))
+        path = np.insert(places, gaps, np.nan), np.insert(heights, gaps, np.nan)
         over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}
-        axes.plot(with_gaps, places[vertical], color="white", linewidth=3.4, **over)
-        axes.plot(with_gaps, places[vertical], color="#B22222", label=label, **look, **over)
-        _label_places(axes, places, x, vertical)
+        axes.plot(*path, color="white", linestyle="-", linewidth=2.0 * width, **over)
+        label = f"{words} ${surface.name}$"
+        axes.plot(*path, color="#B22222", linestyle=look, linewidth=width, label=label, **over)
 
 
 def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
     for axis, name in zip((axes.yaxis, axes.xaxis), map(str, surface.dims), strict=True):
         if AXES[name].units == "rad":
             tick_in_pi(axis, float(surface[name].min()), float(surface[name].max()))
-
-
-def _label_places(axes: Axes, places: xr.DataArray, x: str, vertical: str) -> None:
-    chosen = np.linspace(0, places.size - 1, _LABELLED + 2).round().astype(int)[1:-1]
-    low, high = axes.get_xlim()
-    for index in dict.fromkeys(chosen.tolist()):
-        value = float(places[index])
-        words = f"{np.degrees(value):.0f}°" if AXES[x].units == "rad" else f"{value:.3g}"
-        share = (value - low) / (high - low)
-        side = "left" if share < 0.04 else "right" if share > 0.96 else "center"
-        box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
-        at = value, float(places[vertical][index])
-        axes.text(*at, words, fontsize="x-small", ha=side, va="center", bbox=box, zorder=4)
 
 
 def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:

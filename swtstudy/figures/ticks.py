@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.ticker import FuncFormatter, Locator
+from matplotlib.ticker import FuncFormatter, Locator, LogLocator, NullFormatter
 
 from swtstudy.wording import pi_words
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: An end of an axis is a multiple of π if it is relatively this close to it.
 _TOLERANCE = 1e-9
+#: Logarithmic axes with a smaller ratio of their ends have plain numbers.
+_DECADES = 1e3
 #: Most steps between ticks, however long the axis.
 _STEPS = 6
 #: Width of a letter, and distance of two labels upwards, in em.
@@ -30,6 +32,14 @@ def tick_in_pi(axis: Axis, low: float, high: float) -> None:
     axis.set_major_formatter(
         FuncFormatter(lambda x, _: pi_words(Fraction(x / math.pi).limit_denominator(_DENOMINATOR)))
     )
+
+
+def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
+    """Put plain numbers at 1, 2, 5 of each decade of a logarithmic axis of few decades."""
+    if high < _DECADES * low:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 
     from swtstudy.figures.figure import Figure
 
-#: A word with the blanks before it; a formula between $ is one word, and blanks before a sign belong to it.
-_WORD = re.compile(r"\s*(?:\$[^$]*\$|[^\s$])+")
+#: A word with the blanks before it; a formula between $ is one word, also with the value that it has.
+_WORD = re.compile(r"\s*(?:\$[^$]*\$|[^\s$])+(?: = \S+)?")
 
 
 def wrap_texts(figure: Figure) -> None:

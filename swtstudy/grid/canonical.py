@@ -61,6 +61,12 @@ def canonical_number(value: float) -> float:
     return float(f"{value:.{DIGITS}g}") + 0.0
 
 
+def rounded(values: NDArray) -> FloatArray:
+    """`canonical_number` of many numbers."""
+    distinct, index = np.unique(values, return_inverse=True)
+    return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
+
+
 def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Canonical rows of points.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -11,14 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.axes import AXES
 from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
 from swtstudy.named import Named
-from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
+from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS, Control, Parameter, replaced_by
+from swtstudy.quantities import Request, item_of
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import FloatArray
+    from swtstudy.mechanics.points import FloatArray, IntArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.
@@ -68,9 +71,23 @@ class Grid:
 
     @property
     def definitions(self) -> dict[float, Named]:
-        """What the user has defined, by its code."""
+        """What the user has defined, by its code in canonical rows."""
+        return self.given
+
+    @property
+    def given(self) -> dict[float, Named]:
+        """What the user has defined, as it was given."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
         return {value.code: value for value in values if isinstance(value, Named)}
+
+    @property
+    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
+        """What differs from body to body."""
+        return {}
+
+    def row(self, name: str) -> Parameter:
+        """The row of a parameter, with its unit."""
+        return AXES[name]
 
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid, or along its sample; empty if it has none."""
@@ -97,6 +114,22 @@ class Grid:
         if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
             columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
         return canonical_points(columns)
+
+    def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
+        """Names and dimensions of what results have beside what is asked: that with units."""
+        return {}
+
+    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
+        """The critical distances that are asked, as items, and which of these each point of the grid wants.
+
+        Returns
+        -------
+        items
+        wanted
+            Shape (len(asked.distances), size): indices of items.
+        """
+        items = tuple(map(item_of, asked.distances))
+        return items, np.broadcast_to(np.arange(len(items))[:, None], (len(items), self.size))
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
         """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""

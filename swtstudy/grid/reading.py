@@ -7,8 +7,10 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Literal
 
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
@@ -17,7 +19,7 @@ from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import AXES, BUILT_IN, PAIRS, PARAMETERS
+from swtstudy.parameters import BUILT_IN, PAIRS, PARAMETERS, Parameter
 from swtstudy.quantities import DISTANCE
 
 #: What the user has defined, by parameter and name.
@@ -77,28 +79,8 @@ def read_grid(
     def report(key: str, found: str, allowed: str) -> None:
         mistakes.append(Mistake(key, found, allowed, source))
 
-    good_fixed: dict[str, Value] = {}
-    good_axes: dict[str, tuple[Value, ...]] = {}
-    for name in (*fixed, *axes):
-        if name not in PARAMETERS and name not in others:
-            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*PARAMETERS, *others]))
     samples = samples or {}
-    for one, other, words in (
-        (fixed, axes, "both a fixed value and an axis"),
-        (fixed, samples, "both a fixed value and sampled"),
-        (axes, samples, "both an axis and sampled"),
-    ):
-        for name in sorted(one.keys() & other.keys()):
-            report(keys(name), words, "one of the two")
-    for name, single in fixed.items():
-        value = _read(name, single, keys(name), report, known) if name in PARAMETERS else None
-        if value is not None:
-            good_fixed[name] = value
-    for name, raw in axes.items():
-        if name in PARAMETERS and raw is not None:
-            good_axes[name] = _read_axis(name, raw, keys(name), report, known)
-    for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
-        report(key, found, allowed)
+    good_fixed, good_axes = read_values(fixed, axes, keys, report, others, samples, known)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     along = good_axes | good_samples
     check_amplitudes(good_fixed, along, keys, report)
@@ -111,17 +93,53 @@ def read_grid(
     return (None if mistakes else grid), mistakes
 
 
+def read_values(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    others: Sequence[str] = (),
+    samples: Mapping[str, object] = MappingProxyType({}),
+    known: Known = NOTHING_KNOWN,
+    rows: Mapping[str, Parameter] = PARAMETERS,
+) -> tuple[dict[str, Value], dict[str, tuple[Value, ...]]]:
+    """Those fixed values and axes that are sound one by one; see `read_grid`, and ``rows`` says what is."""
+    good_fixed: dict[str, Value] = {}
+    good_axes: dict[str, tuple[Value, ...]] = {}
+    for name in (*fixed, *axes):
+        if name not in rows and name not in others:
+            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
+    for one, other, words in (
+        (fixed, axes, "both a fixed value and an axis"),
+        (fixed, samples, "both a fixed value and sampled"),
+        (axes, samples, "both an axis and sampled"),
+    ):
+        for name in sorted(one.keys() & other.keys()):
+            report(keys(name), words, "one of the two")
+    for name, single in fixed.items():
+        value = _read(rows[name], single, keys(name), report, known) if name in rows else None
+        if value is not None:
+            good_fixed[name] = value
+    for name, raw in axes.items():
+        if name in rows and raw is not None:
+            good_axes[name] = _read_axis(rows[name], raw, keys(name), report, known)
+    for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
+        report(key, found, allowed)
+    return good_fixed, good_axes
+
+
 def read_distances(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
     keys: Callable[[str], str],
     report: Report,
+    row: Parameter = QUANTITY_AXES[DISTANCE],
 ) -> tuple[tuple[float, ...], bool]:
     """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
     key, raw = keys(DISTANCE), axes.get(DISTANCE)
     if raw is not None:
-        return tuple(map(as_number, _read_axis(DISTANCE, raw, key, report, NOTHING_KNOWN))), True
-    single = _read(DISTANCE, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
+        return tuple(map(as_number, _read_axis(row, raw, key, report, NOTHING_KNOWN))), True
+    single = _read(row, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
     return (() if single is None else (as_number(single),)), False
 
 
@@ -135,22 +153,22 @@ def given_twice(
             yield f"{keys(other)}, {keys(name)}", "both", "one of the two: it says what is prescribed"
 
 
-def _read(name: str, raw: object, key: str, report: Report, known: Known) -> Value | None:
+def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -> Value | None:
     try:
-        return read_value(AXES[name], raw, known.get(name, NOTHING))
+        return read_value(row, raw, known.get(row.name, NOTHING))
     except ValueError as error:
-        report(key, f"{literal(raw)} ({error})", _allowed(name, raw, known))
+        report(key, f"{literal(raw)} ({error})", _allowed(row, raw, known))
         return None
 
 
-def _allowed(name: str, raw: object, known: Known) -> str:
-    if AXES[name].kind == "name" and isinstance(raw, str):
-        return nearest(raw, [*BUILT_IN[name], *known.get(name, ())])
-    return AXES[name].allowed
+def _allowed(row: Parameter, raw: object, known: Known) -> str:
+    if row.kind == "name" and isinstance(raw, str):
+        return nearest(raw, [*BUILT_IN[row.name], *known.get(row.name, ())])
+    return row.allowed
 
 
 def _read_axis(
-    name: str, raw: Sequence[object] | Range, key: str, report: Report, known: Known
+    row: Parameter, raw: Sequence[object] | Range, key: str, report: Report, known: Known
 ) -> tuple[Value, ...]:
     elements = _expand(raw, key, report) if isinstance(raw, Range) else list(raw)
     if not elements and not isinstance(raw, Range):
@@ -161,7 +179,7 @@ def _read_axis(
     values: list[Value] = []
     seen: dict[float | str | Fraction, int] = {}
     for index, element in enumerate(elements):
-        value = _read(name, element, f"{key}[{index}]", report, known)
+        value = _read(row, element, f"{key}[{index}]", report, known)
         if value is None:
             continue
         values.append(value)

@@ -12,7 +12,7 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import Report, literal
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, families_with, family_of
+from swtstudy.parameters import PARAMETERS, Parameter, families_with, family_of
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
@@ -31,6 +31,7 @@ def check_shapes_given(
     good_axes: Mapping[str, tuple[Value, ...]],
     keys: Callable[[str], str],
     report: Report,
+    rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> None:
     """Every profile needs its shape parameters; one that no profile has would change nothing."""
     if "profile" in good_fixed:
@@ -46,7 +47,7 @@ def check_shapes_given(
     for name in needed:
         if name not in fixed and name not in axes:
             owners = ", ".join(profile for profile in profiles if name in family_of(profile).shape)
-            report(keys(name), "nothing", f"{PARAMETERS[name].allowed} ({owners} needs it)")
+            report(keys(name), "nothing", f"{rows[name].allowed} ({owners} needs it)")
     for name in SHAPE_COLUMNS:
         if name in needed or not sound or not (name in fixed or name in axes):
             continue
@@ -89,7 +90,7 @@ def _check_table(grid: Grid, profile: Any, keys: Callable[[str], str], report: R
     """A profile that the user has defined, up to the largest depth."""
     from swtstudy.mechanics.indenter import check_shape
 
-    depth = _largest_depths(grid, profile, {}, 1.0 + np.maximum(np.array([_largest_course(grid)]), 0.0))
+    depth = largest_depths(grid, profile, {}, 1.0 + np.maximum(np.array([_largest_course(grid)]), 0.0))
     wrong = check_shape(profile, {}, depth.item())
     if wrong is not None:
         report(keys("profile"), str(profile), wrong)
@@ -97,10 +98,10 @@ def _check_table(grid: Grid, profile: Any, keys: Callable[[str], str], report: R
 
 def _largest_course(grid: Grid) -> float:
     """Largest deviation of the normal load from its mean."""
-    return max(map(as_number, grid.values(grid.control.given_for("normal_amplitude")))) * _reach(grid)
+    return max(map(as_number, grid.values(grid.control.given_for("normal_amplitude")))) * largest_reach(grid)
 
 
-def _reach(grid: Grid) -> float:
+def largest_reach(grid: Grid) -> float:
     """By how many amplitudes the normal load rises at most."""
     from swtstudy.mechanics.load.loop import Loop
 
@@ -128,13 +129,13 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
     names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
     refused, first = 0, None
     # The largest contact of a shape is the hardest to keep compact.
-    largest, reach = max(map(as_number, grid.values(amplitude))), _reach(grid)
+    largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
     for start in range(0, shapes.size, _SLAB):
         stop = min(start + _SLAB, shapes.size)
         columns = shapes.columns(start, stop)
         shape = {name: np.broadcast_to(columns[name], stop - start) for name in names}
         own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
-        depth = _largest_depths(
+        depth = largest_depths(
             grid, profile, shape, np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), stop - start)
         )
         wrong = np.flatnonzero(~compact_shapes(profile, shape, depth))
@@ -144,7 +145,7 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
     return refused, first
 
 
-def _largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray], normal: FloatArray) -> FloatArray:
+def largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray], normal: FloatArray) -> FloatArray:
     """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes

@@ -15,16 +15,18 @@ from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.named import Named
-from swtstudy.parameters import CONTROLS, PARAMETERS
-from swtstudy.quantities import NOTHING, Request, attributes_of
+from swtstudy.parameters import CONTROLS, Parameter
+from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of
 from swtstudy.records import requested
+from swtstudy.records.real import with_units
 from swtstudy.records.records import STATES
+from swtstudy.units.grid import PhysicalGrid
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
 
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
-#: use them as labels. Dimensionless quantities have the unit 1, although xarray's labels then end in "[1]".
+#: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",
@@ -111,20 +113,21 @@ def label(
     Returns
     -------
     xarray.Dataset
+        With units, if the grid is one of real contacts.
         Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
         optional ones at their default; those of a sample are coordinates along its dimension, which numbers
         its points. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
-        name: (grid.dimension(name), _values(values), _attributes(name, values))
+        name: (grid.dimension(name), _values(values), _attributes(grid.row(name), values))
         for name, values in (grid.samples | grid.axes).items()
     }
     if grid.samples:
         coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
         coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
     for name, value in grid.fixed.items():
-        if not PARAMETERS[name].goes_without_saying(value):
-            coordinates[name] = ((), _values((value,))[0], _attributes(name, (value,)))
+        if not grid.row(name).goes_without_saying(value):
+            coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {
         name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
@@ -132,7 +135,14 @@ def label(
     for name, (dims, values) in requested.variables(asked, columns).items():
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
-    return xr.Dataset(variables, coordinates | requested.coordinates(asked))
+    dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
+    if isinstance(grid, PhysicalGrid):
+        dataset = with_units(dataset, grid, asked)
+    for variable in dataset.variables.values():
+        # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
+        if variable.attrs.get("units") == "1":
+            del variable.attrs["units"]
+    return dataset
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:
@@ -161,11 +171,10 @@ def _values(values: tuple[Value, ...]) -> NDArray:
     return np.array([as_number(value) for value in values])
 
 
-def _attributes(name: str, values: tuple[Value, ...]) -> dict[str, str]:
-    parameter = PARAMETERS[name]
+def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, str]:
     short = len(parameter.meaning) <= _LONGEST_NAME
     attributes = {
-        "long_name": parameter.meaning if short else name.replace("_", " "),
+        "long_name": parameter.meaning if short else parameter.name.replace("_", " "),
         "comment": parameter.meaning,
         "symbol": parameter.symbol,
     }

@@ -103,7 +103,7 @@ class Records:
     @classmethod
     def of(cls, result: Result, table: FloatArray, run: Run) -> Records:
         """Records of one result, whose canonical rows are `table`."""
-        run = replace(run, seconds=result.seconds)
+        run = replace(run, seconds=result.seconds, quantities=tuple(sorted(result.items)))
         status = np.where(result.failed, FAILED, COMPUTED).astype(np.int8)
         number = np.zeros(len(table), np.int32)
         return cls(table, result.solution, status, number, (run,), result.messages, result.quantities)

@@ -9,8 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from swtstudy.axes import QUANTITY_AXES
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.parameters import DIRECTIONS, QUANTITY_AXES
+from swtstudy.parameters import DIRECTIONS, Parameter
 from swtstudy.quantities import (
     DISTANCE,
     NAMED,
@@ -21,6 +22,7 @@ from swtstudy.quantities import (
     distance_of,
     item_of,
 )
+from swtstudy.records.real import is_real
 
 
 def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple[tuple[str, ...], NDArray]]:
@@ -44,26 +46,32 @@ def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple
     return found
 
 
-def coordinates(asked: Request) -> dict[str, Any]:
-    """The coordinates of the quantities' own dimensions."""
+def coordinates(asked: Request, row: Parameter) -> dict[str, Any]:
+    """The coordinates of the quantities' own dimensions; ``row`` is that of the critical distance."""
     if not asked.distances:
         return {}
     values = np.array(asked.distances)
     return {
-        DISTANCE: (DISTANCE, values, _meaning(DISTANCE))
-        if asked.is_axis
-        else ((), values[0], _meaning(DISTANCE)),
-        "direction": ("direction", np.array(DIRECTIONS, dtype=object), _meaning("direction", units=False)),
+        DISTANCE: (DISTANCE, values, _meaning(row)) if asked.is_axis else ((), values[0], _meaning(row)),
+        "direction": (
+            "direction",
+            np.array(DIRECTIONS, dtype=object),
+            _meaning(QUANTITY_AXES["direction"], units=False),
+        ),
     }
 
 
 def request_of(dataset: xr.Dataset, items: Iterable[str]) -> Request:
-    """What was asked for a Dataset whose points have these items."""
-    return Request.of(items, DISTANCE in dataset.dims)
+    """What was asked for a Dataset whose points have these items; of real contacts distances are lengths."""
+    own = Request.of(items, DISTANCE in dataset.dims)
+    if not own.distances or not is_real(dataset):
+        return own
+    lengths = np.atleast_1d(dataset[DISTANCE].values).tolist() if DISTANCE in dataset.coords else []
+    return Request(own.names, tuple(lengths), DISTANCE in dataset.dims)
 
 
-def columns_from(dataset: xr.Dataset, items: Iterable[str], at: NDArray[np.intp]) -> dict[str, FloatArray]:
-    """The columns of items, from the data variables of a Dataset, at some of its points in C order."""
+def columns_from(dataset: xr.Dataset, items: Iterable[str]) -> dict[str, FloatArray]:
+    """The columns of items, from the data variables of a Dataset, at its points in C order."""
     found: dict[str, FloatArray] = {}
     for item in items:
         distance = distance_of(item)
@@ -75,12 +83,11 @@ def columns_from(dataset: xr.Dataset, items: Iterable[str], at: NDArray[np.intp]
             for variable in row.variables:
                 keys = columns_in(row, variable, item)
                 own = [dim for dim in row.dims if dim != DISTANCE]
-                values = part[variable].transpose(*dataset.s.dims, *own).values.reshape(-1, len(keys))[at]
+                values = part[variable].transpose(*dataset.s.dims, *own).values.reshape(-1, len(keys))
                 found |= zip(keys, values.T, strict=True)
     return found
 
 
-def _meaning(name: str, units: bool = True) -> dict[str, str]:
-    row = QUANTITY_AXES[name]
-    words = {"long_name": name.replace("_", " "), "comment": row.meaning}
+def _meaning(row: Parameter, units: bool = True) -> dict[str, str]:
+    words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
     return words | ({"units": row.units, "symbol": row.symbol} if units else {})

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.nearest import TOLERANCE, index_of
-from swtstudy.grid.values import read_value
+from swtstudy.grid.values import Value, read_exact, read_value
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.parameters import AXES
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
@@ -57,10 +57,12 @@ def require_points(dataset: xr.Dataset) -> None:
 def _index(there: xr.DataArray, raw: object, tolerance: float, mistakes: list[Mistake]) -> int:
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name = str(there.name)
+    value: Value
     try:
         # A name is known by its place in the results, whatever it stood for.
         named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
-        value = str(raw) if named else read_value(AXES[name], raw)
+        sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
+        value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
     except ValueError as error:
         mistakes.append(Mistake(name, f"{literal(raw)} ({error})", AXES[name].allowed))
         return 0

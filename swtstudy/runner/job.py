@@ -168,8 +168,7 @@ def _compute(
         return work.records
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    asked = tuple(sorted(study.asked.items))
-    own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, quantities=asked)
+    own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
     collector = Collector(work.records, own, writer, work.todo)
     weight = collector.pace.chunk_weight
     todo = (

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from swtstudy.grid.canonical import group_rows
 from swtstudy.grid.unique import UniquePoints, unique_points
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.records.columns import wanted
 from swtstudy.records.records import MISSING, Records, look_up, matching
 from swtstudy.runner.chunk import Asked
 from swtstudy.study.definition import Study
@@ -30,6 +31,8 @@ class Work:
         Records of these points, "missing" where no known one can be used; a run fills them in place.
     quantities
         What the study asks beside s, as in `swtstudy.quantities.Request.items`.
+    wanted
+        Of which points it asks each of them, shape (n, len(quantities)).
     dropped
         Known records of points, or with quantities, that the study does not have.
     outdated, coarse
@@ -39,6 +42,7 @@ class Work:
     points: UniquePoints
     records: Records
     quantities: tuple[str, ...]
+    wanted: NDArray[np.bool_]
     dropped: Records
     outdated: int
     coarse: int
@@ -51,7 +55,12 @@ class Work:
     @property
     def incomplete(self) -> NDArray[np.bool_]:
         """Of which points s is known, but not all quantities, shape (n,)."""
-        return np.asarray(self.records.lacking(self.quantities).any(axis=1))
+        return np.asarray(self._lacking.any(axis=1))
+
+    @property
+    def _lacking(self) -> NDArray[np.bool_]:
+        """Which quantities that are asked of computed points are not known, shape (n, len(quantities))."""
+        return self.records.lacking(self.quantities) & self.wanted
 
     @property
     def todo(self) -> int:
@@ -60,11 +69,14 @@ class Work:
 
     def tasks(self) -> Iterator[tuple[NDArray[np.bool_], Asked]]:
         """Masks of points, shape (n,), and what is to be computed of them."""
-        yield self.missing, Asked(self.quantities)
-        lacking = self.records.lacking(self.quantities)
-        for one in np.unique(lacking[lacking.any(axis=1)], axis=0):
-            names = tuple(name for name, lacks in zip(self.quantities, one, strict=True) if lacks)
-            yield (lacking == one).all(axis=1), Asked(names, self.records.solution)
+        missing, lacking = self.missing, self._lacking
+        for some, of, known in (
+            (missing, self.wanted, None),
+            (lacking.any(axis=1), lacking, self.records.solution),
+        ):
+            for one in np.unique(of[some], axis=0) if of.size else [of[0]] * bool(some.any()):
+                names = tuple(name for name, lacks in zip(self.quantities, one, strict=True) if lacks)
+                yield some & (of == one).all(axis=1), Asked(names, known)
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
@@ -75,10 +87,10 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     known = known_records(path)
     records = matching(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     outdated, coarse = _unusable(points.table[records.status == MISSING], known, study.rtol)
-    items = study.asked.items
+    items, of = wanted(study.grid, study.asked, points)
     dropped = _dropped(points.table, known, records, items)
     records = records.without_others(items)
-    return Work(points, records, items, dropped, outdated, coarse)
+    return Work(points, records, items, of, dropped, outdated, coarse)
 
 
 def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:

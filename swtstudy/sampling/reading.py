@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from swtstudy.grid.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
-from swtstudy.grid.values import NOTHING, NUMERIC, Value, read_value
+from swtstudy.grid.values import NOTHING, Value, read_value
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import PARAMETERS
+from swtstudy.parameters import PARAMETERS, Parameter
 from swtstudy.sampling.design import BALANCED, DESIGNS, Design
 from swtstudy.sampling.distribution import Distribution, read_distribution
 from swtstudy.sampling.points_file import KEY, read_points
@@ -41,7 +41,11 @@ class Sample:
 
 
 def read_sample(
-    raw: Mapping[str, Any], folder: Path, report: Report, known: Known = NOTHING_KNOWN
+    raw: Mapping[str, Any],
+    folder: Path,
+    report: Report,
+    known: Known = NOTHING_KNOWN,
+    rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> tuple[Sample | None, list[str]]:
     """The sample of a study's table; None if there are mistakes, which are reported.
 
@@ -55,6 +59,8 @@ def read_sample(
         Called with key, found and allowed of each mistake.
     known
         What the user has defined, by parameter and name.
+    rows
+        The parameters that may be sampled.
 
     Returns
     -------
@@ -67,7 +73,7 @@ def read_sample(
         report("sample", " and ".join(forms) or "nothing", f"one of: {_FORMS}")
         return None, []
     if forms[0] == "design":
-        return _designed(raw, report)
+        return _designed(raw, report, rows)
     for name in ("size", "seed", "ranges"):
         if name in raw:
             report(f"sample.{name}", f"{literal(raw[name])} beside {forms[0]}", "only with a design")
@@ -80,10 +86,12 @@ def read_sample(
         )
     if not isinstance(points, Mapping):
         return None, []
-    return _given(points, key, report, known), [name for name in points if name in PARAMETERS]
+    return _given(points, key, report, known, rows), [name for name in points if name in rows]
 
 
-def _designed(raw: Mapping[str, Any], report: Report) -> tuple[Sample | None, list[str]]:
+def _designed(
+    raw: Mapping[str, Any], report: Report, rows: Mapping[str, Parameter]
+) -> tuple[Sample | None, list[str]]:
     design = _read_design(raw, report)
     ranges = raw.get("ranges")
     if not isinstance(ranges, Mapping) or not ranges:
@@ -91,17 +99,18 @@ def _designed(raw: Mapping[str, Any], report: Report) -> tuple[Sample | None, li
             report("sample.ranges", "nothing", "at least one parameter with its range")
         return None, []
     read: dict[str, Distribution] = {}
+    numeric = [name for name, row in rows.items() if row.kind == "number"]
     for name, entry in ranges.items():
         key = f"sample.ranges.{name}"
-        if name in NUMERIC:
-            distribution = read_distribution(PARAMETERS[name], entry, key, report)
+        if name in numeric:
+            distribution = read_distribution(rows[name], entry, key, report)
             if distribution is not None:
                 read[name] = distribution
-        elif name in PARAMETERS:
+        elif name in rows:
             report(key, f"{name}, which is not a number", "an axis, or points from a file")
         else:
-            report(key, f"unknown parameter {literal(name)}", nearest(name, NUMERIC))
-    names = [name for name in ranges if name in NUMERIC]
+            report(key, f"unknown parameter {literal(name)}", nearest(name, numeric))
+    names = [name for name in ranges if name in numeric]
     if design is None or len(read) < len(ranges):
         return None, names
     if design.count(len(names)) > LONGEST_AXIS:
@@ -137,7 +146,9 @@ def _whole(raw: object, least: int, largest: int) -> int | None:
     return raw if whole else None  # type: ignore[return-value]
 
 
-def _given(points: Mapping[str, Any], key: str, report: Report, known: Known) -> Sample | None:
+def _given(
+    points: Mapping[str, Any], key: str, report: Report, known: Known, rows: Mapping[str, Parameter]
+) -> Sample | None:
     """Points given one by one."""
     values: dict[str, tuple[Value, ...]] = {}
     lengths = {name: len(column) for name, column in points.items() if isinstance(column, Sequence)}
@@ -151,10 +162,10 @@ def _given(points: Mapping[str, Any], key: str, report: Report, known: Known) ->
         report(key, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
         return None
     for name, column in points.items():
-        if name not in PARAMETERS:
-            report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, PARAMETERS))
+        if name not in rows:
+            report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
         elif name in lengths:
-            good = _column(name, column, f"{key}.{name}", report, known)
+            good = _column(rows[name], column, f"{key}.{name}", report, known)
             if good is not None:
                 values[name] = good
     sound = len(values) == len(points) and len({*lengths.values()}) == 1
@@ -162,18 +173,18 @@ def _given(points: Mapping[str, Any], key: str, report: Report, known: Known) ->
 
 
 def _column(
-    name: str, column: Sequence[object], key: str, report: Report, known: Known
+    row: Parameter, column: Sequence[object], key: str, report: Report, known: Known
 ) -> tuple[Value, ...] | None:
     """Checked values of a parameter; the first that is wrong is reported, with the number of others."""
     good: list[Value] = []
     wrong: list[str] = []
     for index, raw in enumerate(column):
         try:
-            good.append(read_value(PARAMETERS[name], raw, known.get(name, NOTHING)))
+            good.append(read_value(row, raw, known.get(row.name, NOTHING)))
         except ValueError as error:
             wrong.append(f"{literal(raw)} ({error}) at [{index}]")
     if not wrong:
         return tuple(good)
     more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
-    report(key, wrong[0] + more, PARAMETERS[name].allowed)
+    report(key, wrong[0] + more, row.allowed)
     return None

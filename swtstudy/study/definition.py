@@ -9,18 +9,20 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import to_toml
 
 if TYPE_CHECKING:
+    from swtstudy.parameters import Parameter
     from swtstudy.sampling.reading import Sample
 
 
@@ -157,16 +159,24 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
     mistakes += found
-    sample, sampled = _sample(raw, folder, known, report)
+    contacts = read_given(raw, fixed, folder, report)
+    rows = rows_of(contacts)
+    sample, sampled = _sample(raw, folder, known, report, rows)
     places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     samples = {name: sample.values[name] if sample else None for name in sampled}
 
     def keys(name: str) -> str:
         return f"{places.get(name, 'fixed')}.{name}"
 
-    distances = read_distances(fixed, axes, keys, report)
+    distances = read_distances(fixed, axes, keys, report, {**AXES, **rows}[DISTANCE])
     asked = Request(read_quantities(raw.get("quantities", []), "quantities", report), *distances)
-    grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)
+    grid: Grid | None
+    if contacts is None:
+        grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)
+    else:
+        from swtstudy.units.reading import read_contacts
+
+        grid, found = read_contacts(fixed, axes, contacts, keys, source, samples, known)
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
@@ -174,7 +184,8 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
         axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
         names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
         dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
-        check_figure(figure, dims, grid, asked, report)
+        dims += [] if grid is None else [dim for dim in grid.dims if dim not in dims]
+        check_figure(figure, dims, grid, asked, report, every_name() if contacts and mistakes else ())
     if mistakes or table is None or grid is None:
         raise StudyError(list(dict.fromkeys(mistakes)))
     if table.sample is not None and table.sample.file is not None:
@@ -183,14 +194,15 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
 
 
 def _sample(
-    raw: Mapping[str, Any], folder: Path, known: Known, report: Report
+    raw: Mapping[str, Any], folder: Path, known: Known, report: Report, rows: Mapping[str, Parameter]
 ) -> tuple[Sample | None, list[str]]:
     """The sample, and the names of the parameters that are sampled."""
     if not isinstance(raw.get("sample"), dict):
         return None, []
     from swtstudy.sampling.reading import read_sample
 
-    return read_sample(raw["sample"], folder, report, known)
+    single = {name: row for name, row in rows.items() if name not in (DISTANCE, "body")}
+    return read_sample(raw["sample"], folder, report, known, single)
 
 
 def _definitions(

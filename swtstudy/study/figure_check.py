@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
+from swtstudy.axes import AXES, QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import AXES, DIRECTIONS, QUANTITY_AXES
+from swtstudy.parameters import DIRECTIONS
 from swtstudy.quantities import DISTANCE, Request, every_variable
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 
@@ -46,6 +47,8 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
             yield f"figure.{role}", literal(name), "an axis of numbers"
         if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
             yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
+    if layout.kind in ("heatmap", "life") and layout.regimes:
+        yield "figure.regimes", "True", f"False for {kind}"
     if layout.kind not in SAMPLE_KINDS:
         return
     if layout.x != SAMPLE:
@@ -86,7 +89,12 @@ def wrong_axes(
 
 
 def check_figure(
-    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request, report: Report
+    layout: FigureLayout,
+    dims: list[str],
+    grid: Grid | None,
+    asked: Request,
+    report: Report,
+    unsure: Collection[str] = (),
 ) -> None:
     """Report everything in a figure that does not fit its study.
 
@@ -102,16 +110,20 @@ def check_figure(
         What the study asks for beside s.
     report
         Called with key, found and allowed of each mistake.
+    unsure
+        Names of what the study may have but for other mistakes, which are reported.
     """
     of = "{} in this study" if asked.distances else "this study"
     found = [*wrong_layout(layout)]
-    for y in layout.y or ("s",):
+    for y in [y for y in layout.y if y.strip() not in unsure] or ("s",) * (not layout.y):
         found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
     if layout.regimes and layout.x in QUANTITY_AXES:
         found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
     for mistake in dict.fromkeys(found):
         report(*mistake)
     for y in layout.y:
+        if y.strip() in unsure:
+            continue
         _check_quantity(y, dims, grid, asked, report)
 
 
@@ -120,10 +132,13 @@ def _sizes(
 ) -> dict[str, int | None]:
     """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
     lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
+    made = {} if grid is None else grid.made(asked)
+    if y.strip() in made:
+        return {name: {**lengths_of, **lengths}[name] for name in made[y.strip()]}
     sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
     known = y.strip() in VARIABLES or not y.strip().isidentifier()
     used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
-    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
     return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
 
 
@@ -147,7 +162,7 @@ def _wrong_formula(text: str) -> str | None:
 
 
 def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
-    known = (*VARIABLES, *asked.variables)
+    known = (*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked)))
     try:
         place = reference(y)
     except ValueError as error:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from swtstudy.grid.grid import SAMPLE
+from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value
-from swtstudy.parameters import AXES
 from swtstudy.quantities import DISTANCE, QUANTITIES
 
 if TYPE_CHECKING:
@@ -25,20 +24,16 @@ def in_one_line(study: Study) -> str:
 def as_html(study: Study) -> str:
     """A table for a notebook: axes, fixed parameters, points, cost, and the places in the figure."""
     roles = {name: role for role, name in study.figure.roles()} if study.figure else {}
-    rows = [
-        ("axis", name, _values(values), _meaning(name, roles.get(name)))
-        for name, values in study.grid.axes.items()
-    ]
-    rows += [
-        ("sampled", name, _values(values), _meaning(name, roles.get(SAMPLE)))
-        for name, values in study.grid.samples.items()
-    ]
-    asked = study.asked
+    grid, asked = study.grid, study.asked
+    along = [("axis", name, values, roles.get(name)) for name, values in grid.axes.items()]
+    along += [("sampled", name, values, roles.get(SAMPLE)) for name, values in grid.samples.items()]
     if asked.distances:
-        meaning = _meaning(DISTANCE, roles.get(DISTANCE))
-        rows.append(("axis" if asked.is_axis else "fixed", DISTANCE, _values(asked.distances), meaning))
+        kind = "axis" if asked.is_axis else "fixed"
+        along.append((kind, DISTANCE, asked.distances, roles.get(DISTANCE)))
+    rows = [_row(grid, *each) for each in along]
     rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
-    rows += [("fixed", name, _value(value), _meaning(name)) for name, value in study.grid.fixed.items()]
+    rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
+    rows += [_row(grid, "of each body", name, two) for name, two in grid.of_bodies.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
         f"<td>{escape(meaning)}</td></tr>"
@@ -67,8 +62,13 @@ def _cost(study: Study) -> str:
     return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 
 
-def _meaning(name: str, role: str | None = None) -> str:
-    return AXES[name].described + (f"; figure: {role}" if role else "")
+def _row(
+    grid: Grid, kind: str, name: str, values: tuple[Value, ...], role: str | None = None
+) -> tuple[str, str, str, str]:
+    """Kind, name, values and meaning of a parameter."""
+    row = grid.row(name)
+    unit = f" {row.units}" if row.units not in ("1", "rad") else ""
+    return kind, name, _values(values) + unit, row.described + (f"; figure: {role}" if role else "")
 
 
 def _values(values: tuple[Value, ...]) -> str:

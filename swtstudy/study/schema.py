@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
+from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import BUILT_IN, PARAMETERS, QUANTITY_AXES, Parameter, families_with
+from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
+from swtstudy.units.given import SIMILAR
+from swtstudy.units.labels import KINDS as UNITS
+from swtstudy.units.labels import KNOWN
+from swtstudy.units.material import KEYS
+from swtstudy.units.rows import OF_BODIES, SIMILAR_KEY, kind_of
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"
@@ -24,6 +31,8 @@ _DESCRIPTIONS = {
     "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
     "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
     "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
+    "units": "Labels of length, force and stress, any consistent set: then the parameters have these units.",
+    "material": "Fatigue constants, each a value or one for each body; or names from a file. For cycles.",
     "loads": "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
     "optionally, bulk, or harmonics.",
     "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
@@ -59,7 +68,8 @@ _LOAD_DESCRIPTIONS = {
     "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
+    "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
+    "scatter or histogram of a sample.",
     "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",
@@ -71,6 +81,7 @@ _FIGURE_DESCRIPTIONS = {
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
 }
+_SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
 #: Where a sample may be beside axes.
@@ -102,7 +113,9 @@ def study_schema() -> dict[str, Any]:
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     sample = parts["SampleTable"]["properties"]
-    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]}
+    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
+    keys["units"] = {"description": _DESCRIPTIONS["units"], **_units()}
+    keys["material"] = {"description": _DESCRIPTIONS["material"], **_material()}
     for table, part, entry_of, names in (
         (keys, "fixed", _value, given),
         (keys, "axes", _axis, given),
@@ -116,10 +129,13 @@ def study_schema() -> dict[str, Any]:
             "properties": {name: entry_of(given[name]) for name in names},
             "additionalProperties": False,
         }
+    similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
+    keys["fixed"]["properties"][SIMILAR_KEY] = similar
+    schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
     roles = parts["FigureTable"]["properties"]
     for role in _ROLES:
         roles[role] = {
-            "enum": [*PARAMETERS, *QUANTITY_AXES, *_SAMPLED.get(role, ())],
+            "enum": [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *_SAMPLED.get(role, ())],
             "description": roles[role]["description"],
         }
     return schema
@@ -130,8 +146,41 @@ def schema_text() -> str:
     return json.dumps(study_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
+def _units() -> dict[str, Any]:
+    """Schema of the units."""
+    label = {"type": "string", "minLength": 1}
+    kinds = {kind: label | {"examples": list(KNOWN[kind])} for kind in UNITS}
+    return {"type": "object", "properties": kinds, "required": [*UNITS], "additionalProperties": False}
+
+
+def _material() -> dict[str, Any]:
+    """Schema of fatigue constants."""
+    of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
+    return {"type": "object", "properties": dict.fromkeys(KEYS, of_both), "additionalProperties": False}
+
+
+def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:
+    """What holds for parameters in a study without units only: ranges, and which ones it has not."""
+    limits: dict[str, Any] = {name: _range_of(row) for name, row in given.items() if name not in CONTACT_AXES}
+    several: dict[str, Any] = {name: {"items": limit} for name, limit in limits.items()}
+    others = dict.fromkeys(CONTACT_AXES, False)
+    fixed = {**limits, **others, SIMILAR_KEY: False}
+    return {"fixed": {"properties": fixed}, "axes": {"properties": several | others}}
+
+
+def _range_of(parameter: Parameter) -> dict[str, Any]:
+    """The range of a number, in the unit of the table."""
+    if parameter.kind == "name":
+        return {}
+    lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
+    return {lower: parameter.lower, "maximum": parameter.upper}
+
+
 def _value(parameter: Parameter) -> dict[str, Any]:
-    """Schema of one value of a parameter: a number in its range, or a text that stands for one."""
+    """Schema of one value of a parameter: a number in its range, or a text that stands for one.
+
+    What has a unit in a study with units has its range in `_without_units`.
+    """
     entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:
         entry["default"] = parameter.default
@@ -139,8 +188,9 @@ def _value(parameter: Parameter) -> dict[str, Any]:
         names = list(BUILT_IN[parameter.name])
         # Beside the built-in ones there may be what the study defines.
         return entry | {"type": "string", "examples": names}
-    lower = "exclusiveMinimum" if parameter.open_lower else "minimum"
-    return entry | {"type": ["number", "string"], lower: parameter.lower, "maximum": parameter.upper}
+    kinds = ["number", "string"] + ["array"] * (parameter.name in OF_BODIES)
+    sized = parameter.scale or parameter.part == "contact"
+    return entry | {"type": kinds} | ({} if sized else _range_of(parameter))
 
 
 def _values(parameter: Parameter) -> dict[str, Any]:
@@ -164,6 +214,7 @@ def _range(parameter: Parameter) -> dict[str, Any]:
     """Schema of the range of a sampled parameter: both ends, or a distribution."""
     ends = _values(parameter)
     description = ends.pop("description")
+    ends["items"]["type"] = ["number", "string"]
     number = {"type": ["number", "string"]}
     numbers = {name: number for names in KINDS.values() for name in names}
     distribution = {
@@ -183,7 +234,12 @@ def _range(parameter: Parameter) -> dict[str, Any]:
 def _description(parameter: Parameter) -> str:
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
-    return f"{parameter.described}: {parameter.allowed}{of}"
+    kind = kind_of(parameter.name) if parameter.name in AXES else None
+    units = f"with units a {kind}" if kind else ""
+    if parameter.part == "contact":
+        return f"{parameter.meaning}; with units only{f', a {kind}' if kind else ''}"
+    words = [f"{parameter.described}: {parameter.allowed}{of}", parameter.note, units]
+    return "; ".join(filter(None, words))
 
 
 def _without_titles(part: Any) -> Any:

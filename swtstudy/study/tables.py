@@ -45,7 +45,7 @@ class SampleTable(_Table):
 class FigureTable(_Table):
     """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    kind: Literal["lines", "contour", "heatmap", "scatter", "histogram"] = "lines"
+    kind: Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"] = "lines"
     x: str
     vertical: str | None = None
     hue: str | None = None
@@ -84,6 +84,9 @@ class StudyTable(_Table):
     fixed: dict[str, Any] = {}
     axes: dict[str, Axis] = {}
     sample: SampleTable | None = None
+    # Checked where units and constants are read.
+    units: dict[str, Any] | None = None
+    material: dict[str, Any] | None = None
     loads: dict[str, LoadTable] = {}
     profiles: dict[str, ProfileTable] = {}
     figure: FigureTable | None = None

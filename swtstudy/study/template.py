@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.parameters import FAMILIES, PARAMETERS, QUANTITY_AXES
+from swtstudy.axes import QUANTITY_AXES
+from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
+from swtstudy.units.labels import Units
+from swtstudy.units.rows import rows
 
 _USED = ("normal_amplitude", "phase")
 
@@ -52,16 +55,90 @@ hue = "normal_amplitude"
 """
 
 
-def _fixed() -> str:
+def template_with_units(title: str) -> str:
+    """The text of a study of real contacts, with every parameter that is not used as a comment."""
+    return f"""\
+{SCHEMA_LINE.strip()}
+# Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this file.
+#   swtstudy validate FILE    all mistakes at once
+#   swtstudy plan FILE        how many points, how long
+#   swtstudy run FILE         archive and figure, in the folder results
+title = {quoted(title)}
+rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
+# Computed beside SWT and cycles, as further results:
+# quantities = [{", ".join(map(quoted, NAMED))}]
+
+[units]  # any consistent set
+length = "mm"
+force = "N"
+stress = "MPa"
+
+# Strain-life constants, for cycles: each a value, or two in brackets, one for each body; Young's modulus is
+# that of the bodies unless it is given. Or file = "materials.toml", name = "2024-T351": a table in that file.
+[material]  # aluminium 2024-T351; N. E. Dowling, Mechanical Behavior of Materials, 4th ed., Table 14.1
+strength = 927
+strength_exponent = -0.113
+ductility = 0.409
+ductility_exponent = -0.713
+
+# Parameters with one value; numbers may also be texts: "1/3", "pi/2".
+[fixed]
+young_modulus = 73.1e3  # of both bodies; or of each, [73.1e3, 71e3]
+poisson_ratio = 0.33
+radius = 50             # 1/R = 1/R1 + 1/R2
+normal_force = 200      # or depth
+friction = 0.5
+{_with_units()}
+
+# Parameters with several values, in the order of the dimensions: a list, or both ends and their number.
+# Any parameter from above may be an axis instead.
+[axes]
+tangential_amplitude = [1e-3, 1.5e-3, 2e-3]
+phase = {{ start = 0, stop = "pi", num = 13 }}  # spacing = "log" gives equal ratios
+
+# Every axis needs a place here. Without this table there is an archive, but no figure.
+[figure]
+x = "phase"
+hue = "tangential_amplitude"
+y = ["SWT", "cycles"]
+"""
+
+
+#: What the template with units uses.
+_USED_WITH_UNITS = (
+    *("young_modulus", "poisson_ratio", "radius", "normal_force", "friction", "profile"),
+    *("tangential_amplitude", "phase"),
+)
+
+
+def _with_units() -> str:
+    lines = [_profiles()]
+    for name, row in rows(Units("mm", "N", "MPa")).items():
+        if name not in _USED_WITH_UNITS:
+            lines += [f"# {row.meaning}: {row.allowed}", f"# {name} = {_default(row)}"]
+    return "\n".join(lines)
+
+
+def _default(row: Parameter) -> str:
+    """The default of a parameter as in a study."""
+    default = row.default
+    return "…" if default is None else quoted(default) if isinstance(default, str) else f"{default:.6g}"
+
+
+def _profiles() -> str:
     lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
     for family in FAMILIES.values():
         needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
         lines.append(f"#   {quoted(family.name)}{needs}")
+    return "\n".join(lines)
+
+
+def _fixed() -> str:
+    lines = [_profiles()]
     for name, parameter in (*PARAMETERS.items(), (DISTANCE, QUANTITY_AXES[DISTANCE])):
         if name == "profile" or name in _USED:
             continue
-        lines.append(f"# {parameter.described}: {parameter.allowed}")
-        default = parameter.default
-        value = "…" if default is None else quoted(default) if isinstance(default, str) else f"{default:.6g}"
-        lines.append(f"# {name} = {value}")
+        note = f"; {parameter.note}" if parameter.note else ""
+        lines.append(f"# {parameter.described}: {parameter.allowed}{note}")
+        lines.append(f"# {name} = {_default(parameter)}")
     return "\n".join(lines)

@@ -34,7 +34,9 @@ def to_toml(
     if asked.names:
         lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
     single, several = ((), asked.distances) if asked.is_axis else (asked.distances, ())
-    lines += ["", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
+    tables, fixed = _of_contacts(grid)
+    lines += [*tables, "", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
+    lines += fixed
     lines += [f"{DISTANCE} = {value!r}" for value in single]
     lines += ["", "[axes]"]
     lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
@@ -42,7 +44,7 @@ def to_toml(
     if grid.samples:
         lines += ["", "[sample.points]"]
         lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
-    for defined in grid.definitions.values():
+    for defined in grid.given.values():
         lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
         lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]
     if figure is not None:
@@ -54,6 +56,20 @@ def to_toml(
         if figure.regimes:
             lines.append("regimes = true")
     return "\n".join(lines) + "\n"
+
+
+def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
+    """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
+    from swtstudy.units.grid import PhysicalGrid
+
+    if not isinstance(grid, PhysicalGrid):
+        return [], []
+    tables = ["", "[units]", *(f"{kind} = {quoted(label)}" for kind, label in vars(grid.units).items())]
+    if grid.materials:
+        pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
+        tables += ["", "[material]", *(f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs)]
+    fixed = [f"{name} = {[*two]}" for name, two in grid.pairs.items()]
+    return tables, [*fixed, f"similar = {grid.similar!r}"]
 
 
 def _literal(value: Value) -> str:

@@ -11,7 +11,7 @@ axis is near. What another one would add, also in smaller spheres, is seen at fe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -21,7 +21,9 @@ from swtstudy.mechanics.points import FloatArray
 #: d is this power of the abscissa: roots are smooth, and small spheres have their places.
 POWER = 2
 #: Distances and inclinations at which the change along the arcs is seen.
-SIDE = 5
+SIDE = 4
+#: How much of what another place on the arcs adds counts as a change.
+ADDED = 0.25
 #: Largest radii of the spheres over the centre's distance from the axis up to which so many places, from one
 #: on, are enough on half an arc.
 REACH = (0.35, 0.8, 1.0)
@@ -39,13 +41,14 @@ class HalfSpheres:
         Distance of the centre from the axis in a_H.
     largest
         Largest radius of a half sphere.
-    count
+    distances, inclinations
         Number of distances from the circle, and of inclinations.
     """
 
     centre: float
     largest: float
-    count: int
+    distances: int
+    inclinations: int
 
     @property
     def along(self) -> int:
@@ -54,50 +57,64 @@ class HalfSpheres:
 
     def places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radius, depth, and angle about the axis from the centre, each of shape (N,)."""
-        both = self._places(self.count, self.along), self._places(SIDE, self.along + 1)
+        side = replace(self, distances=SIDE, inclinations=SIDE)
+        both = self.grid(self.along), side.grid(self.along + 1)
         radius, depth, angle = (np.concatenate(parts) for parts in zip(*both, strict=True))
         return radius, depth, angle
 
     def weights(self, size: FloatArray) -> FloatArray:
-        """Weights of the values at the places in the means over radii ``size``, (k,), shape (3, k, N).
+        """Weights of the values at the places in the means over radii ``size``, (k,), shape (k, N)."""
+        return np.concatenate([self._weights(size, self.along), self._side_weights(size)], axis=1)
 
-        The first ones are those of the mean, the others those of its change where every other distance, or
-        inclination, is left out.
+    def changes(self, size: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How much the means would change without every other distance or inclination, and what is added.
+
+        Parameters
+        ----------
+        size
+            Shape (k,).
+        values
+            Shape (N,): at the places.
+
+        Returns
+        -------
+        change, off
+            Shape (k,): of the means, and of the values, which does not cancel.
         """
-        every, even = slice(None), slice(0, None, 2)
-        mean, *others = (
-            self._weights(size, self.count, self.along, *kept)
-            for kept in ((every, every), (even, every), (every, even))
+        inner = self.distances * self.inclinations * self.along
+        grid = values[:inner].reshape(self.distances, self.inclinations, self.along)
+        lacking = (
+            grid - np.tensordot(_from_every_other(self.distances), grid[::2], 1),
+            grid - np.einsum("ij,kjl->kil", _from_every_other(self.inclinations), grid[:, ::2]),
         )
-        fewer = self._weights(size, SIDE, self.along).reshape(-1, self.along)
-        fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))
-        side = self._weights(size, SIDE, self.along + 1) - fewer.reshape(len(size), -1)
-        of_side = [side] + [np.zeros_like(side)] * len(others)
-        weights = np.stack([mean, *(other - mean for other in others)])
-        return np.concatenate([weights, np.stack(of_side)], axis=-1)
+        weights = self._weights(size, self.along)
+        change, off = ADDED * np.abs(self._side_weights(size) @ values[inner:]), np.zeros(len(size))
+        for missing in lacking:
+            change += np.abs(weights @ missing.ravel())
+            off += np.abs(weights) @ np.abs(missing).ravel()
+        return change, off
 
-    def _places(self, count: int, along: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        abscissa, _ = gauss(count)
-        distance = (self.largest * abscissa**POWER)[:, None]
-        inclination = self._most(distance) * _inclined(abscissa)
+    def _side_weights(self, size: FloatArray) -> FloatArray:
+        """Weights of what another place on the arcs adds, shape (k, …)."""
+        side = replace(self, distances=SIDE, inclinations=SIDE)
+        fewer = side._weights(size, self.along).reshape(-1, self.along)
+        fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))
+        return side._weights(size, self.along + 1) - fewer.reshape(len(size), -1)
+
+    def grid(self, along: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radius, depth and angle of places, so many of them on half of each arc."""
+        distance = (self.largest * gauss(self.distances)[0] ** POWER)[:, None]
+        inclination = self._most(distance) * _inclined(gauss(self.inclinations)[0])
         radius = self._radius(distance, inclination)
         depth = distance * np.sin(inclination)
         angle = self._arc(distance, radius, self.largest)[..., None] * _along(along)
         radius, depth, angle = np.broadcast_arrays(radius[..., None], depth[..., None], angle)
         return radius.ravel(), depth.ravel(), angle.ravel()
 
-    def _weights(
-        self,
-        size: FloatArray,
-        count: int,
-        along: int,
-        distances: slice = slice(None),
-        inclinations: slice = slice(None),
-    ) -> FloatArray:
-        """Weights of some of the distances and inclinations in the means, shape (k, count² · along)."""
-        abscissa, weight = gauss(count)
-        node = abscissa[inclinations]
-        weight = (6.0 * abscissa * (1.0 - abscissa) * weight) @ interpolation(node, abscissa)
+    def _weights(self, size: FloatArray, along: int) -> FloatArray:
+        """Weights of distances, inclinations and places along the arcs in the means, shape (k, …)."""
+        node, weight = gauss(self.inclinations)
+        weight = 6.0 * node * (1.0 - node) * weight
         # The arcs end like a root at the pole of a sphere.
         fine, of_fine = gauss(ABSCISSAE)
         root = 1.0 - (1.0 - fine) ** 2
@@ -111,11 +128,9 @@ class HalfSpheres:
         # dV = d dd dφ r dθ, with dd ~ root^(POWER − 1) d root.
         volume = (of_fine * most * weight * radius * whole)[..., None] * _integrals(along, part)
         scaled = (size[..., 0] / self.largest) ** (1.0 / POWER) * root
-        of_distance = np.swapaxes(interpolation(abscissa[distances], scaled), -1, -2)
-        weights = np.zeros((len(size), count, count, along))
-        found = (of_distance @ volume.reshape(*volume.shape[:2], -1)).reshape(len(size), -1, node.size, along)
-        weights[:, distances, inclinations] = found / found.sum(axis=(1, 2, 3), keepdims=True)
-        return weights.reshape(len(size), -1)
+        of_distance = np.swapaxes(interpolation(gauss(self.distances)[0], scaled), -1, -2)
+        found = of_distance @ volume.reshape(*volume.shape[:2], -1)
+        return np.asarray(found.reshape(len(size), -1) / found.sum(axis=(1, 2))[:, None])
 
     def _most(self, distance: FloatArray) -> FloatArray:
         """Largest inclination: π, or that of the axis."""
@@ -129,6 +144,13 @@ class HalfSpheres:
         chord = np.sqrt((size - distance) * (size + distance))
         across = np.maximum(2.0 * np.sqrt(self.centre * radius), 1e-150)
         return 2.0 * np.arcsin(np.minimum(chord / across, 1.0))
+
+
+@lru_cache(maxsize=16)
+def _from_every_other(count: int) -> FloatArray:
+    """Matrix from the values at every other node of Gauss's rule to those at all."""
+    node, _ = gauss(count)
+    return interpolation(node[::2], node)
 
 
 def _inclined(abscissa: FloatArray) -> FloatArray:

@@ -1,8 +1,6 @@
 """Stress histories at places of the body, each at instants of its own.
 
-At each instant the springs follow the pieces of the memory up to the slip front, and slip from there to the
-edge. So the integrals over the springs are sums up to the start of a piece, which do not know the instant,
-and closed forms of the front's and the edge's radius: no instant makes cells for the others.
+The sums over `SpringCells` are made once for each place; no instant makes cells for the others.
 """
 
 from __future__ import annotations
@@ -10,12 +8,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.memory import GROWTH
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.body.spring_cells import SpringCells
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.primitives import primitives
 from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_components, tangential_components
-from swtstudy.mechanics.stress.field.slope_cells import SlopeCells
 from swtstudy.mechanics.stress.scene import Scene
+
+#: Places whose sums are made at a time: 8 or 128: 1.2 times the time.
+PLACES = 32
+FUNCTIONS = len(PunchFunctions._fields)
 
 
 class Histories:
@@ -27,52 +28,48 @@ class Histories:
         A batch of one point.
     radius, depth, angle
         Shape (N,): distance from the axis and depth in a_H, and angle about the axis from x.
-    slopes, branches
-        See `contact_states.resolving_cells`.
+    springs
+        Those of the scene.
     """
 
     def __init__(
-        self,
-        scene: Scene,
-        radius: FloatArray,
-        depth: FloatArray,
-        angle: FloatArray,
-        slopes: SlopeCells,
-        branches: IntArray,
+        self, scene: Scene, radius: FloatArray, depth: FloatArray, angle: FloatArray, springs: SpringCells
     ) -> None:
         self.scene, self.radius, self.depth, self.angle = scene, radius, depth, angle
-        self.ends = slopes.radius
-        #: Shape (f · m,): the slope functions on the cells, over π.
-        self.intercept, self.gradient = (v.ravel() / np.pi for v in (slopes.intercept, slopes.gradient))
-        plain, weighted = (np.stack(f) for f in primitives(radius, depth, self.ends[:, None]))
-        cell = (len(slopes.intercept), 1, -1, 1)
-        intercept, gradient = self.intercept.reshape(cell), self.gradient.reshape(cell)
-        step = intercept * np.diff(plain, axis=1) + gradient * np.diff(weighted, axis=1)
-        sums = np.concatenate([np.zeros_like(step[:, :, :1]), np.cumsum(step, axis=2)], axis=2)
-        constant = sums[:, :, :-1] - intercept * plain[:, :-1] - gradient * weighted[:, :-1]
-        #: Shape (10, f · m · N): what a closed form lacks to the integral from the axis.
-        self.constant = np.moveaxis(constant, 1, 0).reshape(len(plain), -1)
-        self._sum_pieces(sums, branches)
+        self.springs = springs
+        cells, pieces = springs.cell.size, springs.share.size
+        #: Shape (10, c · N): what a closed form lacks to the integral from the function's first cell.
+        self.constant = np.empty((FUNCTIONS, cells * radius.size))
+        #: Shape (10, m · N): what it lacks to the integral from the axis, over all pieces.
+        self.base = np.empty((FUNCTIONS, pieces * radius.size))
+        constant = self.constant.reshape(FUNCTIONS, cells, -1)
+        base = self.base.reshape(FUNCTIONS, pieces, -1)
+        for part in (slice(at, at + PLACES) for at in range(0, radius.size, PLACES)):
+            plain, weighted = primitives(radius[part], depth[part], springs.ends[:, None])
+            sums, constant[..., part] = self._sums(np.stack(plain), np.stack(weighted))
+            base[..., part] = self._pieces(sums)
 
-    def _sum_pieces(self, sums: FloatArray, branches: IntArray) -> None:
-        """Sums over all pieces inside of each piece of the memory."""
-        memory = self.scene.cycle.memory.take((0,))
-        finite = np.isfinite(memory.start)
-        start = np.where(finite, memory.start, 0.0)
-        radius = self.scene.coordinate.radius(start[None])[0]
-        middle = 0.5 * (self.ends[1:] + self.ends[:-1])
-        at = np.searchsorted(middle, radius)
-        grown = finite & (memory.slope == GROWTH)
-        #: Shape (i, d): number of the slope function, and its share in dτ/dG; τ′ = −o′ on lines.
-        self.function = np.where(grown, 1 + np.searchsorted(branches, memory.branch), 0)
-        self.share = np.where(grown, 1.0, np.where(finite, -memory.slope, 0.0))
-        first = self.share[..., None, None] * sums[self.function, :, at]
-        base = np.zeros_like(first)
-        for piece in range(1, start.shape[1]):
-            before = self.share[:, piece - 1, None, None] * sums[self.function[:, piece - 1], :, at[:, piece]]
-            base[:, piece] = base[:, piece - 1] + before - first[:, piece - 1]
-        #: Shape (10, i · d · N).
-        self.base = np.moveaxis(base - first, 2, 0).reshape(base.shape[2], -1)
+    def _sums(self, plain: FloatArray, weighted: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Integrals up to the begin of each cell, and up to the end of the last one; what they lack."""
+        springs = self.springs
+        intercept, gradient, cell = springs.intercept[:, None], springs.gradient[:, None], springs.cell
+        left = intercept * plain[:, cell] + gradient * weighted[:, cell]
+        steps = intercept * plain[:, cell + 1] + gradient * weighted[:, cell + 1] - left
+        sums = np.zeros((FUNCTIONS, cell.size + 1, plain.shape[-1]))
+        np.cumsum(steps, axis=1, out=sums[:, 1:])
+        return sums, sums[:, :-1] - left
+
+    def _pieces(self, sums: FloatArray) -> FloatArray:
+        """Integrals over all pieces inside of each piece, without its own up to its start."""
+        springs = self.springs
+        share, below = springs.share[:, None], springs.below
+        own = share * sums[:, springs.start]
+        inner = share[below] * sums[:, springs.below_start] - own[:, below]
+        base = np.zeros_like(own)
+        for level in range(1, int(springs.level.max(initial=0)) + 1):
+            some = springs.level == level
+            base[:, some] = base[:, below[some]] + inner[:, some]
+        return base - own
 
     def stress(self, instant: FloatArray, rows: NDArray[np.intp] | None = None) -> FloatArray:
         """Stress in E* √(δ0/R) at instants of places.
@@ -88,8 +85,8 @@ class Histories:
         -------
         Shape (m, T, 6).
         """
-        ν = float(self.scene.poisson_ratio[0])
         at = np.arange(len(self.radius)) if rows is None else rows
+        ν = float(self.scene.poisson_ratio[0])
         normal, drag = self._functions(instant, np.broadcast_to(at[:, None], instant.shape))
         x, y = (self.radius[at] * turn(self.angle[at]) for turn in (np.cos, np.sin))
         place = x[:, None], y[:, None], self.depth[at, None]
@@ -102,13 +99,15 @@ class Histories:
         self, instant: FloatArray, place: NDArray[np.intp]
     ) -> tuple[PunchFunctions, PunchFunctions]:
         """The ten functions integrated over the springs at instants of places, of pressure and of drag."""
-        scene = self.scene
+        scene, springs = self.scene, self.springs
         cycle, coordinate = scene.cycle, scene.coordinate
         interval = np.minimum(np.searchsorted(cycle.end[0], instant), cycle.end.shape[1] - 1)
         states = cycle.states(interval[None], instant[None])
-        edge, front = (np.maximum(coordinate.radius(v)[0], self.ends[0]) for v in (states.edge, states.front))
-        sign, piece = states.sign[0], interval * self.share.shape[1] + states.piece[0]
-        function, share = self.function.ravel()[piece], self.share.ravel()[piece]
+        edge, front = (
+            np.maximum(coordinate.radius(v)[0], springs.ends[0]) for v in (states.edge, states.front)
+        )
+        sign, piece = states.sign[0], springs.index[interval, states.piece[0]]
+        function, share = springs.function[piece], springs.share[piece]
         profile = np.zeros_like(function)
         normal = self._up_to(edge, profile, place)
         # Where nothing slips the front is at the edge.
@@ -124,11 +123,10 @@ class Histories:
         return PunchFunctions(*normal), PunchFunctions(*drag)
 
     def _up_to(self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp]) -> FloatArray:
-        """Integrals of slope functions from the axis to radii at places, shape (10, …)."""
-        cells, places = len(self.ends) - 1, len(self.radius)
-        cell = np.clip(np.searchsorted(self.ends, radius, "right") - 1, 0, cells - 1) + function * cells
-        result = self.constant.take(cell * places + place, axis=1)
-        intercept, gradient = self.intercept.take(cell), self.gradient.take(cell)
+        """Integrals of slope functions from their first cells to radii at places, shape (10, …)."""
+        cell = self.springs.cell_of(radius, function)
+        result = self.constant.take(cell * len(self.radius) + place, axis=1)
+        intercept, gradient = self.springs.intercept.take(cell), self.springs.gradient.take(cell)
         plain, weighted = primitives(self.radius[place], self.depth[place], radius)
         for total, a, b in zip(result, plain, weighted, strict=True):
             total += intercept * a + gradient * b

@@ -11,7 +11,7 @@ paraboloid: beside that the pressure is infinite like a logarithm, and so slow i
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,28 +25,28 @@ from swtstudy.parameters import DIRECTIONS
 
 #: Distances from the circle, and inclinations, of the places in the half spheres, and places on a line: more
 #: while a mean is not as accurate as asked for.
-COUNTS, LINE_COUNTS = (9, 13, 19, 27), (11, 17, 25, 37)
+COUNTS, LINE_COUNTS = ((7, 13), (9, 19), (11, 25), (15, 33), (19, 41)), (17, 25, 37, 55)
 #: The distance from the critical point is this power of the abscissa of a line.
 LINE_POWER = 4
-#: The error claimed, over the changes of a mean without every other place, and over the value itself (planes,
-#: cells). Of 144 means of random scenes the places made a larger error in one.
-OF_CHANGE, OF_VALUE = 0.5, 3e-4
-#: On a line, over that: there kinks do not average out.
-ON_LINES = 1.5
+#: The error claimed of a mean over a half sphere, over its changes without every other place and over what
+#: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells).
+OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.25, 0.025, 0.3, 3e-4
+#: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
+#: many planes are alike.
+OF_LARGEST = 2e-5
+#: The error for want of places falls like about this power of their number.
+ORDER, MARGIN = 2.2, 1.3
 #: The least error claimed of a single value, over that.
 OF_POINT = 1e-3
 #: A value below this is none.
 TINY = 1e-300
 #: Largest over smallest distance that share their places.
 SPAN = 40.0
-#: Places that show which part of the cycle matters.
-SHOWN = 12
-#: How finely swt is searched for in the half spheres and on the lines: finer while a mean is not as accurate
+#: Distances from the circle, and inclinations, of the places that show which part of the cycle matters.
+SHOWN = 3, 7
+#: How finely swt is searched for: finer while a mean is not as accurate
 #: as asked for.
-FINENESS, LINE_FINENESS = (
-    (Fineness(3, 32), Fineness(6, 32)),
-    (Fineness(6, 40, every_summit=True), Fineness(8, 60, every_summit=True)),
-)
+FINENESS = (Fineness(3, 32), Fineness(6, 60))
 #: Abscissae of the integrals of the interpolation along a line.
 ABSCISSAE = 32
 
@@ -96,8 +96,9 @@ def nonlocal_swt(
         into = _directions(float(angle[row]))
         for group in groups:
             around = _Around(scene.take(np.array([row])), float(position[row]), into, distance[group])
-            volume[row, group], volume_error[row, group] = _refined(around.in_spheres, rtol)
-            lines, error = _refined(around.on_lines, rtol)
+            found = _refined(around.in_spheres, [count for _, count in COUNTS], rtol)
+            volume[row, group], volume_error[row, group] = found
+            lines, error = _refined(around.on_lines, LINE_COUNTS, rtol)
             point[row, group], line[row, group] = lines
             # A peak that is missed at one place does not average out.
             point_error[row, group] = np.maximum(error[0], OF_POINT * lines[0])
@@ -129,7 +130,7 @@ def _directions(degrees: float) -> FloatArray:
     return np.array([[0.0, 1.0], along_plane])
 
 
-#: A value, its changes without every other place, and what instants may be missing in it, of one shape.
+#: A value, its error for want of places, and what instants may be missing in it, of one shape.
 Found = tuple[FloatArray, FloatArray, FloatArray]
 
 
@@ -152,40 +153,65 @@ class _Around:
         self.scene, self.x, self.into, self.distance = scene, x, into, distance
         self.largest = float(distance.max())
         self.local: dict[Fineness, LocalSwt] = {}
+        self.first: dict[Callable[[int], Places], FloatArray] = {}
 
     def in_spheres(self, level: int, fineness: int) -> Found:
         """Means over half spheres, shape (k,)."""
-        spheres = HalfSpheres(abs(self.x), self.largest, COUNTS[level])
-        swt, missing = self._local(FINENESS[fineness]).swt(self._of_spheres(spheres))
+        swt, missing = self._swt(self._in_spheres, level, fineness)
+        spheres = self._spheres(level)
         weights = spheres.weights(self.distance)
-        mean, *change = weights @ swt
-        return mean, np.abs(change).sum(axis=0), weights[0] @ missing
+        change, off = spheres.changes(self.distance, swt)
+        return weights @ swt, OF_CHANGE * change + OF_OFF * off, weights @ missing
 
     def on_lines(self, level: int, fineness: int) -> Found:
         """Values at ℓ/2, and means over 0 … 2ℓ, along the vectors, shape (2, k, d)."""
-        abscissa = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, LINE_COUNTS[level] + 1) / (LINE_COUNTS[level] + 1))
-        away = np.concatenate([0.5 * self.distance, 2.0 * self.largest * abscissa**LINE_POWER])
-        found = np.stack(self._local(LINE_FINENESS[fineness]).swt(self._of_lines(away))).reshape(
-            2, away.size, -1
-        )
+        swt, missing = self._swt(self._on_lines, level, fineness)
+        found = np.stack([swt, missing]).reshape(2, -1, len(self.into))
         (point, line), (no_point, no_line) = (np.split(v, [self.distance.size]) for v in found)
-        mean, missing = (self._line_means(abscissa, values) for values in (line, no_line))
-        change = np.abs(self._line_means(abscissa[::2], line[::2]) - mean)
-        changes = np.stack([np.zeros_like(point), ON_LINES * change])
-        return np.stack([point, mean]), changes, np.stack([no_point, missing])
+        abscissa = _abscissae(LINE_COUNTS[level])
+        weights = self._line_weights(abscissa)
+        off = np.abs(line - interpolation(abscissa[::2], abscissa) @ line[::2])
+        error = OF_LARGEST * swt.max() + np.stack([np.zeros_like(point), OF_LINES * np.abs(weights) @ off])
+        return np.stack([point, weights @ line]), error, np.stack([no_point, weights @ no_line])
+
+    def _swt(
+        self, places: Callable[[int], Places], level: int, fineness: int
+    ) -> tuple[FloatArray, FloatArray]:
+        """swt at places, and what is missing of it; the first ones of both kinds at a time."""
+        if level or fineness:
+            return self._local(FINENESS[fineness]).swt(places(level))
+        if not self.first:
+            kinds = self._in_spheres, self._on_lines
+            parts = [of_kind(0) for of_kind in kinds]
+            both = Places(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+            found = np.stack(self._local(FINENESS[0]).swt(both))
+            cut = [parts[0].radius.size]
+            self.first = dict(zip(kinds, np.split(found, cut, axis=1), strict=True))
+        swt, missing = self.first[places]
+        return swt, missing
+
+    def _spheres(self, level: int) -> HalfSpheres:
+        return HalfSpheres(abs(self.x), self.largest, *COUNTS[level])
+
+    def _in_spheres(self, level: int) -> Places:
+        return self._turned(*self._spheres(level).places())
+
+    def _on_lines(self, level: int) -> Places:
+        away = 2.0 * self.largest * _abscissae(LINE_COUNTS[level]) ** LINE_POWER
+        return self._of_lines(np.concatenate([0.5 * self.distance, away]))
 
     def _local(self, fineness: Fineness) -> LocalSwt:
         """swt at the instants that matter at some of the places."""
         if fineness not in self.local:
-            spheres = self._of_spheres(HalfSpheres(abs(self.x), self.largest, COUNTS[0]))
+            spheres = HalfSpheres(abs(self.x), self.largest, *SHOWN)
             lines = self._of_lines(self.largest * np.array([0.1, 0.6, 2.0]))
-            shown = np.linspace(0, spheres.radius.size - 1, SHOWN).astype(int)
-            some = (np.concatenate(parts) for parts in zip(spheres.at(shown), lines, strict=True))
+            inside = self._turned(*spheres.grid(1))
+            some = (np.concatenate(parts) for parts in zip(inside, lines, strict=True))
             self.local[fineness] = LocalSwt(self.scene, abs(self.x), Places(*some), fineness)
         return self.local[fineness]
 
-    def _of_spheres(self, spheres: HalfSpheres) -> Places:
-        radius, depth, angle = spheres.places()
+    def _turned(self, radius: FloatArray, depth: FloatArray, angle: FloatArray) -> Places:
+        """Places at angles from the critical point."""
         return Places(radius, depth, angle if self.x >= 0.0 else np.pi - angle)
 
     def _of_lines(self, away: FloatArray) -> Places:
@@ -194,26 +220,38 @@ class _Around:
         depth = (away[:, None] * self.into[:, 1]).ravel()
         return Places(np.abs(right), depth, np.where(right < 0.0, np.pi, 0.0))
 
-    def _line_means(self, abscissa: FloatArray, swt: FloatArray) -> FloatArray:
-        """Means over 0 … 2ℓ, shape (k, d), from values at abscissae."""
+    def _line_weights(self, abscissa: FloatArray) -> FloatArray:
+        """Weights of values at abscissae in the means over 0 … 2ℓ, shape (k, n)."""
         node, weight = gauss(ABSCISSAE)
         weight = LINE_POWER * node ** (LINE_POWER - 1) * weight
         scaled = (self.distance[:, None] / self.largest) ** (1.0 / LINE_POWER) * node
-        return np.asarray((weight @ interpolation(abscissa, scaled)) @ swt)
+        return np.asarray(weight @ interpolation(abscissa, scaled))
 
 
-def _refined(at: Callable[[int, int], Found], rtol: float) -> tuple[FloatArray, FloatArray]:
+def _abscissae(count: int) -> FloatArray:
+    """Places along a line, denser towards both ends, in (0, 1)."""
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(1, count + 1) / (count + 1)))
+
+
+def _refined(
+    at: Callable[[int, int], Found], counts: Sequence[int], rtol: float
+) -> tuple[FloatArray, FloatArray]:
     """A value and its error, with more places and instants as far as they are needed."""
     level, fineness = 0, 0
     while True:
-        value, change, missing = at(level, fineness)
-        size = np.abs(value)
-        of_places, of_instants = OF_CHANGE * change, np.abs(missing)
+        value, of_places, missing = at(level, fineness)
+        size, of_instants = np.abs(value), np.abs(missing)
         error = of_places + of_instants + OF_VALUE * size
-        # Half of the error may come from either.
-        allowed = np.maximum(0.5 * (rtol - OF_VALUE) * size, TINY)
-        finer = fineness + 1 < len(FINENESS) and bool(np.any(of_instants > allowed))
-        more = level + 1 < len(COUNTS) and bool(np.any(of_places > allowed))
+        # Half of the error may come from instants that are missing, the rest from places.
+        allowed = np.maximum((rtol - OF_VALUE) * size, TINY)
+        finer = fineness + 1 < len(FINENESS) and bool(np.any(of_instants > 0.5 * allowed))
+        excess = float(np.max(of_places / np.maximum(allowed - of_instants, 0.5 * allowed)))
+        more = level + 1 < len(counts) and excess > 1.0
         if np.all(error <= rtol * size) or not (finer or more):
             return value, error
-        level, fineness = level + more, fineness + finer
+        wanted = counts[level] * (MARGIN * excess) ** (1.0 / ORDER)
+        while more and level + 1 < len(counts):
+            level += 1
+            if counts[level] >= wanted:
+                break
+        fineness += finer

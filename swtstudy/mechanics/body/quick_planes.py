@@ -2,33 +2,71 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_on_planes
+from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
 from swtstudy.mechanics.planes.ascent import climb
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
+from swtstudy.mechanics.planes.criterion import Walker
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 13° apart.
 PLANES = 128
-#: Planes beside each, than which a peak is higher.
+#: Planes beside each.
 BESIDE = 6
-#: Another peak at least so high, over the highest plane, is climbed from, too.
-WORTHY = 0.7
-#: Highest planes from which to climb where close summits are told apart: one of 2,600 histories was more than
-#: 1e-3 low; with two of them 17 were.
+#: Planes this high in some histories, over the highest, are tried in others like them. 0: no change.
+NEAR = 0.7
+#: Highest planes from which to climb. Four: one of 2,600 histories was more than 1e-3 low; two: 17 were.
 CANDIDATES = 4
+#: Last step of a climb, rad: its square is the error. 1e-9: twice the steps.
+LAST_STEP = 3e-3
 #: Histories in the coarse search at a time.
 BLOCK = 16
 
 
-def quick_planes(
-    stress: FloatArray, poisson_ratio: float, walker_exponent: float = SWT_EXPONENT
+@dataclass(frozen=True)
+class CoarsePlanes:
+    """Planes from which to climb.
+
+    Attributes
+    ----------
+    normal
+        Shape (k, 3).
+    """
+
+    normal: FloatArray
+
+    @staticmethod
+    def everywhere() -> CoarsePlanes:
+        """Those of all orientations."""
+        return CoarsePlanes(hemisphere(PLANES))
+
+    def swt(self, stress: FloatArray, ν: float, γ: float) -> FloatArray:
+        """swt of histories, (m, T, 6), on the planes, shape (m, k)."""
+        single = self.normal.astype(np.float32)
+        swt = np.empty((len(stress), len(single)))
+        for first in range(0, len(stress), BLOCK):
+            part = slice(first, first + BLOCK)
+            swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, γ)
+        return swt
+
+
+def planes_like(stress: FloatArray, ν: float, γ: float) -> CoarsePlanes:
+    """Those of all planes that are near to the highest in some of the histories, and those beside them."""
+    every = CoarsePlanes.everywhere()
+    swt = every.swt(stress, ν, γ)
+    high = (swt >= NEAR * swt.max(axis=1, keepdims=True)).any(axis=0)
+    high[_beside()[high]] = True
+    return CoarsePlanes(every.normal[high])
+
+
+def highest_planes(
+    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, walker_exponent: float
 ) -> tuple[FloatArray, FloatArray]:
     """Largest swt over the planes, and its planes.
 
@@ -36,6 +74,8 @@ def quick_planes(
     ----------
     stress
         Shape (m, T, 6), in E* √(δ0/R).
+    planes
+        From which to climb.
     poisson_ratio, walker_exponent
         ν and γ.
 
@@ -44,61 +84,36 @@ def quick_planes(
     swt, normal
         Shape (m,), over E* δ0/R, and (m, 3).
     """
-    start, rival, worthy = _coarse_planes(stress, poisson_ratio, walker_exponent)
-    swt, normal = climb_from(stress, poisson_ratio, start, walker_exponent)
-    several = np.flatnonzero(worthy)
-    if several.size:
-        other, where = climb_from(stress[several], poisson_ratio, rival[several], walker_exponent)
-        higher = other > swt[several]
-        swt[several[higher]], normal[several[higher]] = other[higher], where[higher]
+    index = np.tile(np.arange(len(stress)), CANDIDATES)
+    coarse = planes.swt(stress, poisson_ratio, walker_exponent)
+    highest = np.argpartition(-coarse, CANDIDATES, axis=1)[:, :CANDIDATES].T
+    swt, normal = climb_from(stress[index], poisson_ratio, planes.normal[highest.ravel()], walker_exponent)
+    best = swt.reshape(CANDIDATES, -1).argmax(axis=0) * len(stress) + np.arange(len(stress))
+    swt, normal = swt[best], normal[best]
+    # Tension may be confined to few planes.
+    none = np.flatnonzero(swt <= 0.0)
+    if none.size:
+        found = swt_of_history(stress[none], poisson_ratio, 1.0 - poisson_ratio**2, walker_exponent)
+        swt[none], normal[none] = found
     return swt, normal
 
 
-def planes_of_all_summits(
-    stress: FloatArray, poisson_ratio: float, walker_exponent: float
-) -> tuple[FloatArray, FloatArray]:
-    """The same, told apart from summits closer than the coarse planes are to one another."""
-    normals, index = hemisphere(PLANES), np.tile(np.arange(len(stress)), CANDIDATES)
-    single = stress.astype(np.float32), normals.astype(np.float32)
-    swt = swt_on_planes(*single, poisson_ratio, 1.0, walker_exponent)
-    highest = np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES].T
-    swt, normal = climb_from(stress[index], poisson_ratio, normals[highest.ravel()], walker_exponent)
-    best = swt.reshape(CANDIDATES, -1).argmax(axis=0) * len(stress) + np.arange(len(stress))
-    return swt[best], normal[best]
-
-
-def highest_coarse_planes(stress: FloatArray, poisson_ratio: float, walker_exponent: float) -> FloatArray:
-    """Normals, (m, 3), some degrees off those of `quick_planes`."""
-    return _coarse_planes(stress, poisson_ratio, walker_exponent)[0]
+def highest_coarse_planes(
+    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, walker_exponent: float
+) -> FloatArray:
+    """Normals, (m, 3), some degrees off those of `highest_planes`."""
+    return planes.normal[planes.swt(stress, poisson_ratio, walker_exponent).argmax(axis=1)]
 
 
 def climb_from(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
     """Summits of swt over E* δ0/R, (m,), and their normals, (m, 3), from normals nearby."""
     modulus = 1.0 - ν**2
-    return climb(stress, strain_history(stress, ν, modulus), start, Walker.of(γ, modulus, len(start)))
-
-
-def _coarse_planes(stress: FloatArray, ν: float, γ: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The highest of few planes, the highest other peak among them, and whether that is worth a climb."""
-    normals, neighbours = hemisphere(PLANES), _neighbours()
-    single = normals.astype(np.float32)
-    best, rival = np.empty((2, len(stress)), dtype=np.intp)
-    worthy = np.empty(len(stress), dtype=bool)
-    for first in range(0, len(stress), BLOCK):
-        part = slice(first, first + BLOCK)
-        swt = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, γ)
-        row, best[part] = np.arange(len(swt)), swt.argmax(axis=1)
-        least = WORTHY * swt[row, best[part]]
-        peaked = swt >= swt[:, neighbours].max(axis=-1)
-        peaked[row, best[part]] = False
-        others = np.where(peaked, swt, 0.0)
-        rival[part] = others.argmax(axis=1)
-        worthy[part] = others[row, rival[part]] > least
-    return normals[best], normals[rival], worthy
+    strain = strain_history(stress, ν, modulus)
+    return climb(stress, strain, start, Walker.of(γ, modulus, len(start)), LAST_STEP)
 
 
 @lru_cache(maxsize=1)
-def _neighbours() -> NDArray[np.intp]:
+def _beside() -> NDArray[np.intp]:
     """The planes beside each of the coarse ones, shape (PLANES, BESIDE)."""
     normals = hemisphere(PLANES)
     return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]

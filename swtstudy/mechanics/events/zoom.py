@@ -2,7 +2,9 @@
 
 The extreme found at a node lies between the node's neighbours. Around a node inside of a stretch these are in
 the same stretch; around the end of a stretch, where the stress may have a cusp, they are in two. Both sides
-are walked in the angle α of their cosine-spaced nodes, in which the stress is smooth.
+are walked in the angle α of their cosine-spaced nodes, in which the stress is smooth. Where a short stretch
+meets a long one, what happened in the short one makes a thin layer in the long one, too: there the samples
+are graded from its thickness on.
 """
 
 from __future__ import annotations
@@ -28,6 +30,9 @@ STEPS = 3
 OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
 #: Number of the last sample.
 LAST = 2 * STEPS
+#: Where the first sample is in a layer, in α over that of the layer's thickness, and the share of an even
+#: step below which a layer is thin. Without: 6e-4 at a point of tests/test_narrow_maxima.py.
+IN_LAYER, THIN = 2.0 / 3.0, 1.0 / 3.0
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,8 @@ class TimeBrackets:
         cycle, and the angle α at c = 0.
     step
         Change of α between c = 0 and 1.
+    grading
+        Shape (n, X, e, 2): by how much the logarithm of dα/dc grows from c = 0 to 1.
     corner
         Shape (n, X, e): whether stretches meet at c = 0.
     centre
@@ -54,13 +61,19 @@ class TimeBrackets:
     interval: NDArray[np.intp]
     start: FloatArray
     step: float
+    grading: FloatArray
     corner: NDArray[np.bool_]
     centre: FloatArray
     width: float
 
     @classmethod
     def around(
-        cls, parts: Stretches, count: int, stretch: NDArray[np.intp], place: NDArray[np.intp]
+        cls,
+        parts: Stretches,
+        count: int,
+        stretch: NDArray[np.intp],
+        place: NDArray[np.intp],
+        falling: NDArray[np.bool_] | None = None,
     ) -> TimeBrackets:
         """Brackets around nodes of `swtstudy.mechanics.events.nodes.cosine_nodes`.
 
@@ -72,6 +85,8 @@ class TimeBrackets:
             Number of steps of each stretch.
         stretch, place
             Shape (n, X, e): see `swtstudy.mechanics.events.nodes.Placed`.
+        falling
+            Shape (n, X, e, 2): on which sides the nodes show no maximum, so that the samples may be graded.
         """
         at_begin, at_end = place == 0, place == count
         before, after = _neighbours(parts, stretch, at_begin, at_end)
@@ -83,7 +98,11 @@ class TimeBrackets:
         low, high = (gather(ends, flat).reshape(sides.shape) for ends in (parts.low, parts.high))
         start, corner = np.stack([left, right], axis=-1), at_begin | at_end
         interval = sides // PER_INTERVAL
-        return cls(low, high, interval, start, np.pi / count, corner, np.zeros(place.shape), 1.0)
+        step = np.pi / count
+        grading = np.zeros(start.shape)
+        if falling is not None:
+            _grade(grading, high - low, corner, falling, step)
+        return cls(low, high, interval, start, step, grading, corner, np.zeros(place.shape), 1.0)
 
     def take(self, index: NDArray[np.intp]) -> TimeBrackets:
         """The brackets of the cycles at ``index``."""
@@ -93,6 +112,7 @@ class TimeBrackets:
             high=self.high[index],
             interval=self.interval[index],
             start=self.start[index],
+            grading=self.grading[index],
             corner=self.corner[index],
             centre=self.centre[index],
         )
@@ -106,6 +126,7 @@ class TimeBrackets:
             high=np.where(two, self.high, other.high),
             interval=np.where(two, self.interval, other.interval),
             start=np.where(two, self.start, other.start),
+            grading=np.where(two, self.grading, other.grading),
             corner=np.where(own, self.corner, other.corner),
             centre=np.where(own, self.centre, other.centre),
         )
@@ -118,11 +139,21 @@ class TimeBrackets:
         def side(values: NDArray[T]) -> NDArray[T]:
             return np.where(right, values[..., 1:], values[..., :1])
 
-        alpha = np.clip(side(self.start) + c * self.step, 0.0, np.pi)
+        alpha = np.clip(side(self.start) + self._walked(c) * self.step, 0.0, np.pi)
         n, columns = c.shape[:2]
         instant = between(side(self.low), side(self.high), alpha).reshape(n, -1)
         index = np.broadcast_to(np.arange(instant.shape[1]), instant.shape).reshape(n, columns, -1)
         return Nodes(side(self.interval).reshape(n, -1), instant, index)
+
+    def _walked(self, c: FloatArray) -> FloatArray:
+        """Steps of α from c = 0 to each c, shape (n, X, e, k)."""
+        steps = c.copy()
+        for side, sign in enumerate((-1.0, 1.0)):
+            graded = np.nonzero(self.grading[..., side])
+            growth, some = self.grading[(*graded, side)][:, None], c[graded]
+            share = (np.exp(growth * np.maximum(sign * some, 0.0)) - 1.0) / (np.exp(growth) - 1.0)
+            steps[graded] = np.where(sign * some > 0.0, sign * share, some)
+        return steps
 
     def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
         """The brackets around the best samples, shape (n, X, e)."""
@@ -168,6 +199,24 @@ class TimeBrackets:
         # Never below what has been seen.
         worse = (weights * curve).sum(axis=-1) <= pick(curve, best)
         return np.where(worse[..., None], np.arange(LAST + 1) == best[..., None], weights)
+
+
+def _grade(
+    grading: FloatArray,
+    length: FloatArray,
+    corner: NDArray[np.bool_],
+    falling: NDArray[np.bool_],
+    step: float,
+) -> None:
+    """Put `TimeBrackets.grading` where stretches of lengths (n, X, e, 2) meet at a ``corner``, (n, X, e)."""
+    at = np.nonzero(corner)
+    own = length[at]
+    # α² is what grows like time at the begin of a stretch.
+    share = (2.0 * IN_LAYER / step) * np.sqrt(own[:, ::-1] / own)
+    thin = falling[at] & (share < THIN / STEPS)
+    # With the ratio g from sample to sample, 1 + g + g² of the first are the whole.
+    ratio = np.sqrt(1.0 / np.where(thin, share, 1.0 / STEPS) - 0.75) - 0.5
+    grading[at] = np.where(thin, STEPS * np.log(ratio), 0.0)
 
 
 def _interpolation() -> FloatArray:

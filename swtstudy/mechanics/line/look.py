@@ -96,10 +96,10 @@ class Look:
         """Shape (n, X, T): which instants are not at the end of their stretch."""
         return (self.placed.place % self.count) > 0
 
-    def brackets(self, instants: NDArray[np.intp]) -> TimeBrackets:
-        """Brackets around instants, shape (n, X, e)."""
-        at = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
-        return TimeBrackets.around(self.parts, self.count, *at)
+    def brackets(self, instants: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> TimeBrackets:
+        """Brackets around instants, shape (n, X, e); for ``falling`` see `TimeBrackets.around`."""
+        stretch, place = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
+        return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
@@ -110,9 +110,12 @@ def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np
 
 def extremes_and_rivals(
     planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """As `extreme_instants`, and another instant that may be higher once it is looked at, or the same one."""
-    found, rivals = [], []
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
+    """As `extreme_instants`, and another instant that may be higher once it is looked at, or the same one.
+
+    And whether the curves fall from the extremes to both sides, shape (…, 3, 2).
+    """
+    found, rivals, falling = [], [], []
     for curve in curves(*planes.on_plane(angle)):
         crests = _crests(curve, inside)
         heights = curve.copy()
@@ -125,10 +128,22 @@ def extremes_and_rivals(
             flat[rows, np.clip(best.ravel() + step, 0, curve.shape[-1] - 1)] = -np.inf
         rival = heights.argmax(axis=-1)
         found.append(best)
+        falling.append(_falling(curve, best))
         # The best one may have been lifted too high.
         least = pick(curve, best)
         rivals.append(np.where(pick(heights, rival) > least + LEVEL * np.abs(least), rival, best))
-    return np.stack(found, axis=-1), np.stack(rivals, axis=-1)
+    return np.stack(found, axis=-1), np.stack(rivals, axis=-1), np.stack(falling, axis=-2)
+
+
+def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether parabolas through the ``best`` instants and two on either side fall from them, shape (…, 2)."""
+    count, flat = curve.shape[-1], curve.ravel()
+    row, top = count * np.arange(best.size).reshape(best.shape), pick(curve, best)
+    sides = []
+    for step in (-1, 1):
+        first, second = (flat[row + (best + k * step) % count] for k in (1, 2))
+        sides.append(4.0 * first - 3.0 * top <= second)
+    return np.stack(sides, axis=-1)
 
 
 def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:

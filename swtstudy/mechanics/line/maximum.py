@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.passages import split_at_breakpoints
+from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import first_look
@@ -33,14 +34,27 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance. Half: none of 128 points misses s_error.
 LEAST_SHARE = 0.25
-#: Rounding is looked for where this share of what it may be is more than the error. It leaves 1e-8 p, and is
-#: looked for, too, where swt and 1/2 − ν are smaller. Half or twice: none of 128 points misses s_error.
-LARGEST_SHOWN, FAINT, NO_SPREAD = 0.5, 1e-6, 0.01
+#: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
+#: sharp tip, lost contact and large friction miss s_error.
+SLOWNESS = 3.0
+#: Nearer to the centre than this, in the largest radius, there is a tip, where extremes may be next to events
+#: at all scales of time: they are looked at with so many times the instants, too.
+TIP, TIMES_AT_TIP = 1e-6, 8
+#: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
+#: has more digits than r. A hundredth and a hundred times: about 1e-7.
+REACH = 1e-8
+#: Rounding is looked for where this share of what it may be is more than the error. Half or twice: none of
+#: 128 points misses s_error.
+LARGEST_SHOWN = 0.5
+#: Step to the slope of a coordinate, over the distance from a face's edge or the centre, and in roundings.
+SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
 #: What is looked at shows so much less than all of it. Half or twice: none of 128 points misses s_error.
 SHOWN = 1.5
-#: Numbers at and next to r, whose swt differs by rounding, and how often the extremes are looked at there:
-#: closer looks show more of it. Four times as far, 2 or 10 looks: none of 128 points misses s_error.
-NEIGHBOURS, ROUNDING_ZOOMS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8]), 5
+#: Numbers at and next to r, whose swt differs by rounding; those farther off, of which only higher ones tell.
+NEIGHBOURS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8])
+FARTHER = np.outer([-1, 1], 8 ** np.arange(2, 7)).ravel()
+#: Zooms and digits more with which they are looked at: other instants, and tables, show other rounding.
+LOOKS = ((0, 0.0), (1, 0.0), (2, 2.0), (3, 2.0), (4, 0.0))
 
 
 @dataclass(frozen=True)
@@ -92,27 +106,75 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         better = (again.error < found.error[doubtful]) & (
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
+        gain = np.abs(again.swt - found.swt[doubtful])
         found = found.put(doubtful[better], again.take(better))
-    faint = (found.swt < FAINT) & (0.5 - scene.poisson_ratio < NO_SPREAD)
-    rows = np.flatnonzero(
-        (LARGEST_SHOWN * _rounding(scene, found) > found.error) | (faint & (found.swt > 0.0))
-    )
+        # What converges slowly, as next to a sharp tip, has left more than it has gained.
+        error = found.error[doubtful]
+        slow = error > accuracy.tolerance * found.swt[doubtful]
+        found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
+    tip = np.flatnonzero(np.abs(found.position) < TIP * scene.profile.radius(scene.profile.largest_depth))
+    if tip.size:
+        left = SLOWNESS * _left_at_tip(scene.take(tip), found.take(tip), accuracy.check)
+        found.error[tip] = np.maximum(found.error[tip], left)
+    noise = _noise(scene, np.abs(found.position)[:, None])
+    of_stress = (noise + _of_tables(scene, accuracy.check)) * np.sqrt(found.swt)
+    may_be = np.maximum(_share_within_rounding(scene, found) * found.swt, of_stress)
+    shows = (found.swt > 0.0) & (LARGEST_SHOWN * may_be > found.error)
+    if scene.profile.has_singular_edge:
+        # Nearer, the limit counts.
+        flat = scene.profile.flat_radius
+        shows &= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
+    rows = np.flatnonzero(shows)
     if rows.size:
-        spread = SHOWN * _spread(scene.take(rows), found.take(rows), accuracy.check)
-        found.error[rows] = np.maximum(found.error[rows], spread)
+        spread = np.maximum(_spread(scene.take(rows), found.take(rows), accuracy.check), noise[rows] ** 2)
+        found.error[rows] = np.maximum(found.error[rows], SHOWN * spread)
     return found
 
 
-def _rounding(scene: Scene, found: Maximum) -> FloatArray:
-    """How much of swt rounding may be, were it all at the scale of the smaller motion, shape (n,)."""
+def reach_of_edge(profile: Profile) -> FloatArray:
+    """How near to a singular edge, over its radius, swt is taken from the limit, shape (n,)."""
+    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
+    reach = REACH * np.minimum(radius - flat, flat)
+    return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
+
+
+def _left_at_tip(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
+    """How much many more instants change swt at the n positions of the maxima, shape (n,)."""
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    more = replace(resolution, nodes=TIMES_AT_TIP * resolution.nodes)
+    place = np.abs(found.position)[:, None], np.sign(found.position), found.double_angle[:, None]
+    value, _ = refine(split, *place, more)
+    return np.abs(value[:, 0] - found.swt)
+
+
+def _noise(scene: Scene, r: FloatArray) -> FloatArray:
+    """How far off a stress at r, shape (n, 1), may be by the rounding of what arrives there, shape (n,)."""
+    profile, coordinate = scene.profile, scene.coordinate
+    r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
+    at, step = coordinate.of(r), np.maximum(SLOPE_STEP * (r - b), LEAST_SLOPE_STEP * np.spacing(r))
+    # How far from r an edge is left, in radius: what it leaves is the pressure by that ring.
+    width = arrival(scene.cycle.load, coordinate, r, at)[1] * step / (coordinate.of(r + step) - at)
+    slope = profile.weighted_slope(r) / np.sqrt(np.maximum((r - b) * (r + b), r * step))
+    return np.asarray(slope * np.sqrt(2.0 * np.minimum(width / r, 1.0)) / np.pi)[:, 0]
+
+
+def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
+    """How far off tables leave a stress, by the mean slope of the profile, shape (n,)."""
+    deepest = scene.profile.largest_depth
+    return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
+
+
+def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
+    """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
     load, r = scene.cycle.load, np.abs(found.position)[:, None]
     normal = 0.5 * (load.largest_normal - load.least_normal)
-    tangential = load.motion - normal
-    motion = np.where(tangential > 0.0, np.minimum(normal, tangential), normal)
     distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
-    # Where the normal load rests, what arrives at the edge is there.
-    share = np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
-    return np.asarray(np.sqrt(share) * found.swt)
+    # A motion within rounding is none.
+    shares = [
+        np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
+        for motion in (normal, load.motion - normal)
+    ]
+    return np.asarray(np.sqrt(np.maximum(*shares)))
 
 
 def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
@@ -122,12 +184,17 @@ def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     """
     r = np.abs(found.position)[:, None]
     split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
-    near = np.maximum(r + NEIGHBOURS * np.spacing(r), scene.profile.flat_radius[:, None])
+    steps = np.concatenate([NEIGHBOURS, FARTHER])
+    near = np.maximum(r + steps * np.spacing(r), scene.profile.flat_radius[:, None])
     angle = np.broadcast_to(found.double_angle[:, None], near.shape)
-    closer = replace(resolution, zooms=max(resolution.zooms, ROUNDING_ZOOMS))
-    value, _ = refine(split, near, np.sign(found.position), angle, closer)
-    better = np.sort(value, axis=1)[:, NEIGHBOURS.size // 2 :]
-    return np.asarray(np.abs(better - found.swt[:, None]).max(axis=1))
+    spread = np.zeros(len(r))
+    for zooms, digits in LOOKS:
+        closer = replace(resolution, zooms=resolution.zooms + zooms, digits=resolution.digits + digits)
+        value, _ = refine(split, near, np.sign(found.position), angle, closer)
+        change = value - found.swt[:, None]
+        better = np.sort(change[:, : NEIGHBOURS.size], axis=1)[:, NEIGHBOURS.size // 2 :]
+        spread = np.maximum(spread, np.maximum(np.abs(better).max(axis=1), change.max(axis=1)))
+    return spread
 
 
 def _search(scene: Scene, accuracy: Accuracy) -> Maximum:

@@ -88,11 +88,11 @@ def refine(
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     best, other = _best_planes(planes, look.inside, double_angle + STARTS)
-    found, rival = extremes_and_rivals(planes, best, look.inside)
+    found, rival, falling = extremes_and_rivals(planes, best, look.inside)
     elsewhere, apart = found.copy(), np.nonzero(other != best)
     elsewhere[apart] = extreme_instants(planes.take(*apart), other[apart], look.inside[apart])
     zoom = _Zoom(scene, look, side, resolution)
-    first = zoom.around(found)
+    first = zoom.around(found, falling)
     swt, angle = zoom.to_maximum(first, best)
     # Two planes, or two instants, that the nodes cannot tell apart are both followed; neighbouring nodes have
     # the same bracket.
@@ -133,9 +133,9 @@ class _Zoom:
     side: FloatArray
     resolution: Resolution
 
-    def around(self, extremes: NDArray[np.intp]) -> Samples:
-        """Samples around instants of the look, shape (n, X, 3)."""
-        return self._within(self.look.brackets(extremes))
+    def around(self, extremes: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> Samples:
+        """Samples around instants of the look, shape (n, X, 3); for ``falling`` see `TimeBrackets.around`."""
+        return self._within(self.look.brackets(extremes, falling))
 
     def _within(self, brackets: TimeBrackets) -> Samples:
         history = self.look.line.history(brackets.samples())

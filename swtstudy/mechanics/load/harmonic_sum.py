@@ -17,7 +17,11 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 #: no others in 2,000 random sums of up to 6 harmonics.
 SAMPLES = 24
 #: Nodes of the inverse's series: doubled from the first to the last until the coefficients fall below this.
-LEAST_NODES, MOST_NODES, NEGLIGIBLE = 32, 1024, 1e-13
+LEAST_NODES, MOST_NODES, NEGLIGIBLE = 32, 256, 1e-13
+#: Last step to an instant without a series: the error is its cube.
+LAST_STEP = 1e-8
+#: Share of the largest rate below which a curve almost stops.
+SLOW = 0.1
 
 
 @dataclass(frozen=True)
@@ -59,14 +63,28 @@ class HarmonicSum:
         """Instants at which it turns, ascending in [0, 2π), shape (m,)."""
         if self.is_constant:
             return np.zeros(0)
+        return self._zeros(1)
+
+    @cached_property
+    def slow_instants(self) -> FloatArray:
+        """Instants at which it almost stops, ascending in [0, 2π), shape (m,)."""
+        if self.is_constant:
+            return np.zeros(0)
+        zeros = self._zeros(2)
+        rate, bend = self.value(zeros, 1), self.value(zeros, 3)
+        return zeros[(rate * bend > 0.0) & (np.abs(rate) < SLOW * np.abs(rate).max())]
+
+    def _zeros(self, derivative: int) -> FloatArray:
+        """Zeros of a derivative, ascending in [0, 2π), shape (m,)."""
         grid = even_instants(self.highest)
-        _, low, high = sign_changes(grid, self.value(grid, 1)[None])
-        zero = np.zeros(len(low))
+        _, low, high = sign_changes(grid, self.value(grid, derivative)[None])
 
-        def rate(at: FloatArray, _: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
-            return self.value(at, 1), self.value(at, 2), self.value(at, 3)
+        def curve(at: FloatArray, _: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+            values = [self.value(at, derivative + k) for k in range(3)]
+            return values[0], values[1], values[2]
 
-        return np.unique(np.mod(monotone_roots(rate, zero, Brackets.of(rate, low, high)), PERIOD))
+        brackets = Brackets.of(curve, low, high)
+        return np.unique(np.mod(monotone_roots(curve, np.zeros(len(low)), brackets), PERIOD))
 
     @cached_property
     def ends(self) -> tuple[float, float]:
@@ -89,6 +107,8 @@ class HarmonicSum:
         The shapes broadcast. Instants of the last stretch may be beyond 2π.
         """
         value, stretch = np.broadcast_arrays(value, stretch)
+        if self._inverses is None:
+            return self._instants(value, stretch)
         begin, end = self.at_turns, np.roll(self.at_turns, -1)
         rise = (end - begin).take(stretch)
         share = np.divide(value - begin.take(stretch), rise, out=np.zeros(value.shape), where=rise != 0.0)
@@ -96,28 +116,32 @@ class HarmonicSum:
         return chebyshev.evaluate(self._inverses, y, stretch)
 
     @cached_property
-    def _inverses(self) -> FloatArray:
-        """Series of the inverse on each stretch over the angle α, in which both ends are regular."""
-        count = LEAST_NODES
-        while True:
-            series = chebyshev.series(self._inverse_at(0.5 * np.pi * (1.0 + chebyshev.nodes(count))))
-            if np.abs(series[-2:]).max() < NEGLIGIBLE or 2 * count > MOST_NODES:
+    def _inverses(self) -> FloatArray | None:
+        """Series of the inverse on each stretch over the angle α, in which both ends are regular.
+
+        None where one of them almost stops in between: its series would not end.
+        """
+        begin, end = self.at_turns[:, None], np.roll(self.at_turns, -1)[:, None]
+        count, stretch = LEAST_NODES, np.arange(len(self.turns))[:, None]
+        while count <= MOST_NODES:
+            share = 0.5 - 0.5 * np.cos(0.5 * np.pi * (1.0 + chebyshev.nodes(count)))
+            series = chebyshev.series(
+                self._instants(*np.broadcast_arrays(begin + (end - begin) * share, stretch))
+            )
+            if np.abs(series[-2:]).max() < NEGLIGIBLE:
                 return series
             count *= 2
+        return None
 
-    def _inverse_at(self, angle: FloatArray) -> FloatArray:
-        """Instants at which the share 1/2 − cos α/2 of each stretch's rise is reached, shape (m, k)."""
-        begin, end = self.at_turns[:, None], np.roll(self.at_turns, -1)[:, None]
-        goal = begin + (end - begin) * (0.5 - 0.5 * np.cos(angle))
-        low = np.broadcast_to(self.turns[:, None], goal.shape)
-        last = np.append(self.turns[1:], self.turns[0] + PERIOD)[:, None]
-        high = np.broadcast_to(last, goal.shape)
+    def _instants(self, value: FloatArray, stretch: IntArray) -> FloatArray:
+        """`inverse` for values and stretches of one shape, by Newton's method."""
+        end = np.append(self.turns[1:], self.turns[0] + PERIOD)
 
         def curve(at: FloatArray, _: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
             return self.value(at), self.value(at, 1), self.value(at, 2)
 
-        brackets = Brackets.of(curve, low.ravel(), high.ravel())
-        return monotone_roots(curve, goal.ravel(), brackets, 1e-8).reshape(goal.shape)
+        brackets = Brackets.of(curve, self.turns[stretch.ravel()], end[stretch.ravel()])
+        return monotone_roots(curve, value.ravel(), brackets, LAST_STEP).reshape(value.shape)
 
 
 def even_instants(order: int) -> FloatArray:

@@ -81,8 +81,9 @@ class SmoothLoad(Load):
 
     def turning_instants(self) -> FloatArray:
         n = len(self)
-        turns = np.broadcast_to(self.normal_sum.turns, (n, len(self.normal_sum.turns)))
-        columns = [turns, self._contact_changes()]
+        # Where the normal load almost stops, what sticks changes its slope within little ground.
+        common = np.concatenate([self.normal_sum.turns, self.normal_sum.slow_instants])
+        columns = [np.broadcast_to(common, (n, common.size)), self._contact_changes()]
         columns += [self._turning_points_of_slip_line(sense) for sense in (1.0, -1.0)]
         return np.sort(np.concatenate(columns, axis=1), axis=1)
 

@@ -58,7 +58,7 @@ class SmoothPath(Loop):
 
     @property
     def turn_count(self) -> int:
-        return 6 * self._order
+        return 8 * self._order
 
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
         return SmoothLoad(*self._sums, normal_amplitude, tangential_amplitude)

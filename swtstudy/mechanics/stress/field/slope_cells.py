@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
@@ -41,6 +41,28 @@ class SlopeCells:
     radius: FloatArray
     intercept: FloatArray
     gradient: FloatArray
+
+    def merged(self, kept: NDArray[np.intp]) -> SlopeCells:
+        """The same on fewer cells, each with the integrals of those in it.
+
+        Parameters
+        ----------
+        kept
+            Shape (j + 1,), ascending: numbers of the ends that are kept, the first and the last among them.
+        """
+        ends, width = self.radius[kept], np.diff(self.radius)
+        middle = 0.5 * (self.radius[1:] + self.radius[:-1])
+        centre = 0.5 * (ends[1:] + ends[:-1])
+        offset = middle - np.repeat(centre, np.diff(kept))
+        mass = (self.intercept + self.gradient * middle) * width
+        moment = mass * offset + self.gradient * width**3 / 12.0
+        mean, moment = (np.add.reduceat(v, kept[:-1], axis=1) / np.diff(ends) for v in (mass, moment))
+        gradient = np.where(
+            np.diff(kept) > 1, 12.0 * moment / np.diff(ends) ** 2, self.gradient[:, kept[:-1]]
+        )
+        if ends[0] == 0.0:
+            gradient[:, 0] = 2.0 * mean[:, 0] / ends[1]
+        return SlopeCells(ends, mean - gradient * centre, gradient)
 
 
 def graded_radii(start: float, end: float, cells: int) -> FloatArray:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.parameters import PARAMETERS, Parameter
 
 if TYPE_CHECKING:
-    from swtstudy.contacts.contact import PhysicalContact
+    from swtstudy.units.contact import Contact
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Scale:
         "length", "force" or "stress".
     """
 
-    of: Callable[[PhysicalContact], float]
+    of: Callable[[Contact], float]
     power: float | None
     made_of: str = ""
     kind: str = "length"
@@ -56,7 +56,7 @@ def may_vanish(row: Parameter) -> bool:
     return not row.open_lower and all(scale.made_of != row.name for scale in SCALES.values())
 
 
-def number_of(name: str, value: Any, contact: PhysicalContact) -> Any:
+def number_of(name: str, value: Any, contact: Contact) -> Any:
     """The non-dimensional parameter from its length; what is no length stays as it is."""
     if not PARAMETERS[name].scale:
         return value
@@ -66,13 +66,13 @@ def number_of(name: str, value: Any, contact: PhysicalContact) -> Any:
     return value / unit
 
 
-def length_of(name: str, number: Any, contact: PhysicalContact) -> Any:
+def length_of(name: str, number: Any, contact: Contact) -> Any:
     """The inverse of `number_of`."""
     scale = PARAMETERS[name].scale
     return number * SCALES[scale].of(contact) if scale else number
 
 
-def least_depths(contact: PhysicalContact) -> dict[str, float]:
+def least_depths(contact: Contact) -> dict[str, float]:
     """The depths below which shape parameters are beyond their range, for those that grow as it falls."""
     return {
         name: contact.depth * (number_of(name, length, contact) / PARAMETERS[name].upper) ** (1.0 / power)

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.contacts.life import FatigueConstants, not_negative
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.units.life import FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    #: Values with names for their dimensions keep them.
+    Values = NDArray[np.float64] | xr.DataArray
 
 #: Labels of the bodies along the dimension ``body``.
 LABELS = (1, 2)
@@ -23,9 +28,6 @@ SWT_ATTRIBUTES = {
     "symbol": r"\mathrm{SWT}",
 }
 _CYCLES = {"long_name": "cycles to the initiation of a crack", "units": "1", "symbol": "N"}
-
-#: Values with names for their dimensions keep them.
-Values = NDArray[np.float64] | xr.DataArray
 
 
 def checked_body(body: object) -> int:
@@ -59,6 +61,8 @@ def bodies_of(s: ArrayLike | xr.DataArray, moduli: Moduli, body: int | None) -> 
     StudyError
         If `body` and the coordinate ``body`` name it both, or neither and the bodies differ.
     """
+    import xarray as xr
+
     if isinstance(s, xr.DataArray) and "body" in s.coords:
         if body is not None:
             raise StudyError([Mistake("body", literal(body), "nothing, since s has the coordinate body")])
@@ -99,6 +103,8 @@ def _labelled(
     name: str, values: NDArray[np.float64], like: ArrayLike | xr.DataArray, attributes: dict[str, str]
 ) -> Values:
     """The values with the dimensions and coordinates of others, if those have any."""
+    import xarray as xr
+
     if not isinstance(like, xr.DataArray):
         return values
     return xr.DataArray(values, like.coords, like.dims, name, attributes)

@@ -1,0 +1,57 @@
+"""A real contact as a table of a notebook."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+from swtstudy.axes import AXES
+from swtstudy.parameters import PARAMETERS
+from swtstudy.units.labels import KINDS, Units
+from swtstudy.units.rows import rows
+
+if TYPE_CHECKING:
+    from swtstudy.contacts.contact import PhysicalContact
+
+#: What a contact is at rest, and what everything else is measured in.
+_AT_REST = {
+    "depth": "mean indentation depth δ0",
+    "normal_force": "normal force F0",
+    "contact_radius": "contact radius",
+    "peak_pressure": "largest pressure",
+    "length_scale": "a_H",
+    "slip_scale": "μ E* δ0/G*, at which the whole contact slides",
+    "stress_scale": "E* δ0/a_H",
+}
+
+
+def as_html(contact: PhysicalContact) -> str:
+    """A table: what is given, the contact at rest, and the parameters without units of the first body."""
+    body = "".join(
+        f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(value)}</td>"
+        f"<td>{escape(meaning)}</td></tr>"
+        for kind, name, value, meaning in _rows(contact)
+    )
+    return f"<div><b>Real contact</b>, in any consistent set of units<table>{body}</table></div>"
+
+
+def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
+    table = rows(Units(*(f"the unit of {kind}" for kind in KINDS)))
+    two = {"young_modulus": contact.moduli.young, "poisson_ratio": contact.moduli.poisson}
+    for name, values in two.items():
+        yield "given", name, ", ".join(map(_value, dict.fromkeys(values))), AXES[name].meaning
+    for name, value in ({"radius": contact.radius} | vars(contact) | dict(contact.shape)).items():
+        row = table.get(name)
+        if row is None or value is None or name in _AT_REST or row.goes_without_saying(value):
+            continue
+        yield "given", name, _value(value), row.meaning
+    for name, meaning in _AT_REST.items():
+        yield "at rest", name, _value(getattr(contact, name)), meaning
+    for name, value in contact.parameters(contact.bulk_stress_body).items():
+        if PARAMETERS[name].scale:
+            yield "without units", name, _value(value), PARAMETERS[name].notation
+
+
+def _value(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,73 @@
+"""What is asked of the distinct points of a grid, and what each of its own points has of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.unique import UniquePoints
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.quantities import NONLOCAL, Request, columns_in, columns_of, item_of
+
+
+def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], NDArray[np.bool_]]:
+    """Items that are asked of some points, and of which, shape (len(points.table), number of items)."""
+    distances, at = grid.items(asked)
+    of = np.zeros((len(points.table), len(asked.names) + len(distances)), bool)
+    of[:, : len(asked.names)] = True
+    for each in at:
+        of[points.index, len(asked.names) + each] = True
+    return (*asked.names, *distances), of
+
+
+def columns_at(
+    grid: Grid, asked: Request, points: UniquePoints, known: Callable[[str], FloatArray]
+) -> dict[str, FloatArray]:
+    """What the points of a grid have, by `columns_of` what is asked, each of shape (grid.size,).
+
+    What the distinct points have is known by the names of columns.
+    """
+    found = {name: known(name)[points.index] for name in columns_of(asked.names)}
+    items, at = grid.items(asked)
+    for distance, each in zip(asked.distances, at, strict=True):
+        found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
+        for name, column, rows in _columns(item_of(distance), items, each):
+            found[name][rows] = known(column)[points.index[rows]]
+    return found
+
+
+def columns_back(
+    grid: Grid, asked: Request, points: UniquePoints, columns: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """The inverse of `columns_at`: what the distinct points have, each of shape (len(points.table),)."""
+    size = len(points.table)
+    found: dict[str, FloatArray] = {}
+
+    def put(name: str, rows: NDArray[np.intp], values: FloatArray) -> None:
+        found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
+
+    every = np.arange(grid.size)
+    for name in columns_of(asked.names):
+        put(name, every, columns[name])
+    items, at = grid.items(asked)
+    for distance, each in zip(asked.distances, at, strict=True):
+        for name, known, rows in _columns(item_of(distance), items, each):
+            put(known, rows, columns[name][rows])
+    return found
+
+
+def _columns(
+    asked: str, items: tuple[str, ...], at: NDArray[np.int64]
+) -> Iterator[tuple[str, str, NDArray[np.intp]]]:
+    """The columns of an item as it is asked, of the item that it is at some points, and those points."""
+    for number in np.unique(at).tolist():
+        rows = np.flatnonzero(at == number)
+        for row in NONLOCAL.values():
+            for variable in row.variables:
+                pairs = zip(
+                    columns_in(row, variable, asked), columns_in(row, variable, items[number]), strict=True
+                )
+                yield from ((name, known, rows) for name, known in pairs)

@@ -1,0 +1,65 @@
+"""What a study with units says of its contacts, beside the values of their parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from swtstudy.mistakes import Report
+from swtstudy.quantities import every_variable
+
+if TYPE_CHECKING:
+    from swtstudy.parameters import Parameter
+    from swtstudy.units.reading import Given
+
+
+def read_given(
+    raw: Mapping[str, Any], fixed: Mapping[str, object], folder: Path, report: Report
+) -> Given | None:
+    """Units and fatigue constants; None for a study without units, whose parameters have none."""
+    if not isinstance(raw.get("units"), dict):
+        if "material" in raw and "units" not in raw:
+            report("material", "constants without [units]", "with [units] only: a life needs a real contact")
+        return None
+    from swtstudy.units.labels import Units, read_units
+    from swtstudy.units.material import read_material
+    from swtstudy.units.reading import Given
+
+    # Wrong units are reported: meanwhile others stand for them.
+    units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")
+    if not isinstance(raw.get("material"), dict):
+        return Given(units)
+    young = fixed.get("young_modulus")
+    pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
+    known = None if young is None else (_sound(pair[0]), _sound(pair[1]))
+    return Given(units, read_material(raw["material"], known, units, folder, report))
+
+
+def _sound(young: object) -> float:
+    """A Young's modulus; any for one that is wrong, which is reported elsewhere."""
+    from swtstudy.grid.values import read_exact
+
+    try:
+        number = float(read_exact(young))
+    except ValueError:
+        return 1.0
+    return number if number > 0.0 else 1.0
+
+
+def every_name() -> set[str]:
+    """Names of all data variables that a study with units may have."""
+    from swtstudy.units.variables import NAMES
+
+    return {*NAMES, *every_variable()}
+
+
+def rows_of(contacts: Given | None) -> Mapping[str, Parameter]:
+    """The parameters that a study may have."""
+    from swtstudy.parameters import PARAMETERS
+
+    if contacts is None:
+        return PARAMETERS
+    from swtstudy.units.rows import rows
+
+    return rows(contacts.units)

@@ -1,0 +1,202 @@
+"""A grid of real contacts, whose points are solved as the non-dimensional ones that they are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.grid.canonical import COLUMNS, SHAPE_COLUMNS, rounded
+from swtstudy.grid.codes import code_of
+from swtstudy.grid.grid import Grid
+from swtstudy.grid.values import as_number
+from swtstudy.named import Named
+from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.quantities import Request, item_of
+from swtstudy.units.bulk import ends_of_bulk
+from swtstudy.units.labels import Units
+from swtstudy.units.life import FatigueConstants
+from swtstudy.units.rows import rows
+from swtstudy.units.seats import Seats, seats_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.mechanics.points import IntArray
+
+
+@dataclass(frozen=True)
+class PhysicalGrid(Grid):
+    """A grid of real contacts.
+
+    Attributes
+    ----------
+    fixed, axes, samples
+        As of a `Grid`, in the units of the study; the body may be among them, 1 or 2, and is the last axis
+        where both bodies are asked for.
+    units
+        Labels of the units.
+    pairs
+        What differs from body to body of `OF_BODIES`, which is not among the fixed values then.
+    materials
+        Constants of both bodies; none if cycles are not asked for.
+    bulk_stress_body
+        0 or 1: the body that carries the bulk stress.
+    similar
+        Largest magnitude of Dundurs' β at which the bodies count as similar.
+    """
+
+    units: Units = field(default_factory=Units)
+    pairs: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    materials: tuple[FatigueConstants, ...] = ()
+    bulk_stress_body: int = 0
+    similar: float = math.inf
+
+    @cached_property
+    def rows(self) -> dict[str, Parameter]:
+        """The rows of the parameters, with their units."""
+        return rows(self.units)
+
+    @property
+    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
+        """See `Grid.of_bodies`."""
+        return self.pairs
+
+    def row(self, name: str) -> Parameter:
+        """See `Grid.row`."""
+        return self.rows[name]
+
+    @cached_property
+    def seats(self) -> Seats:
+        """The contacts at rest."""
+        return seats_of(self)
+
+    @property
+    def definitions(self) -> dict[float, Named]:
+        """What the user has defined, by its code in canonical rows: tables in a_H and δ0."""
+        tables = (contact.pure_profile for contact in self.seats.contacts.flat)
+        loads = {code: each for code, each in self.given.items() if each.parameter == "load"}
+        return loads | {table.code: table for table in tables if isinstance(table, Named)}
+
+    def along(self, name: str) -> xr.DataArray:
+        """The numbers of a parameter, over its dimension if it has one."""
+        import xarray as xr
+
+        dim = self.dimension(name)
+        numbers = np.array([as_number(value) for value in self.values(name)])
+        return xr.DataArray(numbers, dims=dim) if dim else xr.DataArray(numbers[0])
+
+    @property
+    def bodies(self) -> xr.DataArray:
+        """Indices of the bodies of the points, 0 or 1; the first one where they are alike."""
+        return self.along("body").astype(int) - 1 if self.values("body") else _scalar(0)
+
+    @cached_property
+    def numbers(self) -> dict[str, xr.DataArray]:
+        """The non-dimensional parameters that are numbers, over the dimensions that each depends on."""
+        found = {name: self.seats.shape(name) for name in SHAPE_COLUMNS}
+        found["poisson_ratio"] = self.of_body("poisson_ratio")
+        for column, row in PARAMETERS.items():
+            source = self._source(column)
+            if row.kind == "number" and column not in found and column in COLUMNS and self.values(source):
+                scale = PARAMETERS[source].scale
+                found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
+        if self.values("bulk_stress_ratio"):
+            ratio = self.along("bulk_stress_ratio")
+            least, largest = self._ends_of_bulk()
+            found["bulk_stress_mean"] = (
+                found["bulk_stress_amplitude"] * (ratio * largest - least) / (1.0 - ratio)
+            )
+        carries = self.bodies == self.bulk_stress_body
+        return found | {
+            name: values.where(carries, 0.0)
+            for name, values in found.items()
+            if PARAMETERS[name].part == "bulk" and self.values("body")
+        }
+
+    def _ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
+        """See `ends_of_bulk`, over the loads."""
+        import xarray as xr
+
+        dim = self.dimension("load")
+        ends = np.array([ends_of_bulk(load) for load in self.values("load")])
+        least, largest = (
+            xr.DataArray(each, dims=dim) if dim else xr.DataArray(each[0]) for each in np.transpose(ends)
+        )
+        return least, largest
+
+    def of_body(self, name: str) -> xr.DataArray:
+        """A parameter of the bodies, of each point's own body."""
+        import xarray as xr
+
+        if name not in self.pairs:
+            return self.along(name)
+        of_both = np.array(self.pairs[name])[self.bodies.values]
+        return xr.DataArray(of_both, dims=self.bodies.dims)
+
+    @cached_property
+    def _codes_over(self) -> dict[str, tuple[tuple[str, ...], NDArray]]:
+        """The numbers of each column of canonical rows, with their dimensions."""
+        found: dict[str, tuple[tuple[str, ...], NDArray]] = {}
+        for name in COLUMNS:
+            if name in self.numbers:
+                values, dims = self.numbers[name].values, tuple(map(str, self.numbers[name].dims))
+                found[name] = dims, values if PARAMETERS[name].units == "rad" else rounded(values)
+            elif name == "profile":
+                contacts = self.seats.contacts
+                profiles = np.array([code_of(contact.pure_profile, name) for contact in contacts.flat])
+                found[name] = self.seats.dims, profiles.reshape(contacts.shape)
+            else:
+                dim = self.dimension(self._source(name))
+                codes = self._codes[name]
+                found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
+        return found
+
+    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+        """See `Grid.columns`."""
+        position = self._position(start, stop)
+        return {
+            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], stop - start)
+            for name, (dims, values) in self._codes_over.items()
+        }
+
+    def _position(self, start: int, stop: int) -> dict[str, NDArray[np.intp]]:
+        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
+        return dict(zip(self.dims, places, strict=True))
+
+    def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
+        """See `Grid.made`."""
+        from swtstudy.units.variables import dims_of
+
+        return dims_of(self, asked)
+
+    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
+        """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
+        length = self.seats.scale("a_H")
+        names: dict[str, int] = {}
+        at = np.empty((len(asked.distances), self.size), np.int64)
+        position = self._position(0, self.size) if len(length.dims) else {}
+        for row, distance in zip(at, asked.distances, strict=True):
+            items = [item_of(distance / each) for each in length.values.flat]
+            numbers = np.array([names.setdefault(item, len(names)) for item in items])
+            over = numbers.reshape(length.shape)
+            row[:] = over[tuple(position[str(dim)] for dim in length.dims)]
+        return tuple(names), at
+
+
+def _over(values: xr.DataArray, scale: xr.DataArray) -> xr.DataArray:
+    """A ratio, 0 for nothing over nothing."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = values / scale
+    return ratio.where((values != 0.0) | (scale != 0.0), 0.0)
+
+
+def _scalar(value: float) -> xr.DataArray:
+    import xarray as xr
+
+    return xr.DataArray(value)

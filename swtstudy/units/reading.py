@@ -1,0 +1,193 @@
+"""A grid of real contacts read from what a user wrote, with every mistake reported at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from swtstudy.grid.loops import check_amplitudes, check_loops
+from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
+from swtstudy.grid.shapes import check_shapes_given
+from swtstudy.grid.values import Value, read_value
+from swtstudy.mistakes import Mistake, Report, literal, plain_number
+from swtstudy.named import Named
+from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, Parameter, replaced_by
+from swtstudy.quantities import DISTANCE
+from swtstudy.units.admissible import check_contacts
+from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.labels import Units
+from swtstudy.units.life import FatigueConstants
+from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows
+
+
+@dataclass(frozen=True)
+class Given:
+    """What is given of contacts beside the values of their parameters; see `PhysicalGrid`."""
+
+    units: Units = field(default_factory=Units)
+    materials: tuple[FatigueConstants, ...] = ()
+    similar: float = SIMILAR
+    bulk_stress_body: int = 0
+
+
+def read_contacts(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    given: Given,
+    keys: Callable[[str], str] = lambda name: name,
+    source: str = "",
+    samples: Mapping[str, tuple[Value, ...] | None] | None = None,
+    known: Known = NOTHING_KNOWN,
+) -> tuple[PhysicalGrid | None, list[Mistake]]:
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.grid.reading.read_grid`."""
+    mistakes: list[Mistake] = []
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed, source))
+
+    samples = samples or {}
+    own = {name: row for name, row in rows(given.units).items() if name != DISTANCE}
+    pairs, single = _pairs(fixed, own, keys, report)
+    similar = single.pop(SIMILAR_KEY, given.similar)
+    if not 0.0 <= plain_number(similar) < math.inf:
+        report(keys(SIMILAR_KEY), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+    good_fixed, good_axes = read_values(
+        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, *pairs), samples, known, own
+    )
+    good_samples = {name: values for name, values in samples.items() if values is not None}
+    everything = {**fixed, **axes, **samples}
+    along = good_axes | good_samples
+    _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
+    check_amplitudes(good_fixed, along, keys, report)
+    check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
+    if mistakes or len(good_samples) < len(samples):
+        return None, mistakes
+    extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
+    extra["similar"] = plain_number(similar)
+    grid = completed(good_fixed, good_axes, good_samples, extra)
+    check_bodies(grid, keys, report)
+    check_loops(grid, keys, report)
+    if not mistakes:
+        check_contacts(grid, keys, report)
+    return (None if mistakes else grid), mistakes
+
+
+def completed(
+    fixed: dict[str, Value],
+    axes: dict[str, tuple[Value, ...]],
+    samples: dict[str, tuple[Value, ...]],
+    extra: Mapping[str, Any],
+) -> PhysicalGrid:
+    """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
+    pairs = {name: two for name, two in extra["pairs"].items() if two[0] != two[1]}
+    fixed = fixed | {name: two[0] for name, two in extra["pairs"].items() if name not in pairs}
+    given = {*fixed, *axes, *samples, *pairs}
+    given |= replaced_by(given)
+    table = rows(extra["units"])
+    defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
+    if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
+        defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
+    if "bulk_stress_ratio" in given:
+        del defaults["bulk_stress_mean"]
+    fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
+    grid = PhysicalGrid(
+        {name: fixed[name] for name in table if name in fixed},
+        dict(axes),
+        dict(samples),
+        **{**extra, "pairs": pairs},
+    )
+    if "body" in given or not _differ(grid):
+        return grid
+    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+
+
+def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
+    """The loops among the loads."""
+    loads = (each.get("load", ()) for each in values)
+    every = (load for each in loads for load in (each if isinstance(each, tuple) else (each,)))
+    return [load for load in every if isinstance(load, Named)]
+
+
+def _differ(grid: PhysicalGrid) -> bool:
+    """Whether the two bodies have different s, SWT or cycles."""
+    bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
+    pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
+    return bool(grid.pairs) or pulled or len({*grid.materials}) > 1
+
+
+def _pairs(
+    fixed: Mapping[str, object], own: Mapping[str, Parameter], keys: Callable[[str], str], report: Report
+) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
+    """What is given for each body, and the other fixed values; an empty pair for one that is wrong."""
+    pairs: dict[str, Any] = {}
+    for name in OF_BODIES:
+        raw = fixed.get(name)
+        if not isinstance(raw, list | tuple):
+            continue
+        pairs[name] = ()
+        if len(raw) != 2:
+            report(keys(name), literal(raw), f"{own[name].allowed}; or two, one for each body")
+            continue
+        read, _ = read_values(
+            {f"{name}[{i}]": one for i, one in enumerate(raw)},
+            {},
+            keys,
+            report,
+            rows={f"{name}[{i}]": own[name] for i in range(2)},
+        )
+        if len(read) == 2:
+            pairs[name] = pair_of_numbers((read[f"{name}[0]"], read[f"{name}[1]"]))
+    return pairs, {name: value for name, value in fixed.items() if name not in pairs}
+
+
+def _check_given(
+    everything: Mapping[str, object],
+    good: Mapping[str, tuple[Value, ...]],
+    own: Mapping[str, Parameter],
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """What a contact needs, and what cannot be given together."""
+    tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
+    for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
+        if name not in everything and not (name == "radius" and all(tables)):
+            report(keys(name), "nothing", own[name].allowed)
+    if "radius" in everything and all(tables) and tables:
+        report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
+    loads = [name for name in MEAN_LOADS if name in everything]
+    if len(loads) != 1:
+        both = ", ".join(map(keys, MEAN_LOADS))
+        report(both, "both" if loads else "neither", "one of the two: it says how deep the contact is")
+    if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything.keys():
+        both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
+        report(both, "both", "one of the two")
+    scaling = {name for load in good.get("load", ()) if isinstance(load, Named) for name in load.scaled_by}
+    for name in ("tangential_amplitude", "normal_amplitude"):
+        force = next(force for force, other in PAIRS.items() if other == name)
+        needed = own[name].default is None or name in scaling
+        if name in everything or force in everything or not needed:
+            continue
+        allowed = f"{own[name].allowed}; or {force}"
+        if name in scaling:
+            column, unit = name.partition("_")[0], own[name].units
+            allowed = f"1 if the column {column} of the loop is in {unit}"
+            allowed += f"; or {force}, 1 if it is in {own[force].units}"
+        report(keys(name), "nothing", allowed)
+    if any(value not in (1.0, 2.0) for value in good.get("body", ())):
+        report(keys("body"), literal(list(good["body"])), "1 or 2")
+
+
+def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report) -> None:
+    """Bodies that are not similar."""
+    young, poisson = (
+        [grid.pairs[name]] if name in grid.pairs else [(value, value) for value in grid.values(name)]
+        for name in OF_BODIES
+    )
+    for one in young:
+        for other in poisson:
+            for mistake in wrong_bodies(one, other, grid.similar):
+                report(", ".join(map(keys, OF_BODIES)), mistake.found, mistake.allowed)
+                return

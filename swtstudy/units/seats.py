@@ -1,0 +1,126 @@
+"""The contacts of a grid at rest: what the scales of everything else are made of."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.grid.values import Value, as_number
+from swtstudy.mistakes import StudyError
+from swtstudy.named import Named
+from swtstudy.parameters import family_of
+from swtstudy.units.contact import Contact
+from swtstudy.units.moduli import Moduli
+from swtstudy.units.scales import SCALES
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.units.grid import PhysicalGrid
+
+#: What a contact at rest depends on, and its slip with it.
+SEAT_NAMES = (
+    *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
+    *SHAPE_COLUMNS,
+)
+#: More contacts than these take minutes.
+MOST_SEATS = 300_000
+
+
+@dataclass(frozen=True)
+class Seats:
+    """Contacts at rest.
+
+    Attributes
+    ----------
+    dims
+        The dimensions of the grid that they depend on.
+    contacts
+        An array of `Contact` over these dimensions; None where there is none.
+    wrong
+        What is wrong with contacts, and the values of theirs: the first ones.
+    """
+
+    dims: tuple[str, ...]
+    contacts: Any
+    wrong: tuple[tuple[StudyError, dict[str, Value]], ...] = ()
+
+    def each(self, value: Callable[[Contact], float]) -> xr.DataArray:
+        """A number of every contact."""
+        import xarray as xr
+
+        numbers = {id(each): value(each) for each in {id(each): each for each in self.contacts.flat}.values()}
+        found = [numbers[id(each)] for each in self.contacts.flat]
+        return xr.DataArray(np.reshape(np.array(found, float), self.contacts.shape), dims=self.dims)
+
+    def scale(self, name: str) -> xr.DataArray:
+        """One of `SCALES` that is not made of another parameter."""
+        return self.each(SCALES[name].of)
+
+    def shape(self, name: str) -> xr.DataArray:
+        """A non-dimensional shape parameter; 0 where the profile has none of it."""
+        return self.each(lambda contact: contact.shape_parameters.get(name, 0.0))
+
+
+def seat_dims(grid: PhysicalGrid) -> tuple[str, ...]:
+    """The dimensions of a grid that its contacts at rest depend on."""
+    varying = {grid.dimension(name) for name in SEAT_NAMES}
+    return tuple(dim for dim in grid.dims if dim in varying)
+
+
+def seats_of(grid: PhysicalGrid) -> Seats:
+    """The contacts at rest of a grid."""
+    varying = {name: dim for name in SEAT_NAMES if (dim := grid.dimension(name)) is not None}
+    dims = seat_dims(grid)
+    lengths = dict(zip(grid.dims, grid.shape, strict=True))
+    shape = tuple(lengths[dim] for dim in dims)
+    known: dict[tuple[Value, ...], Contact | None] = {}
+    wrong: list[tuple[StudyError, dict[str, Value]]] = []
+    contacts = np.empty(shape, object)
+    for place in itertools.product(*map(range, shape)):
+        at = dict(zip(dims, place, strict=True))
+        values = {name: grid.values(name) for name in SEAT_NAMES if grid.values(name)}
+        own = {name: each[at[varying[name]]] if name in varying else each[0] for name, each in values.items()}
+        key = tuple(own.values())
+        if key not in known:
+            try:
+                known[key] = _contact(grid, own)
+            except StudyError as error:
+                known[key] = None
+                wrong.append((error, own))
+        contacts[place] = known[key]
+    return Seats(dims, contacts, tuple(wrong))
+
+
+def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
+    """The contact with values of `SEAT_NAMES`."""
+    from swtstudy.units.keywords import depth_at, refuse_beyond
+
+    numbers = {name: as_number(value) for name, value in own.items() if not isinstance(value, str | Named)}
+    young, poisson = (
+        grid.pairs.get(name) or (numbers[name],) * 2 for name in ("young_modulus", "poisson_ratio")
+    )
+    profile: Any = own["profile"]
+    contact = Contact(
+        Moduli(young, poisson),
+        radius=numbers.get("radius"),
+        depth=numbers.get("depth", 1.0),
+        friction=numbers["friction"],
+        normal_amplitude=None,
+        tangential_amplitude=None,
+        frequency_ratio=Fraction(1),
+        phase=0.0,
+        profile=profile,
+        shape={name: numbers[name] for name in family_of(profile).shape},
+    )
+    if "normal_force" in numbers:
+        contact = replace(contact, depth=depth_at(contact, numbers["normal_force"]))
+    if isinstance(profile, Named):
+        refuse_beyond(contact.profile, contact.depth)  # type: ignore[arg-type]
+    return contact

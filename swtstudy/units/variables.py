@@ -1,0 +1,156 @@
+"""Data variables with units: what they are made of, and what that is multiplied by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.quantities import NONLOCAL, Request, error_of
+from swtstudy.units.contact import Contact
+from swtstudy.units.labels import Units
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.units.grid import PhysicalGrid
+
+#: What a study without units calls so, where the same has units in one with them.
+NORMALISED = {
+    name: f"normalised_{name}"
+    for name in ("dissipation", "dissipation_error", "stick_radius", "contact_radius")
+}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One data variable.
+
+    Attributes
+    ----------
+    name, symbol, meaning
+        As of a `swtstudy.quantities.Quantity`.
+    kind
+        "length", "force", "stress", "work", or "1".
+    of
+        The data variable that it is made of; empty for what a contact at rest has.
+    scale
+        What that is multiplied by, or what the contact has.
+    to_cycles
+        Whether it is the life at that.
+    """
+
+    name: str
+    symbol: str
+    meaning: str
+    kind: str
+    of: str
+    scale: Callable[[PhysicalGrid], xr.DataArray]
+    to_cycles: bool = False
+
+    def attributes(self, units: Units) -> dict[str, Any]:
+        """CF attributes."""
+        label = "1" if self.kind == "1" else units.label(self.kind) or f"unit of {self.kind}"
+        return {"long_name": self.meaning, "units": label, "symbol": self.symbol}
+
+    def values(self, dataset: xr.Dataset, grid: PhysicalGrid) -> xr.DataArray:
+        """Its values over the dimensions of a Dataset."""
+        if not self.of:
+            return self.scale(grid)
+        found = dataset[self.of] * self.scale(grid)
+        return _cycles(found, grid) if self.to_cycles else found
+
+
+def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
+    """The data variables with units that a grid has, beside those without."""
+    for name, of in _swt_of(asked):
+        end = name.removeprefix("SWT")
+        error = end.endswith("error")
+        words = end.replace("_", " ")
+        place = end.removesuffix("_error").removeprefix("_")
+        symbol = rf"\mathrm{{SWT}}_\mathrm{{{place}}}" if place else r"\mathrm{SWT}"
+        meaning = f"{'error of ' * error}SWT{words.removesuffix(' error')}"
+        yield Variable(name, r"\Delta " * error + symbol, meaning, "stress", of, _swt_scale)
+        if grid.materials and not error:
+            symbol = rf"N_\mathrm{{{place}}}" if place else "N"
+            yield Variable(f"cycles{end}", symbol, f"cycles to a crack{words}", "1", of, _swt_scale, True)
+    yield Variable(
+        "critical_position", "x", "position of the critical point", "length", "critical_x", _length
+    )
+    yield from _at_rest(grid)
+    if "dissipation" in asked.names:
+        for end, symbol, words in (("", "W", ""), ("_error", r"\Delta W", "error of ")):
+            of, meaning = NORMALISED[f"dissipation{end}"], f"{words}work of friction in a cycle"
+            yield Variable(f"dissipation{end}", symbol, meaning, "work", of, _work)
+    if "stick_radius" in asked.names:
+        of, meaning = NORMALISED["stick_radius"], "radius that always sticks"
+        yield Variable("stick_radius", "c", meaning, "length", of, _length)
+    if "contact_radius" in asked.names:
+        of, meaning = NORMALISED["contact_radius"], "largest contact radius"
+        yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
+
+
+#: Names of all that there may be.
+NAMES = (
+    *(f"SWT{of.removeprefix('s')}" for name in ("s", *NONLOCAL) for of in (name, error_of(name))),
+    *(f"cycles{name.removeprefix('s')}" for name in ("s", *NONLOCAL)),
+    *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
+    *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
+)
+
+
+def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
+    """Names and dimensions of the data variables of a grid with units that one without does not have."""
+    found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
+    for each in variables(grid, asked):
+        found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.seats.dims
+    return found
+
+
+def _swt_of(asked: Request) -> Iterator[tuple[str, str]]:
+    """Names of SWT, and of what without units it is made of."""
+    names = ["s", *(name for name in NONLOCAL if name in asked.variables)]
+    for name in names:
+        for of in (name, error_of(name)):
+            yield f"SWT{of.removeprefix('s')}", of
+
+
+def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
+    """What a contact at rest has."""
+    rest: tuple[tuple[str, str, str, str, Callable[[Contact], float]], ...] = (
+        ("contact_radius", "a_0", "contact radius at the mean depth", "length", lambda c: c.contact_radius),
+        ("peak_pressure", "p_0", "largest pressure at the mean depth", "stress", lambda c: c.peak_pressure),
+        ("depth", r"\delta_0", "mean indentation depth", "length", lambda c: c.depth),
+        ("normal_force", "F_0", "normal force at the mean depth", "force", lambda c: c.normal_force),
+    )
+    for name, symbol, meaning, kind, value in rest:
+        if not grid.values(name):
+            yield Variable(name, symbol, meaning, kind, "", partial(_each, value))
+
+
+def _each(value: Callable[[Contact], float], grid: PhysicalGrid) -> xr.DataArray:
+    return grid.seats.each(value)
+
+
+def _swt_scale(grid: PhysicalGrid) -> xr.DataArray:
+    """SWT of each body over s."""
+    one = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(0))
+    two = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(1))
+    return one.where(grid.bodies == 0, two)
+
+
+def _length(grid: PhysicalGrid) -> xr.DataArray:
+    return grid.seats.scale("a_H")
+
+
+def _work(grid: PhysicalGrid) -> xr.DataArray:
+    return grid.seats.each(lambda contact: contact.friction * contact.normal_force * contact.slip_scale)
+
+
+def _cycles(swt: xr.DataArray, grid: PhysicalGrid) -> xr.DataArray:
+    """Cycles at SWT, with the constants of each body."""
+    one, two = (swt.copy(data=each.cycles(swt.values)) for each in grid.materials)
+    return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]

@@ -1,0 +1,50 @@
+"""A study in newtons and millimetres, for the tests of such studies."""
+
+from swtstudy import FatigueConstants
+
+STUDY = """
+title = "A sphere on a flat"
+rtol = 1e-3
+quantities = ["dissipation", "stick_radius", "contact_radius"]
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[material]
+strength = 927
+strength_exponent = -0.113
+ductility = 0.409
+ductility_exponent = -0.713
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_amplitude = 2e-3
+critical_distance = 0.05
+[axes]
+normal_force = [150, 200]
+tangential_amplitude = [1e-3, 2.5e-3]
+phase = [0, "pi/2"]
+[figure]
+x = "phase"
+hue = "tangential_amplitude"
+panels = "normal_force"
+y = ["SWT", "cycles", "SWT_volume", "critical_position"]
+"""
+ALUMINIUM = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+#: Two bodies of which each has its own constants, alike in (1 − 2ν)/G as steel and brass nearly are.
+BODIES = (
+    STUDY.replace("73.1e3", "[210e3, 150e3]")
+    .replace("0.33", "[0.3, 0.33]")
+    .replace("ductility = 0.409", "ductility = [0.409, 0.2]")
+)
+
+
+def without(text, *lines):
+    return "\n".join(line for line in text.splitlines() if not line.startswith(lines))
+
+
+def plain(*lines):
+    """The study without a figure, and without some lines."""
+    return without(STUDY, "[figure]", "x =", "hue =", "panels =", "y =", *lines)

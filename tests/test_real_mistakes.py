@@ -1,0 +1,127 @@
+"""Studies in units of the user's own: what is wrong in them."""
+
+import pytest
+from real import STUDY
+
+from swtstudy import Study, StudyError
+
+#: A line of the study, what stands there instead, and what is said of it.
+MISTAKES = [
+    (
+        'length = "mm"',
+        'length = "m"',
+        "units: found N over m², which is 1e-06 MPa; allowed: a consistent set",
+    ),
+    ('force = "N"', "force = 1", "units.force: found 1; allowed: the name of a unit, such as 'N'"),
+    ('stress = "MPa"', "", "units.stress: found nothing; allowed: the name of a unit"),
+    ("strength = 927", "strength = -1", "material.strength: found -1; allowed: a positive stress in MPa"),
+    ("strength = 927", "", "material.strength: found nothing; allowed: a positive stress in MPa"),
+    (
+        "ductility = 0.409",
+        "ductlity = 1",
+        "material.ductlity: found unknown key 'ductlity'; allowed: did you",
+    ),
+    (
+        "radius = 50",
+        "radius = -50",
+        "fixed.radius: found -50 (out of range); allowed: a positive length in mm",
+    ),
+    ("radius = 50", "", "fixed.radius: found nothing; allowed: a positive length in mm"),
+    (
+        "radius = 50",
+        "radius = 50\ndepth = 1e-3",
+        "fixed.depth, axes.normal_force: found both; allowed: one of",
+    ),
+    (
+        "73.1e3",
+        "[73.1e3, 0]",
+        "fixed.young_modulus[1]: found 0 (out of range); allowed: a positive stress in MPa",
+    ),
+    (
+        "73.1e3",
+        "[1, 2, 3]",
+        "fixed.young_modulus: found [1, 2, 3]; allowed: a positive stress in MPa; or two",
+    ),
+    ("73.1e3", "[210e3, 3e3]", "fixed.young_modulus, fixed.poisson_ratio: found bodies that are not similar"),
+    ("friction = 0.5", "", "fixed.friction: found nothing; allowed: a number in [0, 10]"),
+    (
+        "normal_amplitude = 2e-3",
+        "normal_amplitude = 1",
+        "fixed.normal_amplitude: found 1 mm at radius = 50 mm, normal_force = 150 N, 188 δ0; 1 more like it; "
+        "allowed: at most 0.05319 mm, 10 δ0",
+    ),
+    (
+        "normal_amplitude = 2e-3",
+        "normal_force_amplitude = 1e5",
+        "fixed.normal_force_amplitude: found 100000 N at radius = 50 mm, normal_force = 150 N, 666.7 F0; "
+        "1 more "
+        "like it; allowed: at most 1500 N, 10 F0",
+    ),
+    (
+        "normal_amplitude = 2e-3",
+        "bulk_stress_mean = -1e6\nbody = 1",
+        "fixed.bulk_stress_mean: found -1e+06 MPa at radius = 50 mm, normal_force = 150 N, -2364 E* δ0/a_H; "
+        "1 more "
+        "like it; allowed: at least -4230 MPa, -10 E* δ0/a_H",
+    ),
+    (
+        "critical_distance = 0.05",
+        "critical_distance = 0",
+        "fixed.critical_distance: found 0 (out of range); allowed: a positive length in mm",
+    ),
+    ("friction = 0.5", "friction = 0", "axes.tangential_amplitude: found 0.001 mm at radius = 50 mm"),
+    ("friction = 0.5", "friction = 0.5\nbody = 1.5", "fixed.body: found [1.5]; allowed: 1 or 2"),
+    ("friction = 0.5", "friction = 0.5\nsimilar = -1", "fixed.similar: found -1; allowed: a number ≥ 0"),
+    (
+        "friction = 0.5",
+        "friction = 0.5\nbulk_stress_mean = 1\nbulk_stress_ratio = 0",
+        "fixed.bulk_stress_mean, fixed.bulk_stress_ratio: found both; allowed: one of the two",
+    ),
+    (
+        "friction = 0.5",
+        'friction = 0.5\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 1e-3\nwavelength = 0.05',
+        "fixed.wavelength: found 0.05 at waviness_amplitude 0.001 at radius = 50 mm, normal_force = 150 N",
+    ),
+    (
+        "friction = 0.5",
+        'friction = 0.5\nprofile = "rounded_punch"\nflat_radius = 60',
+        "fixed.flat_radius: found 60.0 at normal_force 150.0 at radius = 50 mm, normal_force = 150 N",
+    ),
+    (
+        'y = ["SWT", "cycles"',
+        'y = ["SWTs", "cycles"',
+        "figure.y: found 'SWTs' (not a quantity); allowed: did you",
+    ),
+    (
+        "[150, 200]",
+        "[150, -200]",
+        "axes.normal_force[1]: found -200 (out of range); allowed: a positive force in N",
+    ),
+]
+
+
+@pytest.mark.parametrize(("line", "instead", "words"), MISTAKES)
+def test_mistakes_are_said_in_the_users_quantity_and_unit(line, instead, words):
+    assert line in STUDY
+    with pytest.raises(StudyError) as error:
+        Study.from_text(STUDY.replace(line, instead, 1), "mine.toml")
+    found = str(error.value).splitlines()
+    assert len(found) == 1, found
+    assert found[0].startswith(f"mine.toml: {words}")
+
+
+def test_all_mistakes_are_said_at_once():
+    wrong = STUDY
+    for line, instead, _ in (MISTAKES[3], MISTAKES[6], MISTAKES[16], MISTAKES[-1]):
+        wrong = wrong.replace(line, instead, 1)
+    with pytest.raises(StudyError) as error:
+        Study.from_text(wrong, "mine.toml")
+    assert sorted(mistake.key for mistake in error.value.mistakes) == [
+        *("axes.normal_force[1]", "fixed.critical_distance", "fixed.radius", "material.strength"),
+    ]
+
+
+def test_constants_of_a_material_need_units():
+    text = 'title = "t"\n[material]\nstrength = 1\n'
+    with pytest.raises(StudyError, match=r"material: found constants without \[units\]"):
+        Study.from_text(text)
