@@ -89,7 +89,7 @@ class SwtAccessor:
         title
             Of the figure.
         kind
-            "lines", "contour", "heatmap", "scatter" or "histogram".
+            "lines", "life", "contour", "heatmap", "scatter" or "histogram".
         vertical
             The other dimension of contours and heat maps.
         regimes

@@ -183,6 +183,37 @@ def test_the_report_counts_every_point():
     assert "differ by 2e-05 (median), 4e-05 (99 %), 4e-05 (largest)." in text
 
 
+def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
+    off = {"s_body": 1.08, "s_surface": 1.05, "position": np.array([0.8, 0.6, 0.0])}
+    audited = [made_up_point(), made_up_point(regime="gross_slip"), *[made_up_point(**off)] * 3]
+    audited.append(made_up_point(regime="gross_slip", **off))
+    columns = {
+        "poisson_ratio": [0.3, 0.35, 0.36, 0.3, 0.5, 0.2],
+        "bulk_stress_mean": [0.0, 0.1, 0.1, -0.1, -0.1, 0.1],
+        "bulk_stress_amplitude": [0.2, 0.0, 0.0, 0.1, 0.0, 0.2],
+        "profile": [0, 0, 0, 0, 0, 2],
+    }
+    rows = np.zeros((6, len(COLUMNS)))
+    for name, values in columns.items():
+        rows[:, COLUMNS.index(name)] = values
+    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
+    at = lines.index("| bulk stress | points | above s | by up to | above s_surface by up to |")
+    enough, off_line = "0 | 0.00% | 0.00% |", "1 | 8.00% | 2.86% |"
+    assert lines[at + 2 : at + 7] == [
+        f"| mean ≥ 0, ν ≤ 0.35, no truncated paraboloid that slides | 2 | {enough}",
+        f"| mean ≥ 0, ν ≤ 0.35, a truncated paraboloid that slides | 1 | {off_line}",
+        f"| mean ≥ 0, ν > 0.35 | 1 | {off_line}",
+        f"| mean < 0, ν ≤ 0.35 | 1 | {off_line}",
+        f"| mean < 0, ν > 0.35 | 1 | {off_line}",
+    ]
+    assert lines[at + 8].startswith(
+        "With mean ≥ 0, ν ≤ 0.35, no truncated paraboloid that slides, the surface"
+    )
+    assert lines[at + 8].endswith("is enough at 2 of 2 points.")
+    plain = report(made_up_audit())
+    assert "bulk stress" not in plain
+
+
 def test_a_sample_has_every_point_at_most_once():
     """Of a small grid a permutation, of a large one draws; physically the same points count once."""
     small = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 9}\n').grid

@@ -162,12 +162,20 @@ def test_as_a_harmonic_sum_it_is_the_harmonic_load() -> None:
     top = float((np.sin(t) + 0.5 * np.sin(3.0 * t)).max())
     s = float(swtstudy.solve(load=still, bulk_stress_amplitude=0.1, rtol=1e-7).s)
     assert s == pytest.approx((0.1 * top + edge_tension(0.3)) * 0.1 * top / 0.91, rel=1e-7)
+    # Its turns are many, and few of them count.
+    rough = LoadPath.harmonic_sum("d", [], [], [(1, 1.0, 0.0), (37, 0.3, 0.4)])
+    course = np.sin(t) + 0.3 * np.sin(37.0 * t + 0.4)
+    s = float(swtstudy.solve(load=rough, bulk_stress_amplitude=0.1, rtol=1e-6).s)
+    swing = 0.05 * np.ptp(course)
+    assert s == pytest.approx((0.1 * course.max() + edge_tension(0.3)) * swing / 0.91, rel=1e-5)
 
 
 def test_neither_the_first_vertex_nor_what_is_on_a_line_matters() -> None:
     rolled = np.roll(LOOP, 2, axis=0)
     between = np.insert(LOOP, 1, 0.25 * LOOP[1] + 0.75 * LOOP[0], axis=0)
-    same = [LoadPath("a", each).code for each in (LOOP, rolled, between, np.repeat(LOOP, 2, axis=0))]
+    resting = np.insert(LOOP, 3, [0.5, 0.2, 0.1], axis=0)
+    every = (LOOP, rolled, between, resting, np.repeat(LOOP, 2, axis=0))
+    same = [LoadPath("a", each).code for each in every]
     assert len({*same}) == 1
     assert len(LoadPath("a", LOOP).vertices) == len(LOOP)
     for column in range(3):

@@ -181,3 +181,9 @@ def test_a_bulk_stress_that_pulls_while_contact_is_lost_makes_s_infinite(batch: 
         key=lambda pair: pair[1],
     )  # fmt: skip
     assert (nearer > 50.0 * near > 0.0) == tears
+
+
+def test_at_half_no_strain_swings_with_the_pressure_alone() -> None:
+    found = solve_points(replace(pulled(0.05), poisson_ratio=np.array([0.5])))
+    assert regime_names(found) == ["lift_off"]
+    assert found.s[0] == pytest.approx(0.0, abs=1e-12)

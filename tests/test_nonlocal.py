@@ -1,5 +1,7 @@
 """Means of swt over critical distances: their quadrature, their histories of stress, and their values."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scenes import PROFILE_NAMES, points, random_points, take
@@ -10,8 +12,9 @@ from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres
 from swtstudy.mechanics.body.histories import Histories
-from swtstudy.mechanics.body.local_swt import Fineness
+from swtstudy.mechanics.body.local_swt import Fineness, _beside_peaks
 from swtstudy.mechanics.body.spring_cells import SpringCells
+from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.mechanics.stress.scene import scene_of
 
 
@@ -172,3 +175,79 @@ def test_several_distances_share_their_places():
         if not name.endswith("error"):
             one = np.concatenate([getattr(each, name) for each in alone], axis=1)
             np.testing.assert_allclose(values, one, rtol=2e-3)
+
+
+def worn():
+    """A paraboloid with a flat face of 0.4 a_H and a blend."""
+    r = np.unique(np.concatenate([np.linspace(0.0, 2.0, 81), 0.4 + 0.1 * np.linspace(0.0, 1.5, 31)]))
+    slope = np.interp(r, [0.0, 0.4, 0.5, 2.0], [0.0, 0.0, 0.5, 2.0])
+    height = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(r))])
+    return TabulatedProfile("worn", r, height)
+
+
+def with_bulk(batch):
+    bulk = {"bulk_stress_mean": np.array([0.05]), "bulk_stress_amplitude": np.array([0.05])}
+    return replace(batch, **bulk)
+
+
+#: ℓ, and means over the half sphere, at ℓ/2 and over 0 … 2ℓ straight down, of the field with many instants
+#: common to a circle and all planes searched at each place, by Gauss's rule in cylindrical coordinates
+#: about the axis (10 × 4 × 14 places on either side) and by Simpson's rule (25 places).
+KNOWN = [
+    (points(phase=2.5, normal_amplitude=0.25), 0.1, 0.0454978, 0.0297589, 0.0215015),
+    (points("rounded_punch", phase=0.7, p=1, q=2, flat_radius=0.5), 0.05, 0.0875051, 0.0716282, 0.0575010),
+    (
+        points("truncated_paraboloid", phase=1.0, tangential_amplitude=1.2, flat_radius=0.3),
+        0.08,
+        0.0649775,
+        0.0479510,
+        0.0367803,
+    ),
+    (
+        with_bulk(
+            points(
+                "wavy_paraboloid", phase=4.0, normal_amplitude=0.4, waviness_amplitude=0.02, wavelength=5.0
+            )
+        ),
+        0.1,
+        0.0773251,
+        0.0560010,
+        0.0447141,
+    ),
+    (
+        points("power_law", phase=1.0, normal_amplitude=0.5, tangential_amplitude=0.3, exponent=3.0),
+        0.1,
+        0.0154937,
+        0.00457419,
+        0.00605643,
+    ),
+    (
+        replace(points(phase=5.0, normal_amplitude=0.5, tangential_amplitude=0.6), profile=worn()),
+        0.06,
+        0.0553035,
+        0.0399547,
+        0.0292321,
+    ),
+]
+
+
+@pytest.mark.parametrize("known", KNOWN, ids=lambda known: str(known[0].profile))
+def test_known_means(known):
+    """In gross slip and partial slip, with bulk stress, of a table: as claimed."""
+    batch, distance, *expected = known
+    _, found = nonlocal_of(batch, distance)
+    values = found.volume[0, 0], found.point[0, 0, 0], found.line[0, 0, 0]
+    off = np.abs(np.subtract(values, expected)) / expected
+    assert (off < [1.5e-3, 3e-4, 1e-3]).all()
+    errors = found.volume_error[0, 0], found.point_error[0, 0, 0], found.line_error[0, 0, 0]
+    # The other rule is off by up to 8e-4 itself.
+    assert (off < np.array(errors) / expected + 8e-4).all()
+    assert (np.array(errors) / expected < 2.1e-3).all()
+
+
+def test_instants_that_meet_hide_no_peak():
+    """A peak at two instants that are one has the gaps on either side divided."""
+    instant = np.array([[0.0, 1.0, 2.0, 2.0, 3.0, 4.0]])
+    curve = -((instant - 2.2) ** 2)
+    found = _beside_peaks(instant, (curve,), 1)
+    np.testing.assert_allclose(np.sort(found), [[1.5, 2.2, 2.5]], atol=1e-9)

@@ -358,3 +358,34 @@ def test_an_error_in_one_study_leaves_the_others_whole(tmp_path):
     assert paths[0].exists()
     assert not paths[2].exists()
     assert not list(tmp_path.glob("*.parts"))
+
+
+def printed(*lines):
+    """What a Python process of its own prints."""
+    command = [sys.executable, "-c", "\n".join(lines)]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def test_the_solver_starts_without_scipy():
+    # More than half of a worker's start; the profiles and fields that need it import it.
+    found = printed(
+        "import sys, swtstudy.runner.chunk, swtstudy.mechanics",
+        "print([name for name in sys.modules if name.startswith('scipy')])",
+    )
+    assert found == "[]"
+
+
+def test_workers_start_before_this_process_has_imported_what_archives_need(tmp_path):
+    found = printed(
+        "import sys; from swtstudy import Study; from swtstudy.runner import run, workers",
+        "def start(count):",
+        "    print('xarray' in sys.modules)",
+        "    raise OSError('enough')",
+        "workers.start_workers = start",
+        "study = Study.from_text('title = \"a\"\\n[axes]\\nphase = {start = 0, stop = 3, num = 2000}\\n')",
+        "try:",
+        f"    run.run(study, {str(tmp_path / 'a.nc')!r})",
+        "except OSError as error: print(error)",
+    )
+    assert found.splitlines()[0] == "False"
+    assert "enough" in found.splitlines()[1]

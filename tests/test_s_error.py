@@ -80,3 +80,30 @@ def test_s_error_bounds_what_rounding_and_tables_make_of_s(case: int) -> None:
         assert abs(found.s[0] - closest) <= found.s_error[0]
         # Not any bound will do.
         assert found.s_error[0] <= 0.01 * closest
+
+
+# Where contact is lost next to a sharp tip, extremes come ever nearer to events the closer one looks: some
+# values are still on their way at the tightest tolerance.
+AT_TIPS = [
+    (
+        1.012556547076617,
+        (0.10358559404050062, 9.68708278753638, 2.769670606236335, 2.170775444169296),
+        5.354193871662883,
+        1,
+    ),
+    (
+        1.0219556409988106,
+        (0.04282458357181218, 5.317155311610475, 2.922988007704258, 0.9593574293587765),
+        0.0770479856463665,
+        2,
+    ),
+]
+
+
+@pytest.mark.parametrize(("exponent", "values", "phase", "p"), AT_TIPS)
+def test_s_error_bounds_what_a_slow_approach_to_a_tip_leaves(exponent, values, phase, p) -> None:
+    point = points("power_law", *values, phase, p, 1, exponent=exponent)
+    found, closest = solve_points(point, 1e-4), solve_points(point, 1e-8)
+    assert abs(found.s[0] - closest.s[0]) <= found.s_error[0]
+    # Neither is there yet.
+    assert 1e-3 * closest.s[0] < closest.s_error[0] < 0.3 * closest.s[0]

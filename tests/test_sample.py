@@ -16,6 +16,7 @@ from swtstudy.sampling.design import DESIGNS, Design
 from swtstudy.sampling.distribution import Distribution
 from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.template import template
 from swtstudy.study.writing import to_toml
 
 SAMPLED = """
@@ -422,3 +423,15 @@ def test_forces_may_be_sampled():
     grid = Study.from_text(text).grid
     assert grid.control.normal_force
     assert "normal_amplitude" not in grid.fixed
+
+
+def test_the_sample_of_the_template_is_a_study():
+    text = template("mine")
+    begin = text.index("# [sample]")
+    sample = "\n".join(
+        line.removeprefix("# ") for line in text[begin : text.index("\n\n", begin)].splitlines()
+    )
+    study = Study.from_text('title = "A sample"\n' + sample + '\n[figure]\nkind = "scatter"\nx = "sample"\n')
+    assert study.grid.shape == (256,)
+    assert min(study.grid.samples["friction"]) >= 0.1
+    assert all(name in text for name in DESIGNS)

@@ -106,6 +106,8 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
             lines = [line.rstrip() for line in printed.getvalue().splitlines()]
             assert lines == block.text.splitlines(), f"{block} is not what is printed"
         if block.language == "python":
+            if "hvplot" in block.text:
+                pytest.importorskip("hvplot")
             if "dask_jobqueue" in block.text:
                 (tmp_path / "results" / "figure4.nc").unlink()  # or there is nothing to do for it
             with contextlib.redirect_stdout(io.StringIO()) as printed:

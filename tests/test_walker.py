@@ -137,6 +137,17 @@ def test_derivatives_are_those_of_the_powers() -> None:
     rise, fall = derivatives((first[0], zero, first[3]), (second[0], zero, second[3]), walker)
     assert np.all(rise == 0.0)
     np.testing.assert_allclose(fall / first[0] / second[0] * α, α * f[3] + β * g[3], rtol=1e-13)
+    # Elsewhere they are those of σ_n ε_n^κ over ε_n^(κ − 1), by differences.
+    κ, step = γ / (1.0 - γ), 1e-4
+
+    def power(at: float) -> NDArray[np.float64]:
+        tension, swing = (v[0] + at * v[1] + 0.5 * at**2 * v[3] for v in (first, second))
+        return tension * swing**κ / second[0] ** (κ - 1.0)
+
+    rise, bent = derivatives(*((v[0], v[1], v[3]) for v in (first, second)), walker)
+    low, here, high = power(-step), power(0.0), power(step)
+    np.testing.assert_allclose(rise, (high - low) / (2.0 * step), rtol=1e-5)
+    np.testing.assert_allclose(bent, (high - 2.0 * here + low) / step**2, rtol=1e-4, atol=1e-4)
 
 
 def test_the_body_says_the_same_as_the_line() -> None:

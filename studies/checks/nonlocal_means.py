@@ -1,31 +1,40 @@
-"""What nonlocal means cost, how accurate they are, and what they cost before.
+"""What nonlocal means cost and how accurate they are.
 
-``python studies/checks/nonlocal_means.py`` writes results/nonlocal_means.md: for each scene the processor
-time a point of one distance and of eleven, and the largest error claimed; and, for comparison, the time and
-the error of a plain rule: Gauss's in spherical coordinates about the critical point, each place with the same
-instants, those that decide swt at the critical point.
+``python studies/checks/nonlocal_means.py`` writes results/nonlocal_means.md:
+
+* for scenes like Table 1 the processor time a point of one distance and of eleven, and the largest error
+  claimed;
+* for random points of all profiles, every fourth with bulk stress, what the means are off from the same
+  means with many more places and instants, and from what they claim;
+* for some of them the mean over the half sphere by another rule, in cylindrical coordinates about the axis,
+  of a field that has many instants common to all places of a circle and all planes searched at each;
+* how the means tend to s as ℓ falls.
 """
 
 from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.fields.decisive import decisive_nodes
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body.body import Body
-from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt, nonlocal_swt
-from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mechanics.body import nonlocal_swt as means
+from swtstudy.mechanics.body.body import Body, time_nodes
+from swtstudy.mechanics.body.local_swt import Fineness
+from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.mechanics.stress.scene import Scene, scene_of
+
+FloatArray = NDArray[np.float64]
 
 PHASES = np.array([0.0, 0.7, 1.6, 2.5, 4.0])
 DISTANCE, SEVERAL = np.array([0.1]), np.geomspace(0.01, 0.1, 11)
-#: Places of the plain rule: over the radius, the polar angle and the azimuth.
-PLAIN = 8, 8, 12
 #: Profile, its shape, δA/δ0 and ω2/ω1 of each scene.
 SCENES = [
     ("paraboloid", {}, 0.25, (1, 1)),
@@ -35,9 +44,26 @@ SCENES = [
     ("truncated_paraboloid", {"flat_radius": 0.5}, 0.75, (1, 1)),
     ("wavy_paraboloid", {"waviness_amplitude": 0.02, "wavelength": 5.0}, 0.75, (1, 1)),
 ]
-HEADER = (
-    "| scene | one distance | eleven | error claimed | plain rule | its error |\n|---|---|---|---|---|---|\n"
-)
+#: Shape parameters of random points, from and to.
+SHAPES = {
+    "paraboloid": {},
+    "rounded_punch": {"flat_radius": (0.05, 1.5)},
+    "truncated_paraboloid": {"flat_radius": (0.05, 1.0)},
+    "wavy_paraboloid": {"waviness_amplitude": (0.001, 0.05), "wavelength": (5.0, 10.0)},
+    "power_law": {"exponent": (1.3, 5.0)},
+    "tabulated": {},
+}
+RATIOS = [(1, 1), (1, 2), (2, 1), (3, 2), (1, 3)]
+SEED = 19
+#: Means with so many places and instants are what the others are held against.
+TIGHT = {
+    "COUNTS": ((17, 37),),
+    "LINE_COUNTS": (61,),
+    "FINENESS": (Fineness(6, 60),),
+}
+#: Places of the other rule: over the distance from the circle, the angle about the axis, and the depth.
+OTHER = 9, 4, 13
+KINDS = "volume", "point", "line"
 
 
 def points_of(
@@ -50,70 +76,175 @@ def points_of(
     return Points(profile, 0.3 * one, 0.3 * one, amplitude * one, p, q, 5 / 6 * one, PHASES[:count], columns)
 
 
-def timed(call: Callable[[], object], count: int) -> tuple[object, float]:
-    """Result of a call, and its processor time a point, ms."""
+def worn() -> TabulatedProfile:
+    """A paraboloid with a flat face of 0.4 a_H and a blend."""
+    r = np.unique(np.concatenate([np.linspace(0.0, 2.0, 81), 0.4 + 0.1 * np.linspace(0.0, 1.5, 31)]))
+    slope = np.interp(r, [0.0, 0.4, 0.5, 2.0], [0.0, 0.0, 0.5, 2.0])
+    height = np.concatenate([[0.0], np.cumsum(0.5 * (slope[1:] + slope[:-1]) * np.diff(r))])
+    return TabulatedProfile("worn", r, height)
+
+
+def random_points(profile: str) -> Iterator[tuple[Points, float]]:
+    """Single points all over the parameters, and a distance each; only those with a critical point."""
+    rng = np.random.default_rng([SEED, list(SHAPES).index(profile)])
+    while True:
+        (p, q), u = RATIOS[rng.integers(len(RATIOS))], rng.uniform
+        shape = {name: np.array([u(*ends)]) for name, ends in SHAPES[profile].items()}
+        bounds = (0.0, 0.5), (0.05, 0.9), (0.0, 0.95), (0.05, 1.2), (0.0, 2.0 * np.pi)
+        ν, μ, δ, U, ψ = (np.array([u(*ends)]) for ends in bounds)
+        family = worn() if profile == "tabulated" else profile
+        point = Points(family, ν, μ, δ, np.array([p]), np.array([q]), U, ψ, shape)
+        bulk = {"mean": u(-0.1, 0.2), "amplitude": u(0.0, 0.2), "phase": u(0.0, 6.0)}
+        if rng.integers(4) == 0:
+            point = replace(point, **{f"bulk_stress_{name}": np.array([v]) for name, v in bulk.items()})
+        distance = float(10.0 ** u(-2.0, -0.7))
+        if np.isfinite(solve_points(point, 1e-4).critical_x[0]):
+            yield point, distance
+
+
+def place_of(point: Points) -> tuple[Scene, FloatArray, FloatArray, FloatArray]:
+    """Scene, critical x and angle, and s of points of one ratio."""
+    solution = solve_points(point, 1e-6)
+    return scene_of(point), solution.critical_x, solution.critical_angle, solution.s
+
+
+def timed(points: Points, distance: FloatArray) -> tuple[means.NonlocalSwt, float]:
+    """Means, and their processor time a point, ms."""
+    at = place_of(points)[:3]
     begin = time.process_time()
-    result = call()
-    return result, 1e3 * (time.process_time() - begin) / count
+    found = means.nonlocal_swt(*at, distance)
+    return found, 1e3 * (time.process_time() - begin) / len(points)
 
 
-def plain_mean(body: Body, x: float, distance: float) -> float:
-    """Mean over a half sphere by Gauss's rule in spherical coordinates."""
-    rules = (np.polynomial.legendre.leggauss(count) for count in PLAIN)
-    (ρ, of_ρ), (c, of_c), (φ, of_φ) = ((0.5 + 0.5 * node, 0.5 * weight) for node, weight in rules)
-    ρ, c, φ = np.meshgrid(distance * ρ, c, np.pi * φ, indexing="ij")
-    s = np.sqrt(1.0 - c * c)
-    swt = body.swt(x + ρ * s * np.cos(φ), ρ * s * np.sin(φ), ρ * c).swt
-    weight = 3.0 * (ρ / distance) ** 2 * of_ρ[:, None, None] * of_c[:, None] * of_φ
-    return float((weight * swt).sum())
-
-
-def plain_means(points: Points, critical_x: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Means over half spheres of `DISTANCE`, each point for itself."""
-    found = []
-    for k, x in enumerate(critical_x):
-        scene = scene_of(points.take(np.array([k])))
-        body = Body(scene, decisive_nodes(scene, (float(x), 0.0, 0.0)), 60)
-        found.append(plain_mean(body, float(x), DISTANCE[0]))
-    return np.array(found)
-
-
-def row(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: int) -> str:
-    """Line of the table."""
+def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: int) -> str:
+    """Line of the table of times."""
     points = points_of(*scene, count)
-    solution = solve_points(points, 1e-5)
-    at = scene_of(points), solution.critical_x, solution.critical_angle
-    one, of_one = timed(lambda: nonlocal_swt(*at, DISTANCE), count)
-    _, of_several = timed(lambda: nonlocal_swt(*at, SEVERAL), count)
-    plain, of_plain = timed(lambda: plain_means(points, solution.critical_x), count)
-    assert isinstance(one, NonlocalSwt)
-    assert isinstance(plain, np.ndarray)
+    one, of_one = timed(points, DISTANCE)
+    _, of_several = timed(points, SEVERAL)
     claimed = (one.volume_error / one.volume).max()
-    off = np.abs(plain / one.volume[:, 0] - 1.0).max()
     name = f"{scene[0]}, δA/δ0 = {scene[2]:g}, ω2/ω1 = {scene[3][0]}/{scene[3][1]}"
-    cells = f"{of_one:.0f} ms", f"{of_several:.0f} ms", f"{claimed:.1e}", f"{of_plain:.0f} ms", f"{off:.1e}"
-    return f"| {name} | {' | '.join(cells)} |"
+    return f"| {name} | {of_one:.0f} ms | {of_several:.0f} ms | {claimed:.1e} |"
+
+
+def off_and_claimed(point: Points, distance: float) -> tuple[FloatArray, FloatArray]:
+    """What the three kinds of means of one point are off from tight ones, and claim, over these, (3,)."""
+    at = place_of(point)[:3]
+    quick = means.nonlocal_swt(*at, np.array([distance]))
+    with patch.multiple(means, **TIGHT):
+        tight = means.nonlocal_swt(*at, np.array([distance]))
+    off, claimed = np.zeros((2, len(KINDS)))
+    for k, name in enumerate(KINDS):
+        value, error, fine = getattr(quick, name), getattr(quick, f"{name}_error"), getattr(tight, name)
+        worst = int((np.abs(value - fine) - error).argmax())
+        size = max(float(fine.flat[worst]), 1e-300)
+        off[k], claimed[k] = abs(value.flat[worst] - fine.flat[worst]) / size, error.flat[worst] / size
+    return off, claimed
+
+
+def sweep(profile: str, count: int) -> list[str]:
+    """Lines of the table of random points."""
+    found = [off_and_claimed(*case) for case in islice(random_points(profile), count)]
+    off, claimed = (np.array(each) for each in zip(*found, strict=True))
+    lines = []
+    for k, name in enumerate(KINDS):
+        more = int((off[:, k] > claimed[:, k]).sum())
+        cells = (
+            f"{np.median(off[:, k]):.0e} | {off[:, k].max():.0e} | {np.median(claimed[:, k]):.0e} | {more}"
+        )
+        lines.append(f"| {profile} | {name} | {count} | {cells} |")
+    return lines
+
+
+def gauss(count: int) -> tuple[FloatArray, FloatArray]:
+    """Gauss's rule on [0, 1]."""
+    node, weight = np.polynomial.legendre.leggauss(count)
+    return 0.5 + 0.5 * node, 0.5 * weight
+
+
+def other_mean(scene: Scene, x: float, distance: float) -> float:
+    """Mean over the half sphere in cylindrical coordinates about the axis."""
+    total = volume = 0.0
+    (u, of_u), (w, of_w), (v, of_v) = (gauss(count) for count in OTHER)
+    # Depths end like a root where the circle leaves the sphere; y → −y is a symmetry.
+    turn = 0.5 * np.pi * w[:, None]
+    angle, of_angle = np.sin(turn), np.cos(turn) * of_w[:, None]
+    for side in (-1, 1):
+        # swt begins like a root at the circle through the centre, and in the depth.
+        for share, weight in zip(u, of_u * 2 * u, strict=True):
+            r = abs(x) + side * distance * share**2
+            if r <= 0.0:
+                raise ValueError("the half sphere holds the axis")
+            most = np.arccos(1 - (distance**2 - (r - abs(x)) ** 2) / (2 * abs(x) * r))
+            deepest = np.sqrt(distance**2 - r**2 - x**2 + 2 * r * abs(x) * np.cos(most * angle))
+            z = deepest * v**2
+            weights = weight * most * r * of_angle * deepest * 2 * v * of_v
+            place = np.copysign(1.0, x) * r * np.cos(most * angle + 0 * v), r * np.sin(most * angle + 0 * v)
+            near = np.maximum(r + distance * np.array([-1.0, -0.3, -0.1, 0.0, 0.1, 0.3]), 1e-3)
+            swt = Body(scene, time_nodes(scene, 10, near), 60).swt(*place, z).swt
+            total, volume = total + (weights * swt).sum(), volume + weights.sum()
+    return float(total / volume)
+
+
+def against_other(profile: str, count: int) -> list[str]:
+    """Lines of the table of the other rule."""
+    lines = []
+    for point, distance in islice(random_points(profile), count):
+        scene, x, angle, _ = place_of(point)
+        distance = min(distance, 0.6 * abs(float(x[0])))
+        found = means.nonlocal_swt(scene, x, angle, np.array([distance]))
+        other = other_mean(scene, float(x[0]), distance)
+        value, error = float(found.volume[0, 0]), float(found.volume_error[0, 0])
+        load = f"δA/δ0 = {point.normal_amplitude[0]:.2f}, U = {point.tangential_amplitude[0]:.2f}"
+        load += ", bulk stress" if point.bulk_stress_amplitude[0] else ""
+        cells = f"{value:.6f} | {other:.6f} | {value / other - 1.0:+.0e} | {error / value:.0e}"
+        lines.append(f"| {profile}, {load} | {distance:.3f} | {cells} |")
+    return lines
+
+
+def falling(profile: str) -> str:
+    """Line of the table of distances that fall."""
+    point, _ = next(random_points(profile))
+    *at, s = place_of(point)
+    found = means.nonlocal_swt(*at, np.array([1e-8, 1e-6, 1e-4, 1e-2]))
+    return f"| {profile} | " + " | ".join(f"{v:.5f}" for v in found.volume[0] / s[0]) + " |"
+
+
+def table(header: str, lines: list[str]) -> str:
+    """A table in Markdown, printed."""
+    columns = header.count("|") - 1
+    text = "\n".join([header, "|" + "---|" * columns, *lines]) + "\n"
+    print(text, flush=True)
+    return text
 
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
-    arguments.add_argument("--quick", action="store_true", help="two scenes of one point each")
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the tables")
+    arguments.add_argument("--points", type=int, default=20, help="random points of each profile")
+    arguments.add_argument("--quick", action="store_true", help="one point of two profiles")
     given = arguments.parse_args()
-    scenes, count = (SCENES[:2], 1) if given.quick else (SCENES, len(PHASES))
-    lines = []
-    for scene in scenes:
-        lines.append(row(scene, count))
-        print(lines[-1], flush=True)
-    title = (
-        "# Nonlocal means\n\nProcessor time a point with all three means, ℓ = 0.1 a_H or eleven distances "
+    scenes, phases, profiles = SCENES, len(PHASES), list(SHAPES)
+    count, others = given.points, 2
+    if given.quick:
+        scenes, phases, profiles, count, others = SCENES[:1], 1, profiles[:2], 1, 1
+    text = "# Nonlocal means\n\nProcessor time a point with all three means, ℓ = 0.1 a_H or eleven distances "
+    text += "up to that, and the largest relative error claimed of the volume mean.\n\n"
+    text += table(
+        "| scene | one distance | eleven | error claimed |", [times(scene, phases) for scene in scenes]
     )
-    title += (
-        "up to that; largest relative error of the volume mean. The plain rule has the volume mean alone."
-    )
+    text += "\nRandom points against the same with many more places and instants: what they are off, and how "
+    text += "many are off more than they claim.\n\n"
+    rows = [row for profile in profiles for row in sweep(profile, count)]
+    text += table("| profile | mean | points | median off | largest | median claimed | more |", rows)
+    text += "\nMeans over half spheres against another rule (" + " × ".join(map(str, OTHER)) + " places on "
+    text += "either side), whose field has instants common to all places of a circle.\n\n"
+    rows = [row for profile in profiles for row in against_other(profile, others)]
+    text += table("| scene | ℓ/a_H | mean | other rule | off | claimed |", rows)
+    text += "\nMean over the half sphere, over s, as ℓ falls; beside the edge of a truncated paraboloid's "
+    text += "face, and where a plane that does not hold y is the critical one, the limit is another.\n\n"
+    text += table("| profile | 1e-8 | 1e-6 | 1e-4 | 1e-2 |", [falling(profile) for profile in profiles])
     given.results.mkdir(exist_ok=True)
-    table = given.results / "nonlocal_means.md"
-    table.write_text(f"{title}\n\n{HEADER}" + "\n".join(lines) + "\n", encoding="utf-8")
+    (given.results / "nonlocal_means.md").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

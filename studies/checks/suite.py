@@ -6,31 +6,48 @@ python studies/checks/suite.py > results/suite.txt
 from __future__ import annotations
 
 import argparse
+import multiprocessing
+import resource
 import tempfile
 import time
 from pathlib import Path
 
-from swtstudy import Study, run
+import xarray as xr
+
+from swtstudy import Study
+from swtstudy.runner.run import run_several
 
 FOLDER, FIGURES = Path(__file__).parent.parent, range(3, 9)
+
+
+def processor_time() -> float:
+    """Processor time so far of this process and of those that have ended, s."""
+    both = (resource.getrusage(whose) for whose in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(used.ru_utime + used.ru_stime for used in both)
 
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--quick", action="store_true", help="Figure 3 alone, to see that it runs")
-    quick = arguments.parse_args().quick
-    total_points, total = 0, 0.0
+    figures = FIGURES[: 1 if arguments.parse_args().quick else None]
+    sizes: list[int] = []
+    begin = time.perf_counter()
+
+    def finished(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        sizes.append(dataset.s.size)
+        words = f"{path.stem}: {dataset.s.size:5d} values, archive after"
+        print(f"{words} {time.perf_counter() - begin:5.1f} s", flush=True)
+
     with tempfile.TemporaryDirectory() as folder:
-        for number in FIGURES[: 1 if quick else None]:
-            study = Study.from_toml(FOLDER / f"figure{number}.toml")
-            begin = time.perf_counter()
-            dataset = run(study, Path(folder) / f"figure{number}.nc")
-            seconds = time.perf_counter() - begin
-            total_points, total = total_points + dataset.s.size, total + seconds
-            print(f"figure {number}: {dataset.s.size:5d} values in {seconds:5.1f} s", flush=True)
-    print(
-        f"all:      {total_points:5d} values in {total:5.1f} s, {1e3 * total / total_points:.1f} ms a value"
-    )
+        studies = [f"figure{number}" for number in figures]
+        run_several(
+            [(Study.from_toml(FOLDER / f"{n}.toml"), Path(folder) / f"{n}.nc") for n in studies], finished
+        )
+    seconds, values = time.perf_counter() - begin, sum(sizes)
+    for worker in multiprocessing.active_children():
+        worker.join()
+    print(f"all:     {values:5d} values in {seconds:5.1f} s, {1e3 * seconds / values:.1f} ms a value")
+    print(f"processor time: {processor_time():.1f} s, imports included")
 
 
 if __name__ == "__main__":

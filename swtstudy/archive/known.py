@@ -6,8 +6,6 @@ from pathlib import Path
 
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.parts import kept_folder, parts_folder, read_parts
-from swtstudy.archive.read import read_archive
-from swtstudy.archive.recall import records_of
 from swtstudy.records.records import Records, join
 
 
@@ -21,6 +19,10 @@ def known_records(path: Path) -> Records:
     """
     found = []
     if path.exists():
+        # Where nothing is known, workers start before xarray is imported here.
+        from swtstudy.archive.read import read_archive
+        from swtstudy.archive.recall import records_of
+
         try:
             found.append(records_of(read_archive(path), path))
         except ArchiveError as error:

@@ -13,6 +13,7 @@ from swtstudy.archive.attributes import defined_in
 from swtstudy.audit.point import TOLERANCE, VERDICTS
 from swtstudy.audit.table import canonical_rows
 from swtstudy.grid.canonical import describe_point
+from swtstudy.mechanics.line.circle_gain import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 
 if TYPE_CHECKING:
@@ -28,6 +29,9 @@ _WORDS = {
 }
 #: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
+#: Excesses beyond this are over an s that is rounding.
+_LARGE = 10.0
+_BULK = ("bulk_stress_mean", "bulk_stress_amplitude")
 #: How many of the points whose maximum the solver misses are listed one by one.
 _LISTED = 20
 
@@ -64,12 +68,22 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
         if name in ("none", "not_finite") or not here.any():
             yield f"| {_WORDS[name]} | {here.sum()} | | |"
         else:
-            yield f"| {_WORDS[name]} | {here.sum()} | {excess[here].max():.1%} | {ν[here].min():.2f} |"
+            most = _percent(excess[here].max(), 1)
+            yield f"| {_WORDS[name]} | {here.sum()} | {most} | {ν[here].min():.2f} |"
     yield ""
     yield from _shares("ν", _ranges(ν), finite, exceeded, excess, remainder)
     yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
     regime = np.array(REGIMES)[dataset["regime"].values]
     yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    # An older audit has no such columns.
+    if any(name in dataset.coords and dataset[name].values.any() for name in _BULK):
+        groups = _bulk_groups(dataset)
+        yield from _shares("bulk stress", groups, finite, exceeded, excess, remainder)
+        name, inside = groups[0]
+        enough = finite & inside
+        on_line = f"{(enough & ~exceeded).sum()} of {enough.sum()}"
+        yield f"With {name}, the surface line is enough at {on_line} points."
+        yield ""
     yield from _of_the_solver(dataset, exceeded)
 
 
@@ -115,9 +129,31 @@ def _shares(
     for name, group in groups:
         inside = finite & group
         if inside.any():
-            largest = f"{max(excess[inside].max(), 0.0):.2%} | {max(remainder[inside].max(), 0.0):.2%}"
-            yield f"| {name} | {inside.sum()} | {(inside & exceeded).sum()} | {largest} |"
+            most = " | ".join(_percent(max(values[inside].max(), 0.0), 2) for values in (excess, remainder))
+            yield f"| {name} | {inside.sum()} | {(inside & exceeded).sum()} | {most} |"
     yield ""
+
+
+def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_]]]:
+    """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
+    mean, ν = dataset["bulk_stress_mean"].values, dataset["poisson_ratio"].values
+    edge = (dataset["profile"].values == "truncated_paraboloid") & (
+        dataset["regime"].values == REGIMES.index("gross_slip")
+    )
+    hard, presses = ν > SAFE_POISSON_RATIO, mean < 0.0
+    limit = f"{SAFE_POISSON_RATIO:g}"
+    return [
+        (f"mean ≥ 0, ν ≤ {limit}, no truncated paraboloid that slides", ~presses & ~hard & ~edge),
+        (f"mean ≥ 0, ν ≤ {limit}, a truncated paraboloid that slides", ~presses & ~hard & edge),
+        (f"mean ≥ 0, ν > {limit}", ~presses & hard),
+        (f"mean < 0, ν ≤ {limit}", presses & ~hard),
+        (f"mean < 0, ν > {limit}", presses & hard),
+    ]
+
+
+def _percent(share: float, digits: int) -> str:
+    """A share in per cent; that over next to nothing is a large one, whatever its digits."""
+    return f"{share:.{digits}%}" if share <= _LARGE else f"over {_LARGE:.0%}"
 
 
 def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:

@@ -28,7 +28,7 @@ from swtstudy.cli.options import with_width
 @click.option("--hue", help="The axis whose values are the lines.")
 @click.option("--panels", help="The axis whose values are the panels.")
 @click.option("--vertical", help="The axis along the vertical axis of contours and heat maps.")
-@click.option("--kind", help="lines, contour or heatmap.")
+@click.option("--kind", help="lines, life, contour or heatmap.")
 @click.option(
     "--y", multiple=True, help="What is drawn, such as s, critical_x or regime; repeat for more rows."
 )

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from swtstudy.axes import AXES
+from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
@@ -19,7 +20,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.results.select import require_points
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.figure_check import wrong_axes, wrong_layout
 from swtstudy.wording import axis_words
 
@@ -121,11 +122,14 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
     parts = _slices(dataset, layout.panels)
-    lines = layout.kind == "lines"
+    lines = layout.kind in LINE_KINDS
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), len(parts), width)
     figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
-    axes = sheet.panels(figure, share_y="row" if lines else "all")
+    upright = layout.kind == "life"
+    axes = sheet.panels(
+        figure, share_x="row" if upright else "all", share_y="row" if lines and not upright else "all"
+    )
     for row, y in enumerate(layout.y):
         values = quantity(dataset, y)
         panels = _slices(_shown(dataset, y, values), layout.panels)
@@ -138,15 +142,20 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
                 each.value.rename(values.name).transpose(layout.vertical, layout.x) for each in panels
             ]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-        if layout.vertical is not None:
-            words = axis_words(layout.vertical, dataset[layout.vertical].attrs)
+            if layout.regimes:
+                for one, panel in zip(axes[row], panels, strict=True):
+                    mark_borders(one, panel.regime.transpose(layout.vertical, layout.x))
+        bottom_words = words if upright else axis_words(layout.x, dataset[layout.x].attrs)
+        if not lines or upright:
+            name = layout.vertical or layout.x
+            words = axis_words(name, dataset[name].attrs)
+        for bottom in sheet.lowest(axes[: row + 1]) if upright or row == len(layout.y) - 1 else []:
+            bottom.set_xlabel(bottom_words)
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(words)
         title = [title_words(values, y)] if len(layout.y) > 1 else []
         for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
             _title_panel(one, part, layout.panels, title, axes.size > 1, row * len(parts) + column)
-    for bottom in sheet.lowest(axes):
-        bottom.set_xlabel(axis_words(layout.x, dataset[layout.x].attrs))
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:

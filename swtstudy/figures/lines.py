@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.axes import AXES
-from swtstudy.figures.quantity_words import flag_words, part_words
+from swtstudy.figures.quantity_words import flag_words, is_life, part_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
+from swtstudy.quantities import DISTANCE
 from swtstudy.study.figure import FigureLayout
 
 if TYPE_CHECKING:
@@ -54,12 +55,17 @@ def draw_lines(
         if flag_words(whole):
             look["drawstyle"] = "steps-mid"
         curve = part.value.values
-        (line,) = axes.plot(x, curve, **look)
-        if "error" in part and visible > 0.0 and np.any(part.error.values > visible):
+        across, up = (curve, x) if layout.kind == "life" else (x, curve)
+        (line,) = axes.plot(across, up, **look)
+        banded = layout.kind != "life" and visible > 0.0 and "error" in part
+        if banded and np.any(part.error.values > visible):
             low, high = curve - part.error.values, curve + part.error.values
             axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
         if layout.regimes:
             mark_regimes(axes, x, curve, _names(part.regime), line.get_color())
+    if layout.kind == "life":
+        _scale_upright(axes, x, layout.x)
+        return
     _scale_axes(axes, x, whole, layout.x)
     if layout.regimes:
         shade_without(axes, x, [_names(part.regime) for part in parts])
@@ -69,6 +75,17 @@ def _names(regime: xr.DataArray) -> list[str | None]:
     """Regimes by name; None where unknown."""
     names = regime.attrs["flag_meanings"].split()
     return [names[int(value)] if np.isfinite(value) else None for value in regime.values]
+
+
+def _scale_upright(axes: Axes, x: NDArray[Any], name: str) -> None:
+    """Limits and ticks of a panel whose upright axis is x, over a logarithmic one."""
+    axes.set_xscale("log")
+    axes.set_ylim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    if in_equal_ratios(x):
+        axes.set_yscale("log")
+        tick_in_ratios(axes.yaxis, float(x[0]), float(x[-1]))
+    if AXES[name].units == "rad":
+        tick_in_pi(axes.yaxis, float(x.min()), float(x.max()))
 
 
 def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
@@ -82,7 +99,11 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) ->
         axes.set_xscale("log")
         tick_in_ratios(axes.xaxis, float(x[0]), float(x[-1]))
         ratio = float(values.max()) / float(values.where(values > 0.0).min())
-        if not words and float(values.min()) >= 0.0 and ratio > LOG_RATIO:
+        if not words and float(values.min()) >= 0.0 and (ratio > LOG_RATIO or name == DISTANCE):
             axes.set_yscale("log")
+    if is_life(values.attrs) and float(values.min()) > 0.0:
+        axes.set_yscale("log")
+    if axes.get_yscale() == "log":
+        tick_in_ratios(axes.yaxis, float(values.where(values > 0.0).min()), float(values.max()))
     if AXES[name].units == "rad":
         tick_in_pi(axes.xaxis, float(x.min()), float(x.max()))

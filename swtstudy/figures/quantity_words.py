@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.grid.values import as_number
 from swtstudy.parameters import family_of
@@ -61,6 +62,11 @@ def part_words(part: xr.Dataset, name: str) -> str:
     shape = family_of(part[name].item()).shape if name == "profile" else ()
     fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
     return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
+
+
+def is_life(attributes: Mapping[Any, Any]) -> bool:
+    """Whether a quantity with these attributes is a number of cycles, which people read in decades."""
+    return str(attributes.get("symbol", "")).startswith("N")
 
 
 def flag_words(values: xr.DataArray) -> list[str]:

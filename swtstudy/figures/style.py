@@ -32,6 +32,8 @@ STYLE: dict[str, Any] = {
         marker=[MARKERS[i // len(DASHES)] for i in _LINES],
     ),
     "axes.axisbelow": True,
+    "axes.formatter.limits": (-3, 6),  # lengths of micrometres in mm: a power at the end of the axis
+    "axes.formatter.use_mathtext": True,
     "axes.grid": True,
     "axes.titlelocation": "left",
     "axes.titlesize": "medium",

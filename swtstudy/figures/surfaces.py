@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from matplotlib.path import Path
 
 from swtstudy.axes import AXES
 from swtstudy.figures.loci import jumps, lowest
-from swtstudy.figures.quantity_words import flag_words
+from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
 from swtstudy.wording import value_words
 
@@ -69,6 +70,8 @@ def draw_surfaces(
         else:
             filled = draw_contours(one, surface, look)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
+    if is_life(surfaces[0].attrs) and kind == "contour":
+        bar.ax.yaxis.set_major_formatter(lambda value, _: _power(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
@@ -83,15 +86,30 @@ def _in_common(surfaces: list[xr.DataArray]) -> bool:
 
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     """One colour scale for all panels of a row, in steps for contours."""
-    from matplotlib.colors import BoundaryNorm, Normalize
+    from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
     from matplotlib.ticker import MaxNLocator
 
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    if is_life(surfaces[0].attrs) and low > 0.0:
+        return LogNorm(low, high) if kind == "heatmap" else _decades(low, high)
     if kind == "heatmap":
         return Normalize(low, high)
     return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
+
+
+def _decades(low: float, high: float) -> Normalize:
+    """Levels in equal ratios, whole or broken parts of decades."""
+    from matplotlib.colors import BoundaryNorm
+
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
+    levels = [digit * 10.0**power for power in range(first, last + 1) for digit in digits]
+    inner = [level for level in levels if low < level < high]
+    begin = max((level for level in levels if level <= low), default=low)
+    end = min((level for level in levels if level >= high), default=high)
+    return BoundaryNorm([begin, *inner, end], 256)
 
 
 def _flag_colours(names: list[str]) -> dict[str, Any]:
@@ -128,12 +146,20 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     if bool(surface.notnull().all()):
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
-    axes.clabel(lines, levels[::2], fontsize="x-small", fmt="%g")
+    shown = levels if is_life(surface.attrs) else levels[::2]
+    axes.clabel(lines, shown, fontsize="x-small", fmt=_power if is_life(surface.attrs) else "%g")
     if surface.name == "s":
         _draw_extrema(axes, surface)
     axes.grid(False)
     _tick_angles(axes, surface)
     return filled
+
+
+def _power(value: float) -> str:
+    """A number of cycles: 5·10⁴."""
+    power = math.floor(math.log10(value) + 1e-9)
+    digit = round(value / 10.0**power)
+    return f"$10^{{{power}}}$" if digit == 1 else rf"${digit} \cdot 10^{{{power}}}$"
 
 
 def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -78,6 +79,11 @@ class Grid:
         """What the user has defined, as it was given."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
         return {value.code: value for value in values if isinstance(value, Named)}
+
+    @property
+    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
+        """What differs from body to body."""
+        return {}
 
     def row(self, name: str) -> Parameter:
         """The row of a parameter, with its unit."""

@@ -13,10 +13,11 @@ import xarray as xr
 from swtstudy.mistakes import literal
 from swtstudy.quantities import Request
 from swtstudy.units.bodies import LABELS
-from swtstudy.units.grid import OF_BODIES, PhysicalGrid
+from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.reading import Given
+from swtstudy.units.rows import OF_BODIES
 from swtstudy.units.variables import NORMALISED, variables
 
 #: The attribute of a Dataset that says what its coordinates do not say of its contacts.

@@ -120,10 +120,11 @@ class Job:
 def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
     """The archive, if it is that of exactly this study and nothing is left to do."""
     from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
-    from swtstudy.archive.read import read_archive
 
     if work.todo or not path.exists() or len(read_parts(parts_folder(path))):
         return None
+    from swtstudy.archive.read import read_archive
+
     archive = read_archive(path)
     if archive.attrs["study"] != study.text:
         return None

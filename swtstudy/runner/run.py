@@ -162,4 +162,5 @@ def _pool(job: Job, local: LocalPool, client: Client | None) -> AbstractContextM
 
         return ClusterPool(client)
     alone = local.size() < 2 or (not local.started and job.seconds < _SMALL_SECONDS)
-    return nullcontext(None if alone else local)
+    # Not with the first task: workers import while this process does.
+    return nullcontext(None if alone else local.start() if job.work.todo else local)

@@ -21,7 +21,7 @@ THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"
 class LocalPool:
     """Worker processes on this machine, inside a with block; the `Pool` of a run without a cluster.
 
-    They start with the first task.
+    They start with the first task, or when they are told to.
 
     Parameters
     ----------
@@ -52,15 +52,21 @@ class LocalPool:
         # Not waited for: workers exit while the archive is being written.
         self._executor.shutdown(wait=False, cancel_futures=True)
 
+    def start(self) -> LocalPool:
+        """Start the processes, which import what they need while this one goes on."""
+        if self._executor is None:
+            self._executor = start_workers(self._count)
+        return self
+
     def size(self) -> int:
         """See `Pool`."""
         return self._count
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """See `Pool`."""
-        if self._executor is None:
-            self._executor = start_workers(self._count)
-        return self._executor.submit(function, *arguments)
+        executor = self.start()._executor
+        assert executor is not None
+        return executor.submit(function, *arguments)
 
     def renew(self) -> None:
         """See `Pool`; one lost worker breaks the executor for all."""

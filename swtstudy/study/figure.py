@@ -16,8 +16,10 @@ _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)
 
 #: Kinds of figures of a sample: points over each of its parameters, or how often there are which values.
 SAMPLE_KINDS = ("scatter", "histogram")
-#: Kinds of figures: lines over x, a surface over x and vertical, or those of a sample.
-KINDS = ("lines", "contour", "heatmap", *SAMPLE_KINDS)
+#: Kinds of lines: over x, or x upright over the quantity, as S–N curves are drawn.
+LINE_KINDS = ("lines", "life")
+#: Kinds of figures: lines, a surface over x and vertical, or those of a sample.
+KINDS = (*LINE_KINDS, "contour", "heatmap", *SAMPLE_KINDS)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
@@ -44,13 +46,14 @@ class FigureLayout:
     title
         Title over the figure, or None.
     kind
-        "lines"; "contour", which for s also shows where it is least and greatest along x; or "heatmap", with
-        a cell for each point; or, of a sample, "scatter", with a panel for each of its parameters, or
-        "histogram".
+        "lines"; "life", lines with x upright over a logarithmic axis of the quantity, as S–N curves;
+        "contour", which for s also shows where it is least and greatest along x; or "heatmap", with a cell
+        for each point; or, of a sample, "scatter", with a panel for each of its parameters, or "histogram".
     vertical
         Dimension along the vertical axis of a contour or heat map, None for lines.
     regimes
-        Whether to mark where a regime of the contact begins along a line.
+        Whether to mark where a regime of the contact begins along a line, or the borders of regimes on a
+        contour map.
     """
 
     x: str

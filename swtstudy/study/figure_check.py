@@ -47,6 +47,8 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
             yield f"figure.{role}", literal(name), "an axis of numbers"
         if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
             yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
+    if layout.kind in ("heatmap", "life") and layout.regimes:
+        yield "figure.regimes", "True", f"False for {kind}"
     if layout.kind not in SAMPLE_KINDS:
         return
     if layout.x != SAMPLE:

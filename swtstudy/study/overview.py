@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value
 from swtstudy.quantities import DISTANCE, QUANTITIES
-from swtstudy.units.grid import PhysicalGrid
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -34,8 +33,7 @@ def as_html(study: Study) -> str:
     rows = [_row(grid, *each) for each in along]
     rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
     rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
-    if isinstance(grid, PhysicalGrid):
-        rows += [_row(grid, "of each body", name, two) for name, two in grid.pairs.items()]
+    rows += [_row(grid, "of each body", name, two) for name, two in grid.of_bodies.items()]
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
         f"<td>{escape(meaning)}</td></tr>"

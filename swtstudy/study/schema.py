@@ -15,12 +15,10 @@ from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
 from swtstudy.units.given import SIMILAR
-from swtstudy.units.grid import OF_BODIES
 from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
 from swtstudy.units.material import KEYS
-from swtstudy.units.reading import SIMILAR_KEY
-from swtstudy.units.rows import kind_of
+from swtstudy.units.rows import OF_BODIES, SIMILAR_KEY, kind_of
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"
@@ -70,7 +68,8 @@ _LOAD_DESCRIPTIONS = {
     "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
 }
 _FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, contours or a heat map over x and vertical; scatter or histogram of a sample.",
+    "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
+    "scatter or histogram of a sample.",
     "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
     "vertical": "Axis along the vertical axis of contours or a heat map.",
     "hue": "Axis whose values are the lines.",

@@ -29,7 +29,7 @@ _ALLOWED = {
     "loads": "a table of loops, [loads.NAME]",
     "profiles": "a table of profiles, [profiles.NAME]",
     "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
-    "figure.kind": '"lines", "contour", "heatmap", "scatter" or "histogram"',
+    "figure.kind": '"lines", "life", "contour", "heatmap", "scatter" or "histogram"',
     "figure.vertical": "the name of an axis",
     "figure.x": "the name of an axis",
     "figure.hue": "the name of an axis",

@@ -45,7 +45,7 @@ class SampleTable(_Table):
 class FigureTable(_Table):
     """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    kind: Literal["lines", "contour", "heatmap", "scatter", "histogram"] = "lines"
+    kind: Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"] = "lines"
     x: str
     vertical: str | None = None
     hue: str | None = None

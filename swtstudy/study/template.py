@@ -6,6 +6,7 @@ from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.axes import QUANTITY_AXES
 from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter
 from swtstudy.quantities import DISTANCE, NAMED
+from swtstudy.sampling.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 from swtstudy.units.labels import Units
@@ -37,6 +38,13 @@ rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
 [axes]
 normal_amplitude = [0.25, 0.5, 0.75]
 phase = {{ start = 0, stop = "2*pi", num = 49 }}  # spacing = "log" gives equal ratios
+
+# Or points drawn from ranges, instead of axes or beside them: then x = "sample" below, with kind = "scatter".
+# [sample]
+# design = "sobol"  # or {" or ".join(quoted(name) for name in DESIGNS if name != "sobol")}
+# size = 256
+# seed = 1
+# ranges = {{ friction = [0.1, 0.5], phase = [0, "2*pi"] }}  # or a table: distribution = "normal", …
 
 # Every axis needs a place here. Without this table there is an archive, but no figure.
 [figure]

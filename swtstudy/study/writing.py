@@ -10,7 +10,6 @@ from swtstudy.grid.values import Value
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, NOTHING, Request
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.grid import PhysicalGrid
 
 
 def to_toml(
@@ -35,7 +34,7 @@ def to_toml(
     if asked.names:
         lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
     single, several = ((), asked.distances) if asked.is_axis else (asked.distances, ())
-    tables, fixed = _of_contacts(grid) if isinstance(grid, PhysicalGrid) else ([], [])
+    tables, fixed = _of_contacts(grid)
     lines += [*tables, "", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
     lines += fixed
     lines += [f"{DISTANCE} = {value!r}" for value in single]
@@ -59,8 +58,12 @@ def to_toml(
     return "\n".join(lines) + "\n"
 
 
-def _of_contacts(grid: PhysicalGrid) -> tuple[list[str], list[str]]:
+def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
+    from swtstudy.units.grid import PhysicalGrid
+
+    if not isinstance(grid, PhysicalGrid):
+        return [], []
     tables = ["", "[units]", *(f"{kind} = {quoted(label)}" for kind, label in vars(grid.units).items())]
     if grid.materials:
         pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)

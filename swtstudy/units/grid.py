@@ -29,9 +29,6 @@ if TYPE_CHECKING:
 
     from swtstudy.mechanics.points import IntArray
 
-#: Parameters of the two bodies.
-OF_BODIES = ("young_modulus", "poisson_ratio")
-
 
 @dataclass(frozen=True)
 class PhysicalGrid(Grid):
@@ -64,6 +61,11 @@ class PhysicalGrid(Grid):
     def rows(self) -> dict[str, Parameter]:
         """The rows of the parameters, with their units."""
         return rows(self.units)
+
+    @property
+    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
+        """See `Grid.of_bodies`."""
+        return self.pairs
 
     def row(self, name: str) -> Parameter:
         """See `Grid.row`."""

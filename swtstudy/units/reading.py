@@ -17,13 +17,10 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, Parameter, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
-from swtstudy.units.grid import OF_BODIES, PhysicalGrid
+from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.rows import MEAN_LOADS, rows
-
-#: A fixed value that is no parameter: it says which bodies are similar.
-SIMILAR_KEY = "similar"
+from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,10 @@ from swtstudy.units.sizes import LARGEST, SMALLEST
 
 #: What must be given of a real contact: it has no usual friction.
 WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
+#: Parameters that each of the two bodies has.
+OF_BODIES = ("young_modulus", "poisson_ratio")
+#: A fixed value that is no parameter: it says which bodies are similar.
+SIMILAR_KEY = "similar"
 #: What is 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
 #: The kinds of what has a unit.

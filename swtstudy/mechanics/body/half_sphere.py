@@ -58,7 +58,7 @@ class HalfSpheres:
     def places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Radius, depth, and angle about the axis from the centre, each of shape (N,)."""
         side = replace(self, distances=SIDE, inclinations=SIDE)
-        both = self._grid(self.along), side._grid(self.along + 1)
+        both = self.grid(self.along), side.grid(self.along + 1)
         radius, depth, angle = (np.concatenate(parts) for parts in zip(*both, strict=True))
         return radius, depth, angle
 
@@ -101,7 +101,8 @@ class HalfSpheres:
         fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))
         return side._weights(size, self.along + 1) - fewer.reshape(len(size), -1)
 
-    def _grid(self, along: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def grid(self, along: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radius, depth and angle of places, so many of them on half of each arc."""
         distance = (self.largest * gauss(self.distances)[0] ** POWER)[:, None]
         inclination = self._most(distance) * _inclined(gauss(self.inclinations)[0])
         radius = self._radius(distance, inclination)

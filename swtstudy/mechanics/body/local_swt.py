@@ -49,7 +49,7 @@ NEAREST = 6
 #: share need no other one.
 PEAKS, SETTLED = (2, 1, 1, 1), 1e-3
 #: What is missing at last, over what each round added: means of scenes all over the parameters miss less.
-DOUBTS = (0.1, 1.0, 1.0, 1.0)
+DOUBTS = (0.1, 0.5, 0.5, 0.5)
 
 
 class Places(NamedTuple):
@@ -114,7 +114,8 @@ class LocalSwt:
         normal = highest_coarse_planes(stress, every, self.ν, self.γ)
         instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
         hot = np.zeros(instant.shape, dtype=bool)
-        for curve in self._curves(stress, highest_planes(stress, every, self.ν, self.γ)[1]):
+        _, normal = climb_from(stress, self.ν, highest_coarse_planes(stress, every, self.ν, self.γ), self.γ)
+        for curve in self._curves(stress, normal):
             hot |= near_maximum(curve, HOT)
         row, column = np.nonzero(hot)
         at = instant[row, column]

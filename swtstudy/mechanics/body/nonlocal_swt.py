@@ -25,17 +25,17 @@ from swtstudy.parameters import DIRECTIONS
 
 #: Distances from the circle, and inclinations, of the places in the half spheres, and places on a line: more
 #: while a mean is not as accurate as asked for.
-COUNTS, LINE_COUNTS = ((7, 13), (9, 19), (11, 25), (15, 33), (19, 41)), (11, 17, 25, 37)
+COUNTS, LINE_COUNTS = ((7, 13), (9, 19), (11, 25), (15, 33), (19, 41)), (17, 25, 37, 55)
 #: The distance from the critical point is this power of the abscissa of a line.
 LINE_POWER = 4
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells).
-OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.25, 0.02, 0.3, 3e-4
+OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.25, 0.025, 0.3, 3e-4
 #: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
 #: many planes are alike.
 OF_LARGEST = 2e-5
 #: The error for want of places falls like about this power of their number.
-ORDER = 2.2
+ORDER, MARGIN = 2.2, 1.3
 #: The least error claimed of a single value, over that.
 OF_POINT = 1e-3
 #: A value below this is none.
@@ -153,38 +153,65 @@ class _Around:
         self.scene, self.x, self.into, self.distance = scene, x, into, distance
         self.largest = float(distance.max())
         self.local: dict[Fineness, LocalSwt] = {}
+        self.first: dict[Callable[[int], Places], FloatArray] = {}
 
     def in_spheres(self, level: int, fineness: int) -> Found:
         """Means over half spheres, shape (k,)."""
-        spheres = HalfSpheres(abs(self.x), self.largest, *COUNTS[level])
-        swt, missing = self._local(FINENESS[fineness]).swt(self._of_spheres(spheres))
+        swt, missing = self._swt(self._in_spheres, level, fineness)
+        spheres = self._spheres(level)
         weights = spheres.weights(self.distance)
         change, off = spheres.changes(self.distance, swt)
         return weights @ swt, OF_CHANGE * change + OF_OFF * off, weights @ missing
 
     def on_lines(self, level: int, fineness: int) -> Found:
         """Values at ℓ/2, and means over 0 … 2ℓ, along the vectors, shape (2, k, d)."""
-        abscissa = 0.5 - 0.5 * np.cos(np.pi * np.arange(1, LINE_COUNTS[level] + 1) / (LINE_COUNTS[level] + 1))
-        away = np.concatenate([0.5 * self.distance, 2.0 * self.largest * abscissa**LINE_POWER])
-        swt, missing = self._local(FINENESS[fineness]).swt(self._of_lines(away))
-        found = np.stack([swt, missing]).reshape(2, away.size, -1)
+        swt, missing = self._swt(self._on_lines, level, fineness)
+        found = np.stack([swt, missing]).reshape(2, -1, len(self.into))
         (point, line), (no_point, no_line) = (np.split(v, [self.distance.size]) for v in found)
+        abscissa = _abscissae(LINE_COUNTS[level])
         weights = self._line_weights(abscissa)
         off = np.abs(line - interpolation(abscissa[::2], abscissa) @ line[::2])
         error = OF_LARGEST * swt.max() + np.stack([np.zeros_like(point), OF_LINES * np.abs(weights) @ off])
         return np.stack([point, weights @ line]), error, np.stack([no_point, weights @ no_line])
+
+    def _swt(
+        self, places: Callable[[int], Places], level: int, fineness: int
+    ) -> tuple[FloatArray, FloatArray]:
+        """swt at places, and what is missing of it; the first ones of both kinds at a time."""
+        if level or fineness:
+            return self._local(FINENESS[fineness]).swt(places(level))
+        if not self.first:
+            kinds = self._in_spheres, self._on_lines
+            parts = [of_kind(0) for of_kind in kinds]
+            both = Places(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+            found = np.stack(self._local(FINENESS[0]).swt(both))
+            cut = [parts[0].radius.size]
+            self.first = dict(zip(kinds, np.split(found, cut, axis=1), strict=True))
+        swt, missing = self.first[places]
+        return swt, missing
+
+    def _spheres(self, level: int) -> HalfSpheres:
+        return HalfSpheres(abs(self.x), self.largest, *COUNTS[level])
+
+    def _in_spheres(self, level: int) -> Places:
+        return self._turned(*self._spheres(level).places())
+
+    def _on_lines(self, level: int) -> Places:
+        away = 2.0 * self.largest * _abscissae(LINE_COUNTS[level]) ** LINE_POWER
+        return self._of_lines(np.concatenate([0.5 * self.distance, away]))
 
     def _local(self, fineness: Fineness) -> LocalSwt:
         """swt at the instants that matter at some of the places."""
         if fineness not in self.local:
             spheres = HalfSpheres(abs(self.x), self.largest, *SHOWN)
             lines = self._of_lines(self.largest * np.array([0.1, 0.6, 2.0]))
-            some = (np.concatenate(parts) for parts in zip(self._of_spheres(spheres), lines, strict=True))
+            inside = self._turned(*spheres.grid(1))
+            some = (np.concatenate(parts) for parts in zip(inside, lines, strict=True))
             self.local[fineness] = LocalSwt(self.scene, abs(self.x), Places(*some), fineness)
         return self.local[fineness]
 
-    def _of_spheres(self, spheres: HalfSpheres) -> Places:
-        radius, depth, angle = spheres.places()
+    def _turned(self, radius: FloatArray, depth: FloatArray, angle: FloatArray) -> Places:
+        """Places at angles from the critical point."""
         return Places(radius, depth, angle if self.x >= 0.0 else np.pi - angle)
 
     def _of_lines(self, away: FloatArray) -> Places:
@@ -199,6 +226,11 @@ class _Around:
         weight = LINE_POWER * node ** (LINE_POWER - 1) * weight
         scaled = (self.distance[:, None] / self.largest) ** (1.0 / LINE_POWER) * node
         return np.asarray(weight @ interpolation(abscissa, scaled))
+
+
+def _abscissae(count: int) -> FloatArray:
+    """Places along a line, denser towards both ends, in (0, 1)."""
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(1, count + 1) / (count + 1)))
 
 
 def _refined(
@@ -217,7 +249,7 @@ def _refined(
         more = level + 1 < len(counts) and excess > 1.0
         if np.all(error <= rtol * size) or not (finer or more):
             return value, error
-        wanted = counts[level] * excess ** (1.0 / ORDER)
+        wanted = counts[level] * (MARGIN * excess) ** (1.0 / ORDER)
         while more and level + 1 < len(counts):
             level += 1
             if counts[level] >= wanted:

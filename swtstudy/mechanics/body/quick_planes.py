@@ -23,6 +23,8 @@ BESIDE = 6
 NEAR = 0.7
 #: Highest planes from which to climb. Four: one of 2,600 histories was more than 1e-3 low; two: 17 were.
 CANDIDATES = 4
+#: Last step of a climb, rad: its square is the error. 1e-9: twice the steps.
+LAST_STEP = 3e-3
 #: Histories in the coarse search at a time.
 BLOCK = 16
 
@@ -106,7 +108,8 @@ def highest_coarse_planes(
 def climb_from(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
     """Summits of swt over E* δ0/R, (m,), and their normals, (m, 3), from normals nearby."""
     modulus = 1.0 - ν**2
-    return climb(stress, strain_history(stress, ν, modulus), start, Walker.of(γ, modulus, len(start)))
+    strain = strain_history(stress, ν, modulus)
+    return climb(stress, strain, start, Walker.of(γ, modulus, len(start)), LAST_STEP)
 
 
 @lru_cache(maxsize=1)

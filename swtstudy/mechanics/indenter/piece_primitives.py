@@ -11,7 +11,6 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import binom
 
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces
@@ -124,6 +123,8 @@ class PiecePrimitives(Primitives):
 
 def _in_powers_of_w(coefficients: FloatArray, start: FloatArray) -> FloatArray:
     """Coefficients in powers of w from those in powers of w − start."""
+    from scipy.special import binom  # as long to import as all else, and few need it
+
     degree = len(coefficients)
     i, k = np.arange(degree)[:, None], np.arange(degree)
     shifts = (-start) ** np.maximum(i - k, 0)[..., None]

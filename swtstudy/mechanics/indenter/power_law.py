@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import beta, betainc, binom, hyp2f1
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.numerics import chebyshev
@@ -45,6 +44,8 @@ class PowerLaw(Profile):
     @classmethod
     def length_law(cls, **shape: float) -> tuple[float, float]:
         # f = rⁿ/(n Rⁿ⁻¹), whose slope at R is 1: g = ξ/2 B(n/2, 1/2) (ξ/R)ⁿ⁻¹, and a_H = √(R δ0) at n = 2.
+        from scipy.special import beta  # as long to import as all else, and few need it
+
         n = shape["exponent"]
         return 0.5 * float(beta(0.5 * n, 0.5)), 1.0 / n
 
@@ -130,6 +131,8 @@ def _aligned(series: FloatArray, like: FloatArray) -> FloatArray:
 
 def _inner_series(exponent: FloatArray, digits: float) -> FloatArray:
     """∫ sinⁿα dα over sinⁿ⁺¹α in (2α/π)²."""
+    from scipy.special import beta, betainc
+
     count = math.ceil(digits) + INNER_NODES
     n = exponent[:, None]
     sine = np.sin(0.5 * np.pi * np.sqrt(0.5 * (1.0 + chebyshev.nodes(count))))
@@ -139,6 +142,8 @@ def _inner_series(exponent: FloatArray, digits: float) -> FloatArray:
 
 def _near_series(exponent: FloatArray, digits: float) -> FloatArray:
     """Π over n aⁿ⁻¹ S, S² = 1 − (r/a)², in S² up to 1/2."""
+    from scipy.special import hyp2f1
+
     count = math.ceil(OUTER_NODES_PER_DIGIT * digits)
     return chebyshev.series(
         hyp2f1(1.0, 1.0 - 0.5 * exponent[:, None], 1.5, 0.25 * (1.0 + chebyshev.nodes(count)))
@@ -154,6 +159,8 @@ class _FarSeries:
     """
 
     def __init__(self, exponent: FloatArray, digits: float) -> None:
+        from scipy.special import binom, hyp2f1
+
         k = np.arange(TERMS)
         pole = np.rint(0.5 * (exponent - 1.0))
         self.even, self.offset = 2.0 * pole, exponent - 1.0 - 2.0 * pole

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PPoly
 
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameters import BUILT_IN
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
 
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6

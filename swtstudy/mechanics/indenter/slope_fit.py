@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, PPoly, make_smoothing_spline
-from scipy.optimize import brentq
 
 from swtstudy.mechanics.points import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.interpolate import PPoly
 
 #: Degree of g′/ξ on a piece.
 DEGREE = 4
@@ -43,6 +45,10 @@ def spline(radius: FloatArray, height: FloatArray, smoothing: float) -> PPoly:
     smoothing
         Root mean square of what it may miss of the heights; 0 to miss none.
     """
+    # As long to import as all else, and few need it.
+    from scipy.interpolate import CubicSpline, PPoly, make_smoothing_spline
+    from scipy.optimize import brentq
+
     face = int(np.argmax(height != 0.0)) - 1
     r, f = radius[face:].copy(), height[face:]
     if face > 0:

@@ -95,8 +95,8 @@ def _somewhere(scene: Scene, found: Maximum) -> Maximum:
 def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray:
     """swt on a circle whose ``top`` and ``base`` on the line share their errors, which the line's has not."""
     same = base > SAME_SHARE * line
-    gain = np.divide(top, base, out=np.ones_like(top), where=same)
-    return np.where(same, line * gain, np.maximum(line, top))
+    gain = np.divide(top, base, out=np.ones_like(top), where=same) - 1.0
+    return np.where(same, line * (1.0 + gain), np.maximum(line, top))
 
 
 def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:

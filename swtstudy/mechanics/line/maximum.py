@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.passages import split_at_breakpoints
+from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import first_look
@@ -33,6 +34,15 @@ LARGEST_ROUND_COUNT = 16
 PART_SIZE = 400_000
 #: Least error that is claimed, as a share of the tolerance. Half: none of 128 points misses s_error.
 LEAST_SHARE = 0.25
+#: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
+#: sharp tip, lost contact and large friction miss s_error.
+SLOWNESS = 3.0
+#: Nearer to the centre than this, in the largest radius, there is a tip, where extremes may be next to events
+#: at all scales of time: they are looked at with so many times the instants, too.
+TIP, TIMES_AT_TIP = 1e-6, 8
+#: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
+#: has more digits than r. A hundredth and a hundred times: about 1e-7.
+REACH = 1e-8
 #: Rounding is looked for where this share of what it may be is more than the error. Half or twice: none of
 #: 128 points misses s_error.
 LARGEST_SHOWN = 0.5
@@ -44,7 +54,7 @@ SHOWN = 1.5
 NEIGHBOURS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8])
 FARTHER = np.outer([-1, 1], 8 ** np.arange(2, 7)).ravel()
 #: Zooms and digits more with which they are looked at: other instants, and tables, show other rounding.
-LOOKS = ((0, 0.0), (1, 0.0), (2, 2.0), (4, 0.0))
+LOOKS = ((0, 0.0), (1, 0.0), (2, 2.0), (3, 2.0), (4, 0.0))
 
 
 @dataclass(frozen=True)
@@ -96,15 +106,45 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         better = (again.error < found.error[doubtful]) & (
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
+        gain = np.abs(again.swt - found.swt[doubtful])
         found = found.put(doubtful[better], again.take(better))
+        # What converges slowly, as next to a sharp tip, has left more than it has gained.
+        error = found.error[doubtful]
+        slow = error > accuracy.tolerance * found.swt[doubtful]
+        found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
+    tip = np.flatnonzero(np.abs(found.position) < TIP * scene.profile.radius(scene.profile.largest_depth))
+    if tip.size:
+        left = SLOWNESS * _left_at_tip(scene.take(tip), found.take(tip), accuracy.check)
+        found.error[tip] = np.maximum(found.error[tip], left)
     noise = _noise(scene, np.abs(found.position)[:, None])
     of_stress = (noise + _of_tables(scene, accuracy.check)) * np.sqrt(found.swt)
     may_be = np.maximum(_share_within_rounding(scene, found) * found.swt, of_stress)
-    rows = np.flatnonzero((found.swt > 0.0) & (LARGEST_SHOWN * may_be > found.error))
+    shows = (found.swt > 0.0) & (LARGEST_SHOWN * may_be > found.error)
+    if scene.profile.has_singular_edge:
+        # Nearer, the limit counts.
+        flat = scene.profile.flat_radius
+        shows &= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
+    rows = np.flatnonzero(shows)
     if rows.size:
         spread = np.maximum(_spread(scene.take(rows), found.take(rows), accuracy.check), noise[rows] ** 2)
         found.error[rows] = np.maximum(found.error[rows], SHOWN * spread)
     return found
+
+
+def reach_of_edge(profile: Profile) -> FloatArray:
+    """How near to a singular edge, over its radius, swt is taken from the limit, shape (n,)."""
+    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
+    reach = REACH * np.minimum(radius - flat, flat)
+    return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
+
+
+def _left_at_tip(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
+    """How much many more instants change swt at the n positions of the maxima, shape (n,)."""
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    more = replace(resolution, nodes=TIMES_AT_TIP * resolution.nodes)
+    place = np.abs(found.position)[:, None], np.sign(found.position), found.double_angle[:, None]
+    value, _ = refine(split, *place, more)
+    return np.abs(value[:, 0] - found.swt)
 
 
 def _noise(scene: Scene, r: FloatArray) -> FloatArray:

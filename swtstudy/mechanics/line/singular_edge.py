@@ -28,11 +28,11 @@ from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate
 from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
-from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum
+from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum, reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, curves, of_maxima
@@ -55,9 +55,6 @@ FINER = 2, 4, 8, 16
 #: The spring at r = b⁺ for the events of the cycle, by its w/b, and how exactly that is known. A hundredth or
 #: a hundred times the first, half or twice the second: no change at 32 points.
 ONSET, BESIDE = 1e-7, 0.3
-#: Distance from r = b, over the face or the ring beside it, from which the limit has more digits than r.
-#: A hundredth and a hundred times: about 1e-7.
-REACH = 1e-8
 #: Where |q| is nearer to μp than this, relative, the spring at r slips. A hundred times: 3e-9.
 SLIDES = 1e-9
 #: Relative error by what is left out: of the orders ε and `ONSET`.
@@ -121,18 +118,12 @@ def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
     """The maxima found along x of n truncated paraboloids that slide, μ < 1, or those next to r = b."""
     edge = _maximum_at_edge(scene, accuracy)
     distance = np.abs(found.position) / scene.profile.flat_radius - 1.0
-    better = (edge.swt > found.swt) | ((distance > 0.0) & (distance < _reach(scene.profile)))
+    better = (edge.swt > found.swt) | ((distance > 0.0) & (distance < reach_of_edge(scene.profile)))
     return found.put(better, edge.take(better))
 
 
-def _reach(profile: Profile) -> FloatArray:
-    """ε up to which the limit is used, shape (n,)."""
-    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
-    return REACH * np.minimum(radius - flat, flat) / flat
-
-
 def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
-    """Largest swt at 0 < ε ≤ `_reach`."""
+    """Largest swt at 0 < ε ≤ `reach_of_edge`."""
     # The instant at which the front arrives at G = 0 is a breakpoint.
     scene = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
     n = len(scene)
@@ -140,7 +131,7 @@ def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     found = Maximum.unknown(n, 0.0)
     radius = scene.profile.radius(scene.profile.largest_depth)
     flat = scene.profile.flat_radius
-    nearest = -np.log(_reach(scene.profile))
+    nearest = -np.log(reach_of_edge(scene.profile))
     # Beyond this no plane is in tension.
     farthest = nearest + 20.0 * (1.0 + radius / flat) / (1.0 - scene.friction)
     steps = STEPS_PER_DIGIT * math.ceil(-math.log10(accuracy.tolerance))

@@ -49,7 +49,11 @@ def symmetric_tensor(components: FloatArray) -> FloatArray:
 
 
 def climb(
-    stress: FloatArray, strain: FloatArray, start: FloatArray, walker: Walker | None = None
+    stress: FloatArray,
+    strain: FloatArray,
+    start: FloatArray,
+    walker: Walker | None = None,
+    last_step: float = SMALLEST_STEP,
 ) -> tuple[FloatArray, FloatArray]:
     """Climb to a summit of swt(n) for each history.
 
@@ -61,6 +65,8 @@ def climb(
         Shape (n, 3): unit normals.
     walker
         The criterion, shape (n,); None for swt.
+    last_step
+        Last step of a climb, rad: the height's relative error is its square.
 
     Returns
     -------
@@ -86,7 +92,7 @@ def climb(
         swt[moved], normal[moved] = value[up], trial[up]
         tension[moved], elongation[moved] = new_tension[up], new_elongation[up]
         trust[going[~up]] = 0.25 * np.linalg.norm(step[~up], axis=-1)
-        going = going[np.minimum(np.linalg.norm(step, axis=-1), trust[going]) > SMALLEST_STEP]
+        going = going[np.minimum(np.linalg.norm(step, axis=-1), trust[going]) > last_step]
     return swt, normal
 
 

@@ -39,4 +39,5 @@ def bulk_shift(points: Points) -> FloatArray:
         ends = np.maximum(np.stack([stick, load.largest_normal], axis=1), 0.0)
         stick_radius, largest = coordinate.radius(ends).T
         width[index] = np.where(stick >= 0.0, largest - stick_radius, np.nan)
-    return np.where((μ > 0.0) & (shift <= width), shift, np.nan)
+    # Infinite without friction.
+    return np.where(shift <= width, shift, np.nan)
