@@ -176,6 +176,19 @@ def audit() -> None:
     says("At the {} audited points it missed none", int(looked.sum()))
 
 
+def audit_of_bulk_stress() -> None:
+    name = "audit_bulk_stress_box.md"
+    (points,) = numbers(name, "{} points, each solved")
+    says("there were {} more random points", points)
+    enough = numbers(name, "the surface line is enough at {} of {} points")
+    assert enough[0] == enough[1]
+    says("the line is enough at {} of {} points", *enough)
+    above = "The solver's s_surface is more than 0.1% above s at {} points: {} of the {} at which"
+    says("greater than s at {} of the {} points at which the line is not enough", *numbers(name, above)[1:])
+    said = "The body's maximum exceeds s_surface at {} points, by up to {}%"
+    says("may be too low, at {} points by up to {} %", *numbers(name, said))
+
+
 def stability() -> None:
     names = ("stability", "stability_small_motion", "stability_friction", "stability_thin_annulus")
     walks = {name: open_results(RESULTS / f"{name}.nc") for name in names}
@@ -278,6 +291,7 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     chart,
     field,
     audit,
+    audit_of_bulk_stress,
     stability,
     lives,
     checks,

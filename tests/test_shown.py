@@ -55,13 +55,15 @@ def fresh(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def clone(fresh, tmp_path_factory):
-    """Such a copy in which commands leave what they make; a.nc, b.nc, merged.nc and worn.csv are there."""
+    """Such a copy in which commands leave what they make; archives to merge, worn.csv, rig.toml are there."""
     folder = shutil.copytree(fresh, tmp_path_factory.mktemp("commands") / "clone")
     for name in "ab":
         shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
     shutil.copy2(folder / "results" / "contour.nc", folder / "merged.nc")
     rows = "".join(f"{r / 10},{max(r / 10 - 0.3, 0.0) ** 2}\n" for r in range(25))
     (folder / "worn.csv").write_text(f"radius,height\n{rows}")
+    (rig,) = (block for block in TOML if block.page.name == "README.md")
+    (folder / "rig.toml").write_text(rig.text)
     return folder
 
 
