@@ -102,9 +102,7 @@ class Look:
     def brackets(self, instants: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> TimeBrackets:
         """Brackets around instants, shape (n, X, e); for ``falling`` see `TimeBrackets.around`."""
         stretch, place = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
-        # A turn of the bulk stress is no event: a short stretch before it leaves no layer.
-        graded = None if self.line.bulk is not None else falling
-        return TimeBrackets.around(self.parts, self.count, stretch, place, graded)
+        return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
