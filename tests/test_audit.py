@@ -103,6 +103,7 @@ def test_command_goes_on_where_it_was(tmp_path):
     assert outcome.exit_code == 0, outcome.output
     dataset = open_audit(tmp_path / "audit_two.nc")
     assert dataset.sizes["sample"] == 2
+    assert dataset.attrs["seed"] == 0
     known = dataset.poisson_ratio == float(first.poisson_ratio[0])
     np.testing.assert_allclose(dataset.s_body[known], 3.0 * first.s_body)
     new = dataset.isel(sample=np.flatnonzero(~known))

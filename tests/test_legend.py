@@ -8,10 +8,12 @@ import xarray as xr
 from made_up import made_up
 from matplotlib import colormaps
 from matplotlib.colors import to_rgba
+from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.scale import hue_scale
+from swtstudy.figures.style import MARKERS
 from swtstudy.parameters import FAMILIES
 from swtstudy.wording import place_words
 
@@ -148,3 +150,7 @@ def test_one_scale_stands_beside_all_panels():
     assert len(figure.axes) == 5
     figure.savefig(BytesIO(), format="png")
     assert all(axes.bbox.x1 < figure.axes[4].bbox.x0 for axes in figure.axes[:4])
+
+
+def test_every_marker_is_one_that_matplotlib_draws():
+    assert len({MarkerStyle(each).get_marker() for each in MARKERS}) == len(MARKERS)

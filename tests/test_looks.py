@@ -10,6 +10,7 @@ import pytest
 from scenes import random_points
 
 from swtstudy.mechanics.events.nodes import _places
+from swtstudy.mechanics.events.stretches import meet
 from swtstudy.mechanics.line.first_look import local_maxima
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.line.samples import of_extremes
@@ -98,3 +99,10 @@ def test_some_rows_of_a_look_are_a_look_at_these(profile):
     for values, expected in zip(vars(closer).values(), vars(same).values(), strict=True):
         np.testing.assert_array_equal(values, expected)
     assert some.line.growth.count > 0
+
+
+def test_stretches_meet_at_one_instant_and_over_the_end_of_the_cycle():
+    period = 2.0 * np.pi
+    end = np.array([1.0, period, 1.0, 0.0, 1.0])
+    begin = np.array([1.0, 0.0, period - 1.0, period, 1.1])
+    assert meet(end, begin).tolist() == [True, True, False, True, False]

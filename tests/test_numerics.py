@@ -18,7 +18,13 @@ from swtstudy.mechanics.numerics.arrays import (
 )
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.numerics.peaks import near_maximum, parabola, polynomial_maximum, vertex_near
+from swtstudy.mechanics.numerics.peaks import (
+    near_maximum,
+    parabola,
+    parabola_maximum,
+    polynomial_maximum,
+    vertex_near,
+)
 from swtstudy.mechanics.numerics.roots import sign_changes
 
 RNG = np.random.default_rng(7)
@@ -171,3 +177,13 @@ def test_sign_changes_find_two_zeros_of_one_cell_too(roots) -> None:
     for function in (1, 2):
         assert inside[row == function].any(axis=0).tolist() == [root < 2.0 for root in roots]
     assert np.all(high - low < 0.2)
+
+
+def test_a_parabola_through_places_that_coincide_is_its_largest_value() -> None:
+    x = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, 1.0, 2.0]])
+    y = np.array([[1.0, 3.0, 2.0], [1.0, 2.0, 3.0], [0.0, 3.0, 2.0]])
+    with np.errstate(all="raise"):
+        place, height = parabola_maximum(x, y)
+    # The last is y = 5 x − 2 x².
+    np.testing.assert_allclose(place, [0.0, 1.0, 1.25])
+    np.testing.assert_allclose(height, [3.0, 3.0, 3.125])
