@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures import inspection_panels as panels
+from swtstudy.figures.panel_marks import limits
 
 #: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
 CATTANEO = {"normal_amplitude": 0, "tangential_amplitude": 0.36, "friction": 0.5}
@@ -242,13 +243,13 @@ def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
 
 def test_what_does_not_change_has_room_too():
     for value, size, middle in ((0.0, 0.0, 1.0), (2.0, 0.0, 2.0), (0.5, 1.0, 1.0)):
-        low, high = panels._limits(np.full(3, value), 0.1, 0.2, size)
+        low, high = limits(np.full(3, value), 0.1, 0.2, size)
         assert low == pytest.approx(value - 0.05 * middle - 0.1 * 0.1 * middle)
         assert high == pytest.approx(value + 0.05 * middle + 0.2 * 0.1 * middle)
     # Rounding is no change, anything more is.
-    low, high = panels._limits(np.array([1.0, 1.0 + 9e-14]), 0.0, 0.0)
+    low, high = limits(np.array([1.0, 1.0 + 9e-14]), 0.0, 0.0)
     assert high - low == pytest.approx(0.1)
-    assert panels._limits(np.array([1.0, 1.0 + 1e-9]), 0.0, 0.0) == (1.0, 1.0 + 1e-9)
+    assert limits(np.array([1.0, 1.0 + 1e-9]), 0.0, 0.0) == (1.0, 1.0 + 1e-9)
 
 
 def test_instants_of_one_place_have_one_mark(cattaneo, axes):

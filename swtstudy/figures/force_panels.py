@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.inspection_panels import (
-    _DOTTED,
-    _FAINT,
-    _draw_direction,
-    _instants,
-    _limits,
-    _mark_along,
-    _mark_over_time,
+from swtstudy.figures.maps import draw_time_axis
+from swtstudy.figures.panel_marks import (
+    DOTTED,
+    FAINT,
+    draw_direction,
     draw_edge_states,
+    instants,
+    limits,
+    mark_along,
+    mark_over_time,
     thin,
 )
-from swtstudy.figures.maps import draw_time_axis
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,10 +34,10 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
     highest = axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     for sign in (1.0, -1.0):
-        look: dict[str, Any] = {"color": _FAINT, "linewidth": thin(), "linestyle": "-", "marker": ""}
+        look: dict[str, Any] = {"color": FAINT, "linewidth": thin(), "linestyle": "-", "marker": ""}
         axes.plot([0.0, sign * highest], [0.0, highest], **look)
-    axes.set_xlim(_limits(force, 0.14, 0.14, 1.0))
-    axes.set_ylim(_limits(normal, 0.14, 0.14, 1.0))
+    axes.set_xlim(limits(force, 0.14, 0.14, 1.0))
+    axes.set_ylim(limits(normal, 0.14, 0.14, 1.0))
     axes.set_title(r"load plane of forces, $|F_x| \leq \mu F_N$", loc="left")
 
 
@@ -46,14 +46,14 @@ def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
     time = dataset.time
     axes.plot(time, dataset.normal_force, label=_words(dataset, "normal_force"))
     axes.plot(time, dataset.tangential_force, label=_words(dataset, "tangential_force"))
-    axes.plot(time, -dataset.normal_force, color=_FAINT, linestyle=_DOTTED, linewidth=thin(), marker="")
-    axes.axhline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
+    axes.plot(time, -dataset.normal_force, color=FAINT, linestyle=DOTTED, linewidth=thin(), marker="")
+    axes.axhline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     both = np.concatenate([dataset.normal_force.values, dataset.tangential_force.values])
-    axes.set_ylim(_limits(both, 0.08, 0.34))
+    axes.set_ylim(limits(both, 0.08, 0.34))
     for when in dataset.instant_time.values:
         axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
     draw_time_axis(axes, time)
-    _mark_over_time(axes, dataset, 0.94)
+    mark_over_time(axes, dataset, 0.94)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=2, fontsize="small")
     axes.set_title("forces over the cycle", loc="left")
 
@@ -71,12 +71,12 @@ def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     look: dict[str, Any] = {"color": "black", "linestyle": "-", "marker": ""}
     draw_edge_states(axes, x, y, dataset.edge_state.values)
     axes.plot(x, y, **look)
-    axes.axvline(0.0, color=_FAINT, linewidth=thin(), zorder=0)
-    axes.axhline(1.0 if up == "normal_force" else 0.0, color=_FAINT, linewidth=thin(), zorder=0)
-    axes.set_xlim(_limits(x, 0.14, 0.14, 1.0))
-    axes.set_ylim(_limits(y, 0.14, 0.14, 1.0))
-    _draw_direction(axes, x, y, [index for _, index in _instants(dataset)])
-    _mark_along(axes, dataset, x, y)
+    axes.axvline(0.0, color=FAINT, linewidth=thin(), zorder=0)
+    axes.axhline(1.0 if up == "normal_force" else 0.0, color=FAINT, linewidth=thin(), zorder=0)
+    axes.set_xlim(limits(x, 0.14, 0.14, 1.0))
+    axes.set_ylim(limits(y, 0.14, 0.14, 1.0))
+    draw_direction(axes, x, y, [index for _, index in instants(dataset)])
+    mark_along(axes, dataset, x, y)
     axes.set_xlabel(_words(dataset, across))
     axes.set_ylabel(_words(dataset, up))
 
