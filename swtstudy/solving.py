@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,18 +60,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    fixed: dict[str, object] = {}
-    axes: dict[str, Sequence[object] | None] = {}
-    mistakes: list[Mistake] = []
-    for name, raw in parameters.items():
-        dimensions = dimensions_of(raw)
-        if dimensions == 0:
-            fixed[name] = raw
-        elif dimensions == 1:
-            axes[name] = list(raw)  # type: ignore[call-overload]
-        else:
-            axes[name] = None
-            mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
+    fixed, axes, mistakes = spanned(parameters)
     if not is_rtol(rtol):
         mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
 
@@ -116,6 +105,25 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     columns = columns_at(grid, asked, unique, known.__getitem__)
     dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
+
+
+def spanned(
+    parameters: Mapping[str, object],
+) -> tuple[dict[str, object], dict[str, Sequence[object] | None], list[Mistake]]:
+    """Single values, sequences (None for what is neither), and the mistakes."""
+    fixed: dict[str, object] = {}
+    axes: dict[str, Sequence[object] | None] = {}
+    mistakes: list[Mistake] = []
+    for name, raw in parameters.items():
+        dimensions = dimensions_of(raw)
+        if dimensions == 0:
+            fixed[name] = raw
+        elif dimensions == 1:
+            axes[name] = list(raw)  # type: ignore[call-overload]
+        else:
+            axes[name] = None
+            mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
+    return fixed, axes, mistakes
 
 
 def dimensions_of(raw: object) -> int:

@@ -13,6 +13,20 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
 
 
+def sphere(young_modulus, poisson_ratio):
+    """One contact of the study."""
+    return physical(
+        young_modulus=young_modulus,
+        poisson_ratio=poisson_ratio,
+        radius=50.0,
+        friction=0.5,
+        normal_force=200.0,
+        normal_amplitude=2e-3,
+        tangential_amplitude=2.5e-3,
+        phase=np.pi / 2,
+    )
+
+
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
@@ -21,16 +35,7 @@ def solved(tmp_path_factory):
 def test_values_are_those_of_the_single_contact(solved):
     assert solved.s.dims == ("normal_force", "tangential_amplitude", "phase")
     point = solved.sel(normal_force=200, tangential_amplitude=2.5e-3).isel(phase=1)
-    contact = physical(
-        young_modulus=73.1e3,
-        poisson_ratio=0.33,
-        radius=50.0,
-        friction=0.5,
-        normal_force=200.0,
-        normal_amplitude=2e-3,
-        tangential_amplitude=2.5e-3,
-        phase=np.pi / 2,
-    )
+    contact = sphere(73.1e3, 0.33)
     alone = contact.solve(rtol=1e-3)
     assert point.SWT.item() == pytest.approx(alone.SWT.values[0], rel=1e-9)
     assert point.SWT_error.item() == pytest.approx(alone.SWT_error.values[0], rel=1e-6)
@@ -130,16 +135,7 @@ def test_bodies_that_differ_have_a_dimension(tmp_path):
     point = found.isel(normal_force=1, tangential_amplitude=1, phase=1)
     pair = (ALUMINIUM, FatigueConstants(150e3, 927.0, -0.113, 0.2, -0.713))
     pair = (FatigueConstants(210e3, *list(vars(ALUMINIUM).values())[1:]), pair[1])
-    contact = physical(
-        young_modulus=(210e3, 150e3),
-        poisson_ratio=(0.3, 0.33),
-        radius=50.0,
-        friction=0.5,
-        normal_force=200.0,
-        normal_amplitude=2e-3,
-        tangential_amplitude=2.5e-3,
-        phase=np.pi / 2,
-    )
+    contact = sphere((210e3, 150e3), (0.3, 0.33))
     alone = contact.solve(rtol=1e-3)
     np.testing.assert_allclose(point.SWT, alone.SWT, rtol=1e-9)
     np.testing.assert_allclose(point.cycles, contact.cycles(pair, alone.s), rtol=1e-6)

@@ -10,10 +10,12 @@ import numpy as np
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.grid.reading import read_distances
-from swtstudy.mistakes import Mistake, Report, StudyError, literal, plain_number
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
-from swtstudy.solving import dimensions_of, solve_grid
+from swtstudy.solving import dimensions_of, solve_grid, spanned
+from swtstudy.units.bodies import constants_of_both
+from swtstudy.units.given import wrong_carrier
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.reading import Given, completed, read_contacts
@@ -82,7 +84,11 @@ class PhysicalContacts:
         axes = {DISTANCE: list(critical_distance)} if several else {}  # type: ignore[call-overload]
         distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
         asked = Request(read_quantities(quantities, "quantities", report), *distances)
-        materials = _pair_of(constants, report)
+        materials: tuple[FatigueConstants, ...] = ()
+        try:
+            materials = () if constants is None else constants_of_both(constants)
+        except StudyError as error:
+            mistakes += error.mistakes
         if mistakes:
             raise StudyError(mistakes)
         return solve_grid(_with_materials(self.grid, materials), float(rtol), asked)
@@ -99,22 +105,16 @@ def contacts_from(
         A ValueError with every mistake.
     """
     given = {name: value for name, value in values.items() if value is not None}
-    dimensions = {name: dimensions_of(value) for name, value in given.items()}
-    mistakes = [
-        Mistake(name, literal(given[name]), "a single value or a one-dimensional sequence")
-        for name, count in dimensions.items()
-        if count > 1
-    ]
-    axes = {name: list(given[name]) for name, count in dimensions.items() if count == 1}  # type: ignore[call-overload]
-    fixed = {name: given[name] for name, count in dimensions.items() if count == 0}
+    fixed, several, mistakes = spanned(given)
+    axes = {name: sequence for name, sequence in several.items() if sequence is not None}
     fixed |= {name: _pair(value) for name, value in of_bodies.items() if value is not None}
     defined = {
         name: {each.name: each for each in axes.get(name, [fixed.get(name)]) if isinstance(each, Named)}
         for name in ("load", "profile")
     }
-    if plain_number(bulk_stress_body) not in (0.0, 1.0):
-        allowed = "0 or 1, the body that carries it"
-        mistakes.append(Mistake("bulk_stress_body", literal(bulk_stress_body), allowed))
+    wrong = wrong_carrier(bulk_stress_body)
+    if wrong:
+        mistakes += wrong
         bulk_stress_body = 0
     own = Given(bulk_stress_body=int(plain_number(bulk_stress_body)))
     grid, found = read_contacts({**fixed, "similar": similar}, axes, own, known=defined)
@@ -126,22 +126,6 @@ def contacts_from(
 def _pair(value: object) -> object:
     """A value, or a list of one for each body."""
     return list(value) if dimensions_of(value) == 1 else value  # type: ignore[call-overload]
-
-
-def _pair_of(constants: object, report: Report) -> tuple[FatigueConstants, ...]:
-    """The constants of both bodies; none if they are not given or wrong, which is reported."""
-    if constants is None:
-        return ()
-    pair = (constants, constants) if isinstance(constants, FatigueConstants) else constants
-    if (
-        isinstance(pair, list | tuple)
-        and len(pair) == 2
-        and all(isinstance(c, FatigueConstants) for c in pair)
-    ):
-        return tuple(pair)
-    allowed = "a FatigueConstants, or a pair of them for bodies of different materials"
-    report("constants", literal(constants), allowed)
-    return ()
 
 
 def _with_materials(grid: PhysicalGrid, materials: tuple[FatigueConstants, ...]) -> PhysicalGrid:

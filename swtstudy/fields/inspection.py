@@ -151,7 +151,7 @@ def _extent(scene: Scene) -> Variables:
 
 def _radii(scene: Scene, special: list[float]) -> FloatArray:
     """Distances from the axis: evenly spaced, at special places, and none where the pressure is infinite."""
-    largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
+    largest = float(scene.largest_radius[0])
     b = float(scene.profile.flat_radius[0])
     places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
     radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), places)

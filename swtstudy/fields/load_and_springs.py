@@ -47,7 +47,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     curves = {name: part[1] for name, part in cycle.items()}
     marked, reasons = marked_instants(time.values / time.values[-1], curves)
     some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
-    largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
+    largest = float(scene.largest_radius[0])
     radius = np.linspace(0.0, largest, _RADII)
     return xr.Dataset(
         {

@@ -77,10 +77,15 @@ def _names(regime: xr.DataArray) -> list[str | None]:
     return [names[int(value)] if np.isfinite(value) else None for value in regime.values]
 
 
+def _ends(x: NDArray[Any]) -> tuple[float, float]:
+    """Limits of the axis of x, also of a single value."""
+    return float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1
+
+
 def _scale_upright(axes: Axes, x: NDArray[Any], name: str) -> None:
     """Limits and ticks of a panel whose upright axis is x, over a logarithmic one."""
     axes.set_xscale("log")
-    axes.set_ylim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    axes.set_ylim(*_ends(x))
     if in_equal_ratios(x):
         axes.set_yscale("log")
         tick_in_ratios(axes.yaxis, float(x[0]), float(x[-1]))
@@ -90,7 +95,7 @@ def _scale_upright(axes: Axes, x: NDArray[Any], name: str) -> None:
 
 def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
     """Set limits, logarithmic axes and ticks that suit the curves."""
-    axes.set_xlim(float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1)
+    axes.set_xlim(*_ends(x))
     words = flag_words(values)
     if words:
         axes.set_yticks(range(len(words)), words)

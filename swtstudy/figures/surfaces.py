@@ -114,7 +114,7 @@ def _decades(low: float, high: float) -> Normalize:
 
 def _flag_colours(names: list[str]) -> dict[str, Any]:
     """A colour for each flag, in order from dark to light."""
-    from matplotlib import colormaps, rcParams
+    from matplotlib import colormaps
     from matplotlib.colors import BoundaryNorm
 
     colours = colormaps[rcParams["image.cmap"]].resampled(len(names))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
@@ -88,13 +87,3 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
     if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
         raise ValueError(f"not a contact: {literal(raw)}")
     return given, pairs
-
-
-def rows_in(attributes: Mapping[Any, Any]) -> Mapping[str, Any]:
-    """The rows of the parameters of results, with their units."""
-    from swtstudy.axes import AXES
-    from swtstudy.units.rows import rows
-
-    if ATTRIBUTE not in attributes:
-        return AXES
-    return {**AXES, **rows(read_contact(attributes[ATTRIBUTE])[0].units)}

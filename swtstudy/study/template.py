@@ -15,8 +15,8 @@ from swtstudy.units.rows import rows
 _USED = ("normal_amplitude", "phase")
 
 
-def template(title: str) -> str:
-    """The text of a study with two axes, and every other parameter as a comment."""
+def _head(title: str, results: str) -> str:
+    """What every template begins with."""
     return f"""\
 {SCHEMA_LINE.strip()}
 # Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this file.
@@ -25,8 +25,14 @@ def template(title: str) -> str:
 #   swtstudy run FILE         archive and figure, in the folder results
 title = {quoted(title)}
 rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
-# Computed beside s, as further results:
-# quantities = [{", ".join(map(quoted, NAMED))}]
+# Computed beside {results}, as further results:
+# quantities = [{", ".join(map(quoted, NAMED))}]"""
+
+
+def template(title: str) -> str:
+    """The text of a study with two axes, and every other parameter as a comment."""
+    return f"""\
+{_head(title, "s")}
 
 # Parameters with one value. Those not given have the values of the paper's Table 1, shown in the comments.
 # Numbers may also be texts: "8/9", "pi/2", "sqrt(20)".
@@ -58,15 +64,7 @@ hue = "normal_amplitude"
 def template_with_units(title: str) -> str:
     """The text of a study of real contacts, with every parameter that is not used as a comment."""
     return f"""\
-{SCHEMA_LINE.strip()}
-# Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this file.
-#   swtstudy validate FILE    all mistakes at once
-#   swtstudy plan FILE        how many points, how long
-#   swtstudy run FILE         archive and figure, in the folder results
-title = {quoted(title)}
-rtol = {DEFAULT_RTOL:g}  # relative accuracy asked of s: {ALLOWED_RTOL}
-# Computed beside SWT and cycles, as further results:
-# quantities = [{", ".join(map(quoted, NAMED))}]
+{_head(title, "SWT and cycles")}
 
 [units]  # any consistent set
 length = "mm"

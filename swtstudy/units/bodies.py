@@ -88,15 +88,26 @@ def cycles_from(
     StudyError
         If the constants are neither those of both bodies nor a pair.
     """
+    one, two = (each.cycles(np.asarray(swt)) for each in constants_of_both(constants))
+    cycles = np.where(bodies == 1, two, one)
+    return _labelled("cycles", cycles, swt, _CYCLES)
+
+
+def constants_of_both(constants: object) -> tuple[FatigueConstants, FatigueConstants]:
+    """The constants of each body.
+
+    Raises
+    ------
+    StudyError
+        If they are neither those of both bodies nor a pair.
+    """
     pair: Any = (constants, constants) if isinstance(constants, FatigueConstants) else constants
     if not isinstance(pair, list | tuple) or len(pair) != 2:
         pair = (None, None)
     if not all(isinstance(one, FatigueConstants) for one in pair):
         allowed = "a FatigueConstants, or a pair of them for bodies of different materials"
         raise StudyError([Mistake("constants", literal(constants), allowed)])
-    one, two = (each.cycles(np.asarray(swt)) for each in pair)
-    cycles = np.where(bodies == 1, two, one)
-    return _labelled("cycles", cycles, swt, _CYCLES)
+    return pair[0], pair[1]
 
 
 def _labelled(

@@ -117,9 +117,14 @@ def wrong_bulk(ratio: object, parameters: Mapping[str, object], body: object) ->
         if not -LARGEST < plain_number(ratio) < 1.0:
             allowed = "a number below 1: the least over the largest stress"
             mistakes.append(Mistake("bulk_stress_ratio", literal(ratio), allowed))
-    if plain_number(body) not in (0.0, 1.0):
-        mistakes.append(Mistake("bulk_stress_body", literal(body), "0 or 1, the body that carries it"))
-    return mistakes
+    return mistakes + wrong_carrier(body)
+
+
+def wrong_carrier(body: object) -> list[Mistake]:
+    """No body that carries a bulk stress."""
+    if plain_number(body) in (0.0, 1.0):
+        return []
+    return [Mistake("bulk_stress_body", literal(body), "0 or 1, the body that carries it")]
 
 
 def in_own_values(mistake: Mistake, lengths: Mapping[str, object]) -> Mistake:

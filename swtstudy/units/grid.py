@@ -18,7 +18,7 @@ from swtstudy.grid.values import as_number
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS, Parameter
 from swtstudy.quantities import Request, item_of
-from swtstudy.units.bulk import ends_of_bulk
+from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.rows import rows
@@ -85,10 +85,13 @@ class PhysicalGrid(Grid):
 
     def along(self, name: str) -> xr.DataArray:
         """The numbers of a parameter, over its dimension if it has one."""
+        return self._over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
+
+    def _over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
+        """Numbers that go with the values of a parameter."""
         import xarray as xr
 
         dim = self.dimension(name)
-        numbers = np.array([as_number(value) for value in self.values(name)])
         return xr.DataArray(numbers, dims=dim) if dim else xr.DataArray(numbers[0])
 
     @property
@@ -107,11 +110,8 @@ class PhysicalGrid(Grid):
                 scale = PARAMETERS[source].scale
                 found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
         if self.values("bulk_stress_ratio"):
-            ratio = self.along("bulk_stress_ratio")
-            least, largest = self._ends_of_bulk()
-            found["bulk_stress_mean"] = (
-                found["bulk_stress_amplitude"] * (ratio * largest - least) / (1.0 - ratio)
-            )
+            ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
+            found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self._ends_of_bulk())
         carries = self.bodies == self.bulk_stress_body
         return found | {
             name: values.where(carries, 0.0)
@@ -121,13 +121,8 @@ class PhysicalGrid(Grid):
 
     def _ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
         """See `ends_of_bulk`, over the loads."""
-        import xarray as xr
-
-        dim = self.dimension("load")
         ends = np.array([ends_of_bulk(load) for load in self.values("load")])
-        least, largest = (
-            xr.DataArray(each, dims=dim) if dim else xr.DataArray(each[0]) for each in np.transpose(ends)
-        )
+        least, largest = (self._over_dimension("load", each) for each in ends.T)
         return least, largest
 
     def of_body(self, name: str) -> xr.DataArray:

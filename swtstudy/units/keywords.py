@@ -15,7 +15,7 @@ from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profi
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, family_of, is_profile, replaced_by
-from swtstudy.units.bulk import ends_of_bulk
+from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.contact import Contact
 from swtstudy.units.given import (
     in_own_values,
@@ -81,8 +81,7 @@ def contact_from(
         raise StudyError(mistakes)
     if bulk_stress_ratio is not None:
         ratio, amplitude = plain_number(bulk_stress_ratio), plain_number(given["bulk_stress_amplitude"])
-        least, largest = ends_of_bulk(given["load"])
-        given["bulk_stress_mean"] = amplitude * (ratio * largest - least) / (1.0 - ratio)
+        given["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *ends_of_bulk(given["load"]))
     contact = replace(_contact(kind, given), bulk_stress_body=int(plain_number(bulk_stress_body)))
     if normal_force is not None:
         contact = replace(contact, depth=depth_at(contact, plain_number(normal_force)))

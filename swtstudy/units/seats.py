@@ -83,9 +83,9 @@ def seats_of(grid: PhysicalGrid) -> Seats:
     known: dict[tuple[Value, ...], Contact | None] = {}
     wrong: list[tuple[StudyError, dict[str, Value]]] = []
     contacts = np.empty(shape, object)
+    values = {name: grid.values(name) for name in SEAT_NAMES if grid.values(name)}
     for place in itertools.product(*map(range, shape)):
         at = dict(zip(dims, place, strict=True))
-        values = {name: grid.values(name) for name in SEAT_NAMES if grid.values(name)}
         own = {name: each[at[varying[name]]] if name in varying else each[0] for name, each in values.items()}
         key = tuple(own.values())
         if key not in known:

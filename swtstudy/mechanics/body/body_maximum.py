@@ -107,7 +107,7 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     maximum, at_line
         The search starts from the highest places of a first look and from the line's own maximum.
     """
-    largest = float(scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[0, 0])
+    largest = float(scene.largest_radius[0])
     far = _far_field(scene)
     line_is_far = not np.isfinite(line_x)
     line_x = largest if line_is_far else line_x

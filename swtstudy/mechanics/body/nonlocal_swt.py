@@ -44,8 +44,7 @@ TINY = 1e-300
 SPAN = 40.0
 #: Distances from the circle, and inclinations, of the places that show which part of the cycle matters.
 SHOWN = 3, 7
-#: How finely swt is searched for: finer while a mean is not as accurate
-#: as asked for.
+#: How finely swt is searched for: finer while a mean is not as accurate as asked for.
 FINENESS = (Fineness(3, 40), Fineness(6, 60))
 #: Abscissae of the integrals of the interpolation along a line.
 ABSCISSAE = 32

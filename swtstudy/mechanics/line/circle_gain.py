@@ -87,8 +87,7 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
 def _somewhere(scene: Scene, found: Maximum) -> Maximum:
     """The maxima with a place on the largest contact radius for those that have none."""
     nowhere = (found.swt == 0.0) | (np.isnan(found.position) & np.isfinite(found.swt))
-    largest = scene.coordinate.radius(scene.cycle.load.largest_normal[:, None])[:, 0]
-    position = np.where(nowhere, largest, found.position)
+    position = np.where(nowhere, scene.largest_radius, found.position)
     return replace(found, position=position, double_angle=np.where(nowhere, 0.0, found.double_angle))
 
 

@@ -81,6 +81,11 @@ class Scene:
         return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants())[0])
 
     @property
+    def largest_radius(self) -> FloatArray:
+        """Largest contact radius of each point in a_H, shape (n,)."""
+        return self.coordinate.radius(self.cycle.load.largest_normal[:, None])[:, 0]
+
+    @property
     def mirrored_half(self) -> bool:
         """Whether half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
