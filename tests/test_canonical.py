@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles.profiles import INDENTERS
 
+from swtstudy.families import FAMILIES, Family
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import (
     COLUMNS,
@@ -23,7 +24,8 @@ from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
 from swtstudy.mechanics.points import Points
-from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS, Family
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import PAIRS
 from swtstudy.runner.cutting import chunks
 
 

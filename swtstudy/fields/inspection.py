@@ -31,7 +31,7 @@ from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.parameters import PAIRS, Control
+from swtstudy.prescribed import PAIRS, Control
 from swtstudy.solving import solve
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.

@@ -22,7 +22,7 @@ from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import to_toml
 
 if TYPE_CHECKING:
-    from swtstudy.parameters import Parameter
+    from swtstudy.parameter import Parameter
     from swtstudy.sampling.reading import Sample
 
 

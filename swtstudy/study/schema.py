@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
+from swtstudy.families import families_with
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
@@ -185,7 +187,7 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     if parameter.default is not None:
         entry["default"] = parameter.default
     if parameter.kind == "name":
-        names = list(BUILT_IN[parameter.name])
+        names = list(parameter.names)
         # Beside the built-in ones there may be what the study defines.
         return entry | {"type": "string", "examples": names}
     kinds = ["number", "string"] + ["array"] * (parameter.name in OF_BODIES)
