@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states
 from swtstudy.mechanics.load.load import PERIOD, Load
@@ -35,6 +36,8 @@ class Cycle:
         Shape (n, i): number of the interval in the division from which it was selected.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
+    times
+        When the memory's growths were.
     forward, backward
         Shape (n, i): whether T − N rises, so that springs slip at τ = +w, and whether T + N falls, so
         that they slip at τ = −w. With neither of them the contact sticks.
@@ -47,6 +50,7 @@ class Cycle:
     end: FloatArray
     number: NDArray[np.intp]
     memory: Memory
+    times: GrowthTimes
     forward: NDArray[np.bool_]
     backward: NDArray[np.bool_]
     gross_slip: NDArray[np.bool_]
@@ -73,7 +77,7 @@ class Cycle:
 
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
-        return slip_states(self.load, self.memory, self.senses, interval, instant)
+        return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)
 
     @property
     def senses(self) -> Senses:
@@ -100,6 +104,7 @@ class Cycle:
             self.end[at],
             self.number[at],
             self.memory.take(at),
+            self.times.take(index),
             self.forward[at],
             self.backward[at],
             self.gross_slip[index],
