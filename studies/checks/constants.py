@@ -116,7 +116,7 @@ def main() -> None:
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
     arguments.add_argument("--quick", action="store_true", help="one constant at one point a profile")
     given = arguments.parse_args()
-    count, names = (1, ["look.HOT"]) if given.quick else (given.points, given.names or [""])
+    count, names = (1, ["look.AT_ONCE"]) if given.quick else (given.points, given.names or [""])
     samples: dict[str, Sample] = {}
     lines = []
     for part, (module, constant, text, others) in itertools.product(names, constants()):

@@ -32,8 +32,6 @@ class Cycle:
         The n loads.
     begin, end
         Shape (n, i): first and last instants φ of the intervals, ascending from 0 to `PERIOD`.
-    number
-        Shape (n, i): number of the interval in the division from which it was selected.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
     times
@@ -48,7 +46,6 @@ class Cycle:
     load: Load
     begin: FloatArray
     end: FloatArray
-    number: NDArray[np.intp]
     memory: Memory
     times: GrowthTimes
     forward: NDArray[np.bool_]
@@ -67,13 +64,6 @@ class Cycle:
         chosen = self.take_intervals(index, interval)
         empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
-
-    def numbered(self, which: NDArray[np.bool_], count: int) -> NDArray[np.bool_]:
-        """Some of the intervals, shape (n, i), by their numbers in a division of ``count``, (n, count)."""
-        row, interval = np.nonzero(which)
-        result = np.zeros((len(which), count), dtype=bool)
-        result[row, self.number[row, interval]] = True
-        return result
 
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
@@ -102,7 +92,6 @@ class Cycle:
             self.load.take(index),
             self.begin[at],
             self.end[at],
-            self.number[at],
             self.memory.take(at),
             self.times.take(index),
             self.forward[at],

@@ -71,12 +71,10 @@ def solve_cycle(load: Load) -> Cycle:
             _slip(load, stack, course, i)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
-    number = np.broadcast_to(np.arange(intervals), (n, intervals))
     return Cycle(
         load,
         course.instant[:, :-1],
         course.instant[:, 1:],
-        number,
         memory,
         course.times,
         course.forward,
