@@ -16,7 +16,7 @@ from swtstudy.archive.merge import merge
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
-from swtstudy.parameters import CONTROLS, Control
+from swtstudy.prescribed import CONTROLS, Control
 
 PLAIN = ("normal_amplitude", "tangential_amplitude")
 FORCED = ("normal_force_amplitude", "tangential_force_amplitude")

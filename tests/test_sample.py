@@ -7,6 +7,7 @@ import stand_in
 from scipy import stats
 
 from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import draw
@@ -435,3 +436,12 @@ def test_the_sample_of_the_template_is_a_study():
     assert study.grid.shape == (256,)
     assert min(study.grid.samples["friction"]) >= 0.1
     assert all(name in text for name in DESIGNS)
+
+
+def test_a_sample_in_words(tmp_path):
+    points = "[sample.points]\nphase = [0, 1, 0, 1]\nfriction = [0.1, 0.2, 0.3, 0.2]\n"
+    study = Study.from_text(f'title = "Four points"\n[sample]\n{points}')
+    lines = [" ".join(line.split()) for line in describe(run(study, tmp_path / "a.nc", workers=1))]
+    # Two values are listed, three are a range.
+    assert "sampled phase: 0, 1" in lines
+    assert "sampled friction: from 0.1 to 0.3" in lines

@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 def split_scene(one: Points) -> Scene:
     """The scene of one point, its cycle cut wherever the stress has a kink."""
     scene = scene_of(one)
-    return replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    return replace(scene, cycle=split_at_breakpoints(scene.cycle))
 
 
 def swt(scene: Scene, r: Array, side: float, double_angle: Array, steps: int) -> Array:

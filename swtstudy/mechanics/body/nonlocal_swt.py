@@ -17,11 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.axes import DIRECTIONS
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, gauss, interpolation
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.parameters import DIRECTIONS
 
 #: Distances from the circle, and inclinations, of the places in the half spheres, and places on a line: more
 #: while a mean is not as accurate as asked for.
