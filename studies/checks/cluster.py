@@ -82,7 +82,9 @@ def separate_processes(folder: Path, text: str, expected: xr.Dataset, workers: i
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--quick", action="store_true", help="a small study and one worker, to see that it runs")
+    arguments.add_argument(
+        "--quick", action="store_true", help="a small study and one worker, to see that it runs"
+    )
     quick = arguments.parse_args().quick
     text, workers = study_text(quick), 1 if quick else 2
     with tempfile.TemporaryDirectory() as name:
