@@ -169,6 +169,16 @@ def test_slabs_of_a_grid_are_the_grid():
     assert (np.concatenate([flags for _, flags in parts]) == mirrored).all()
 
 
+def test_a_grid_in_slabs_has_the_points_of_the_whole(monkeypatch):
+    grid = grid_of(phase=PHASES[:7], profile=["paraboloid", "rounded_punch"], flat_radius=[0.1, 0.2, 0.3])
+    whole = unique_points(grid)
+    monkeypatch.setattr("swtstudy.grid.unique._SLAB", 5)
+    parts = unique_points(grid)
+    assert (parts.table == whole.table).all()
+    assert (parts.index == whole.index).all()
+    assert (parts.mirrored == whole.mirrored).all()
+
+
 @given(st.integers(0, 100), st.integers(0, 2**36 - 1))
 def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
     profiles = ["paraboloid", "rounded_punch", "truncated_paraboloid"]

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states
 from swtstudy.mechanics.load.load import PERIOD, Load
@@ -33,6 +34,8 @@ class Cycle:
         Shape (n, i): first and last instants φ of the intervals, ascending from 0 to `PERIOD`.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
+    times
+        When the memory's growths were.
     forward, backward
         Shape (n, i): whether T − N rises, so that springs slip at τ = +w, and whether T + N falls, so
         that they slip at τ = −w. With neither of them the contact sticks.
@@ -44,6 +47,7 @@ class Cycle:
     begin: FloatArray
     end: FloatArray
     memory: Memory
+    times: GrowthTimes
     forward: NDArray[np.bool_]
     backward: NDArray[np.bool_]
     gross_slip: NDArray[np.bool_]
@@ -63,7 +67,7 @@ class Cycle:
 
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
-        return slip_states(self.load, self.memory, self.senses, interval, instant)
+        return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)
 
     @property
     def senses(self) -> Senses:
@@ -89,6 +93,7 @@ class Cycle:
             self.begin[at],
             self.end[at],
             self.memory.take(at),
+            self.times.take(index),
             self.forward[at],
             self.backward[at],
             self.gross_slip[index],
