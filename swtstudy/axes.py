@@ -6,7 +6,11 @@ from collections import ChainMap
 from collections.abc import Mapping
 from math import inf
 
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
+
+#: Into the body from the critical point: straight down, or along the critical plane.
+DIRECTIONS = ("depth", "critical_plane")
 
 #: What quantities beside s range over, while the points do not.
 QUANTITY_AXES: dict[str, Parameter] = {
@@ -24,7 +28,15 @@ QUANTITY_AXES: dict[str, Parameter] = {
             part="quantity",
             scale="a_H",
         ),
-        Parameter("direction", "", "", "direction from the critical point", kind="name", part="quantity"),
+        Parameter(
+            "direction",
+            "",
+            "",
+            "direction from the critical point",
+            kind="name",
+            names=DIRECTIONS,
+            part="quantity",
+        ),
     )
 }
 

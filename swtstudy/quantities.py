@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from swtstudy.axes import DIRECTIONS
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import DIRECTIONS
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"

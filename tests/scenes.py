@@ -8,9 +8,9 @@ from math import gcd
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from swtstudy.families import FAMILIES, family_of
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.indenter import check_shape
-from swtstudy.parameters import FAMILIES, family_of
 
 PROFILE_NAMES = tuple(FAMILIES)
 

@@ -6,6 +6,7 @@ import pytest
 import swtstudy
 from swtstudy.audit.point import VERDICTS
 from swtstudy.mechanics.points import REGIMES
+from swtstudy.records.labelled import ATTRIBUTES
 
 STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}
 PLACES = {name: (f"{name}/a_H", "1") for name in "xyz"}
@@ -133,3 +134,20 @@ def test_xarray_labels_its_own_plots():
     assert axes.get_ylabel() == "critical plane angle [degree]"
     assert "\n" not in axes.get_xlabel()
     assert "[" not in axes.get_xlabel()
+
+
+def test_every_variable_of_results_has_a_comment():
+    words = {
+        "s": "one elastic half-space with E*, G* against a rigid indenter",
+        "s_error": "estimated",
+        "s_surface": "over all planes",
+        "bulk_shift": "by the strain of the bulk stress, in a_H",
+        "critical_x": "in units of a_H = sqrt(R delta0)",
+        "critical_angle": "angle of the normal of the critical plane against the x axis, in (-90, 90]",
+        "regime": "over the stationary cycle",
+        "status": "whether the point has been computed",
+        "run": "an index into the attribute runs; -1 if missing",
+    }
+    assert words.keys() == ATTRIBUTES.keys()
+    for name, attributes in ATTRIBUTES.items():
+        assert words[name] in attributes.get("comment", ""), name

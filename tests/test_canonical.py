@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles.profiles import INDENTERS
 
+from swtstudy.families import FAMILIES, Family
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import (
     COLUMNS,
@@ -23,7 +24,8 @@ from swtstudy.grid.cost import weights
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.unique import loads, unique_points
 from swtstudy.mechanics.points import Points
-from swtstudy.parameters import FAMILIES, PAIRS, PARAMETERS, Family
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import PAIRS
 from swtstudy.runner.cutting import chunks
 
 
@@ -165,6 +167,16 @@ def test_slabs_of_a_grid_are_the_grid():
     parts = [grid.canonical(start, min(start + 5, grid.size)) for start in range(0, grid.size, 5)]
     assert (np.concatenate([rows for rows, _ in parts]) == whole).all()
     assert (np.concatenate([flags for _, flags in parts]) == mirrored).all()
+
+
+def test_a_grid_in_slabs_has_the_points_of_the_whole(monkeypatch):
+    grid = grid_of(phase=PHASES[:7], profile=["paraboloid", "rounded_punch"], flat_radius=[0.1, 0.2, 0.3])
+    whole = unique_points(grid)
+    monkeypatch.setattr("swtstudy.grid.unique._SLAB", 5)
+    parts = unique_points(grid)
+    assert (parts.table == whole.table).all()
+    assert (parts.index == whole.index).all()
+    assert (parts.mirrored == whole.mirrored).all()
 
 
 @given(st.integers(0, 100), st.integers(0, 2**36 - 1))

@@ -10,10 +10,10 @@ import stand_in
 from click.testing import CliRunner
 
 import swtstudy
-import swtstudy.parameters
 from swtstudy import Study, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
+from swtstudy.families import FAMILIES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import MISSING
 from swtstudy.study.schema import study_schema
@@ -499,17 +499,15 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 
-@pytest.mark.parametrize("profile", swtstudy.parameters.FAMILIES)
+@pytest.mark.parametrize("profile", FAMILIES)
 def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
     monkeypatch.chdir(tmp_path)
     call("new", "full")
     text = Path("full.toml").read_text().replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
-    names = {name for name, row in swtstudy.parameters.PARAMETERS.items() if row.default is not None}
-    names |= {*swtstudy.parameters.FAMILIES[profile].shape}
-    for name in swtstudy.parameters.PARAMETERS:
-        value = swtstudy.parameters.PARAMETERS[name].default or {"wavelength": 7, "exponent": 3}.get(
-            name, 0.01
-        )
+    names = {name for name, row in PARAMETERS.items() if row.default is not None}
+    names |= {*FAMILIES[profile].shape}
+    for name in PARAMETERS:
+        value = PARAMETERS[name].default or {"wavelength": 7, "exponent": 3}.get(name, 0.01)
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
         assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
         for line in lines if name in names else ():

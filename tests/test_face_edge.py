@@ -21,7 +21,7 @@ from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 def split_scene(batch: Points) -> Scene:
     scene = scene_of(batch)
-    return replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    return replace(scene, cycle=split_at_breakpoints(scene.cycle))
 
 
 def truncated(

@@ -145,3 +145,9 @@ def test_mistakes_are_named():
         swtstudy.inspect(frictoin=0.1)
     with pytest.raises(ValueError, match="phase"):
         swtstudy.inspect(phase=[0, 1])
+
+
+def test_where_nothing_moves_one_instant_is_shown():
+    still = swtstudy.inspect_point(normal_amplitude=0, tangential_amplitude=0)
+    assert still.reason.values.tolist() == ["σ_n largest"]
+    assert swtstudy.inspect_point().sizes["instant"] == 4

@@ -12,7 +12,7 @@ from scenes import random_points
 from swtstudy.mechanics.events.nodes import _places
 from swtstudy.mechanics.events.stretches import meet
 from swtstudy.mechanics.line.first_look import local_maxima
-from swtstudy.mechanics.line.look import Look
+from swtstudy.mechanics.line.look import Look, _falling
 from swtstudy.mechanics.line.samples import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
@@ -106,3 +106,14 @@ def test_stretches_meet_at_one_instant_and_over_the_end_of_the_cycle():
     end = np.array([1.0, period, 1.0, 0.0, 1.0])
     begin = np.array([1.0, 0.0, period - 1.0, period, 1.1])
     assert meet(end, begin).tolist() == [True, True, False, True, False]
+
+
+def test_a_curve_falls_at_once_from_a_corner_but_not_from_a_smooth_maximum():
+    at = np.arange(9.0) - 4.0
+    corner, smooth = -np.abs(at), -(at**2)
+    to_the_left = np.where(at < 0.0, corner, smooth)
+    curves = np.stack([corner, smooth, to_the_left])
+    # What is added to a curve says nothing of its shape.
+    for offset in (0.0, 100.0, -100.0):
+        sides = _falling(curves + offset, np.array([4, 4, 4]))
+        assert sides.tolist() == [[True, True], [False, False], [True, False]]

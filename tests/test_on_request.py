@@ -24,6 +24,7 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
+from swtstudy.quantities import Request
 from swtstudy.runner import chunk
 from swtstudy.runner.run import Stopped
 
@@ -270,3 +271,8 @@ def test_a_worker_that_dies_gives_up_quantities_too() -> None:
     result = chunk.given_up(lost, "gone")
     assert result.failed.all()
     assert np.isnan(result.quantities["dissipation_error"]).all()
+
+
+def test_the_same_request_in_two_ways() -> None:
+    assert Request.of(["dissipation"]) == Request(("dissipation",))
+    assert Request.of([]) == Request()

@@ -9,6 +9,8 @@ from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
 from swtstudy.parameters import PARAMETERS
 
+pytestmark = pytest.mark.xdist_group("optimise")
+
 #: The best amplitude is in a narrow kink, between points of a coarse grid; ψ, μ as far from round as any.
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 

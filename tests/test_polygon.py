@@ -8,6 +8,7 @@ from memory import tangential_force
 from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import slip_states
@@ -17,7 +18,7 @@ from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
 from swtstudy.mechanics.stress.scene import prescribed_scene
-from swtstudy.parameters import Control
+from swtstudy.prescribed import Control
 
 Array = NDArray[np.float64]
 DISPLACEMENTS, FORCES = Control(), Control(True, True)
@@ -189,5 +190,9 @@ def test_a_front_in_a_line_as_steep_as_the_slip_line_stays_in_its_piece() -> Non
         [1.0 - 0.5 * tiny, 0.0],
     )
     yes, no = np.ones((1, 1), dtype=bool), np.zeros((1, 1), dtype=bool)
-    states = slip_states(load, memory, (yes, no), np.zeros((1, 1), dtype=np.intp), np.zeros((1, 1)))
+    none, first = (
+        GrowthTimes(np.zeros(1, dtype=np.intp), np.zeros((2, 6, 1, 1))),
+        np.zeros((1, 1), dtype=np.intp),
+    )
+    states = slip_states(load, memory, (yes, no), none, first, np.zeros((1, 1)))
     assert states.front[0, 0] == 0.5

@@ -16,7 +16,7 @@ from swtstudy.cli import main
 from swtstudy.grid.canonical import COLUMNS, canonical_points, describe_point
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import CONTROLS, Control
+from swtstudy.prescribed import CONTROLS, Control
 
 FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
 SHAPES = {

@@ -11,6 +11,7 @@ from oracles import profiles as oracle
 from scenes import DRAWN, points
 from scipy.special import struve, y0
 
+from swtstudy.families import FAMILIES, PLAIN, Family
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.indenter import (
     PROFILES,
@@ -22,7 +23,7 @@ from swtstudy.mechanics.indenter import (
     wavy_paraboloid,
 )
 from swtstudy.mechanics.indenter.struve import safe_struve, struve_functions
-from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family
+from swtstudy.parameters import PARAMETERS
 
 Array = NDArray[np.float64]
 

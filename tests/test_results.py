@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from xarray.plot.utils import label_from_attrs
 
 import swtstudy
-from swtstudy.parameters import PAIRS, PARAMETERS
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import PAIRS
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.results.select import slice_at
 from swtstudy.results.table import to_table

@@ -450,6 +450,48 @@ def test_partial_results_of_an_extension(tmp_path, line):
     same(open_results(path, partial=True), old)
 
 
+#: Files that studies name, and studies that name them.
+FILES = {
+    "cycle.csv": "normal,tangential\n0.5,1\n-0.5,-1\n0,0.2\n",
+    "worn.csv": "radius,height\n" + "".join(f"{r / 10},{max(r / 10 - 0.3, 0.0) ** 2}\n" for r in range(25)),
+    "points.csv": "friction,phase\n" + "".join(f"{0.1 + k / 300},{k / 100}\n" for k in range(100)),
+    "metals.toml": "[alloy]\nstrength = 927\nstrength_exponent = -0.113\nductility = 0.409\n"
+    "ductility_exponent = -0.713\n",
+}
+FRICTIONS = '[axes]\nfriction = {start = "0.01", stop = 4, num = 100}\n'
+OF_FILES = {
+    "loads": '[fixed]\nload = "cycle"\n[loads.cycle]\nfile = "cycle.csv"\n' + FRICTIONS,
+    "profiles": '[fixed]\nprofile = "worn"\n[profiles.worn]\nfile = "worn.csv"\nsmoothing = 1e-3\n'
+    + FRICTIONS,
+    "sample": '[sample]\nfile = "points.csv"\n',
+    "material": '[units]\nlength = "mm"\nforce = "N"\nstress = "MPa"\n[material]\nfile = "metals.toml"\n'
+    'name = "alloy"\n[fixed]\nyoung_modulus = 7e4\npoisson_ratio = 0.3\nradius = 50\nnormal_force = 100\n'
+    "tangential_amplitude = 1e-3\n" + FRICTIONS,
+}
+
+
+@pytest.mark.parametrize("part", OF_FILES)
+def test_what_is_left_of_a_run_needs_no_file_of_its_study(tmp_path, monkeypatch, part):
+    folder, path = tmp_path / "studies", tmp_path / "results" / "study.nc"
+    folder.mkdir()
+    for name, text in FILES.items():
+        (folder / name).write_text(text)
+    (folder / "study.toml").write_text(f'title = "t"\nrtol = 1e-3\n{OF_FILES[part]}')
+    study = Study.from_toml(folder / "study.toml")
+    with pytest.raises(Stopped):
+        run(study, path, solver=stand_in.Interrupting(32), workers=1)
+    shutil.rmtree(folder)
+    monkeypatch.chdir(tmp_path)
+    left = open_results(path)
+    assert 0 < int((left.status == records.COMPUTED).sum()) < 100
+    again = Study.from_text(left.attrs["study"])
+    assert again.grid == study.grid
+    rest = stand_in.Counting()
+    whole = run(again, path, solver=rest, workers=1)
+    assert rest.points < 100
+    same(whole.where(left.status == records.COMPUTED), left.where(left.status == records.COMPUTED))
+
+
 def test_a_kill_while_parts_are_gathered_counts_no_point_twice(line, tmp_path):
     path = tmp_path / "line.nc"
     with pytest.raises(Stopped):

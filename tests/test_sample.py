@@ -7,6 +7,7 @@ import stand_in
 from scipy import stats
 
 from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import draw
@@ -97,6 +98,28 @@ def test_distributions_have_their_quantiles():
     lognormal = Distribution("lognormal", {"median": 0.3, "deviation": 0.2}, 0.0, 10.0)
     assert lognormal.values(unit)[1:4] == pytest.approx(0.3 * np.exp(0.2 * stats.norm.ppf(unit[1:4])))
     assert Distribution("uniform", {}, 0.1, 0.7).values(unit)[[0, -1]].tolist() == [0.1, 0.7]
+
+
+@pytest.mark.parametrize(
+    ("entry", "kind", "numbers"),
+    [
+        ("[0.1, 0.7]", "uniform", {}),
+        ("{distribution='triangular', low=0.1, high=0.7, mode='1/4'}", "triangular", {"mode": 0.25}),
+        (
+            "{distribution='normal', mean=0.3, deviation=0.2, low=0.1, high=0.7}",
+            *("normal", {"mean": 0.3, "deviation": 0.2}),
+        ),
+        (
+            "{distribution='lognormal', median=0.3, deviation=0.2, low=0.1, high=0.7}",
+            *("lognormal", {"median": 0.3, "deviation": 0.2}),
+        ),
+    ],
+)
+def test_distributions_are_read(entry, kind, numbers):
+    table = f'[sample]\ndesign = "random"\nsize = 8\n[sample.ranges]\nfriction = {entry}'
+    drawn = Study.from_text(HEAD + table).grid.samples["friction"]
+    unit = Design("random", 8, 0).points(1)[:, 0]
+    assert drawn == pytest.approx(Distribution(kind, numbers, 0.1, 0.7).values(unit).tolist(), rel=1e-9)
 
 
 def test_each_point_is_solved_with_its_own_parameters(tmp_path):
@@ -435,3 +458,12 @@ def test_the_sample_of_the_template_is_a_study():
     assert study.grid.shape == (256,)
     assert min(study.grid.samples["friction"]) >= 0.1
     assert all(name in text for name in DESIGNS)
+
+
+def test_a_sample_in_words(tmp_path):
+    points = "[sample.points]\nphase = [0, 1, 0, 1]\nfriction = [0.1, 0.2, 0.3, 0.2]\n"
+    study = Study.from_text(f'title = "Four points"\n[sample]\n{points}')
+    lines = [" ".join(line.split()) for line in describe(run(study, tmp_path / "a.nc", workers=1))]
+    # Two values are listed, three are a range.
+    assert "sampled phase: 0, 1" in lines
+    assert "sampled friction: from 0.1 to 0.3" in lines

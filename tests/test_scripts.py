@@ -6,7 +6,6 @@ import re
 import shlex
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from importlib.util import find_spec
 
 import pytest
@@ -40,34 +39,21 @@ def run(name, results):
     )
 
 
-@pytest.fixture(scope="module")
-def runs(request, tmp_path_factory):
-    """The runs of the scripts whose tests are chosen, two at a time."""
-    chosen = [item.callspec.params["name"] for item in request.session.items if "runs" in item.fixturenames]
-    with ThreadPoolExecutor(2) as pool:
-        started = {}
-        for name in chosen:
-            folder = tmp_path_factory.mktemp("results")
-            started[name] = folder, pool.submit(run, name, folder)
-        yield started
-
-
 @pytest.mark.parametrize("name", SCRIPTS)
-def test_a_script(name, runs):
+def test_a_script(name, tmp_path):
     text = text_of(SCRIPTS[name])
     for words, module in NEEDS.items():
         if words in text and find_spec(module) is None:
             pytest.skip(f"without {module}")
-    folder, running = runs[name]
-    done = running.result()
+    done = run(name, tmp_path)
     assert done.returncode == 0, done.stderr
     # What it leaves or prints has its place in results; where nothing was left out, it is what is there.
     for file in re.findall(r"(?<=> results/)\w+\.txt", text):
-        (folder / file).write_text(done.stdout, encoding="utf-8")
-    left = sorted(path.name for path in folder.iterdir())
+        (tmp_path / file).write_text(done.stdout, encoding="utf-8")
+    left = sorted(path.name for path in tmp_path.iterdir())
     assert left
     for file in left:
-        assert (folder / file).stat().st_size > 0
+        assert (tmp_path / file).stat().st_size > 0
         kept = shown.ROOT / "results" / file
         assert kept.is_file()
         if "--quick" not in text:

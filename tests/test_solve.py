@@ -94,6 +94,7 @@ def test_attributes_follow_the_table():
         ({"λ": 0}, r"did you mean wavelength \(λ\)\?"),
         ({"Poisson": 0}, r"did you mean poisson_ratio\?"),
         ({"frictoin": 0}, "did you mean friction"),
+        ({"walker": 0.4}, "did you mean walker_exponent"),
         ({"phase": []}, "an empty axis"),
         ({"phase": [0, 0]}, "the same as"),
         ({"phase": [[0, 1]]}, "one-dimensional"),

@@ -62,7 +62,10 @@ class House:
 WHOLE = House(
     "swtstudy",
     (
+        "parameter",
+        "families",
         "parameters",
+        "prescribed",
         "axes",
         "mistakes",
         "numbers",

@@ -36,12 +36,12 @@ def kill_at_work(client: Client, killed: list[int]) -> None:
     os.kill(killed[0], signal.SIGKILL)
 
 
-def killed_worker(folder: Path, text: str, expected: xr.Dataset) -> None:
-    """A LocalCluster of two workers, one of which is killed at work."""
+def killed_worker(folder: Path, text: str, expected: xr.Dataset, workers: int) -> None:
+    """A LocalCluster of some workers, one of which is killed at work."""
     from distributed import Client, LocalCluster
 
     with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
         Client(cluster) as client,
     ):
         killed: list[int] = []
@@ -55,8 +55,8 @@ def killed_worker(folder: Path, text: str, expected: xr.Dataset) -> None:
     print("  the very values of the undisturbed run")
 
 
-def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
-    """Run with `dask scheduler`, two `dask worker` and `swtstudy run --scheduler`, each a process."""
+def separate_processes(folder: Path, text: str, expected: xr.Dataset, workers: int) -> None:
+    """Run with `dask scheduler`, some `dask worker` and `swtstudy run --scheduler`, each a process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
@@ -65,8 +65,8 @@ def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
     dask = [sys.executable, "-m", "dask"]
     options = {"cwd": folder, "stderr": subprocess.DEVNULL, "env": {**os.environ, "PYTHONPATH": os.getcwd()}}
     scheduler = [*dask, "scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard"]
-    worker = [*dask, "worker", address, "--nthreads", "1", "--no-dashboard"]
-    processes = [subprocess.Popen(command, **options) for command in (scheduler, worker, worker)]
+    worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
+    processes = [subprocess.Popen(command, **options) for command in (scheduler, *[worker] * workers)]
     try:
         command = [sys.executable, "-m", "swtstudy", "run", "study.toml", "--scheduler", address]
         done = subprocess.run(command, **{**options, "stderr": None}, stdout=subprocess.PIPE, text=True)
@@ -82,16 +82,18 @@ def separate_processes(folder: Path, text: str, expected: xr.Dataset) -> None:
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--quick", action="store_true", help="a small study, to see that it runs")
+    arguments.add_argument(
+        "--quick", action="store_true", help="a small study and one worker, to see that it runs"
+    )
     quick = arguments.parse_args().quick
-    text = study_text(quick)
+    text, workers = study_text(quick), 1 if quick else 2
     with tempfile.TemporaryDirectory() as name:
         begin = time.perf_counter()
-        expected = run(Study.from_text(text), Path(name) / "local.nc")
+        expected = run(Study.from_text(text), Path(name) / "local.nc", workers=workers)
         seconds = time.perf_counter() - begin
-        print(f"2 local workers, undisturbed: {expected.s.size} points in {seconds:.1f} s")
-        killed_worker(Path(name), text, expected)
-        separate_processes(Path(name), text, expected)
+        print(f"{workers} local workers, undisturbed: {expected.s.size} points in {seconds:.1f} s")
+        killed_worker(Path(name), text, expected, workers)
+        separate_processes(Path(name), text, expected, workers)
 
 
 if __name__ == "__main__":

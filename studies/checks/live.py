@@ -10,11 +10,12 @@ import time
 
 import numpy as np
 
+from swtstudy.families import FAMILIES
 from swtstudy.figures.live_controls import SLIDERS, Explorer
-from swtstudy.parameters import FAMILIES
 
 #: Places of a slider, as fractions of its range.
 PLACES = np.linspace(0.1, 0.9, 7)
+RATIOS = ["1/2", "1", "4/3", "3"]
 
 
 def seconds(live: Explorer, name: str, values: np.ndarray) -> np.ndarray:
@@ -36,19 +37,20 @@ def places(name: str, count: int) -> np.ndarray:
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--quick", action="store_true", help="few redraws, to see that it runs")
-    count = 1 if arguments.parse_args().quick else len(PLACES)
+    quick = arguments.parse_args().quick
+    count, ratios, profiles = (1, ["1/2"], [*FAMILIES][:2]) if quick else (len(PLACES), RATIOS, [*FAMILIES])
     live = Explorer()
     # The first pictures of a ratio fill caches.
     seconds(live, "phase", places("phase", 2))
     print("moved                    ω2/ω1  profile                redraw     at most")
-    for ratio in ("1/2", "1", "4/3", "3"):
+    for ratio in ratios:
         live.controls["frequency_ratio"].value = ratio
         for name in ("phase", "normal_amplitude", "tangential_amplitude", "friction"):
             show(name, ratio, "paraboloid", seconds(live, name, places(name, count)))
     live.controls["frequency_ratio"].value = "1"
-    for profile, family in FAMILIES.items():
+    for profile in profiles:
         live.controls["profile"].value = profile
-        for name in ("phase", *family.shape):
+        for name in ("phase", *FAMILIES[profile].shape):
             show(name, "1", profile, seconds(live, name, places(name, count)))
 
 

@@ -221,12 +221,12 @@ def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the tables")
     arguments.add_argument("--points", type=int, default=20, help="random points of each profile")
-    arguments.add_argument("--quick", action="store_true", help="one point of two profiles")
+    arguments.add_argument("--quick", action="store_true", help="one point of the paraboloid")
     given = arguments.parse_args()
     scenes, phases, profiles = SCENES, len(PHASES), list(SHAPES)
     count, others = given.points, 2
     if given.quick:
-        scenes, phases, profiles, count, others = SCENES[:1], 1, profiles[:2], 1, 1
+        scenes, phases, profiles, count, others = SCENES[:1], 1, profiles[:1], 1, 1
     text = "# Nonlocal means\n\nProcessor time a point with all three means, ℓ = 0.1 a_H or eleven distances "
     text += "up to that, and the largest relative error claimed of the volume mean.\n\n"
     text += table(

@@ -42,7 +42,7 @@ Array = NDArray[np.float64]
 def split_scene(one: Points) -> Scene:
     """The scene of one point, its cycle cut wherever the stress has a kink."""
     scene = scene_of(one)
-    return replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    return replace(scene, cycle=split_at_breakpoints(scene.cycle))
 
 
 def swt(scene: Scene, r: Array, side: float, double_angle: Array, steps: int) -> Array:
@@ -112,14 +112,15 @@ def rows(profile: str, points: Points) -> Iterator[list[str]]:
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
-    arguments.add_argument("--quick", action="store_true", help="one point a profile, to see that it runs")
+    arguments.add_argument("--quick", action="store_true", help="one point, to see that it runs")
     given = arguments.parse_args()
-    count = 1 if given.quick else COUNT
+    count, profiles = (1, [*SHAPES][:1]) if given.quick else (COUNT, [*SHAPES])
+    draws = [random_points, lambda *of: points_at_ends(*of, largest_term=4)][: 1 if given.quick else None]
     with (given.results / "reference_values.csv").open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["profile", *NUMBERS, *SHAPE_COLUMNS, "s", "s_error"])
-        for profile in SHAPES:
-            for draw in (random_points, lambda *of: points_at_ends(*of, largest_term=4)):
+        for profile in profiles:
+            for draw in draws:
                 table.writerows(rows(profile, draw(profile, count, SEED)))
 
 

@@ -2,60 +2,161 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 from accuracy import points_at_ends, random_points
+from nonlocal_means import worn
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import body_maximum, nonlocal_swt
+from swtstudy.mechanics.body import body_maximum
+from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.quantities import quantities_of
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.prescribed import Control
+from swtstudy.quantities import item_of
 
-#: What each kind of sample takes points from: where, the profile, and one ratio p/q, so that they are solved
-#: together. "circle" looks at s_surface, "edge" at sliding at the edge of a face, "body" at the whole body.
-SOURCES = {
-    "line": [
-        (random_points, "paraboloid", (1, 2)),
-        (random_points, "rounded_punch", (4, 3)),
-        (random_points, "truncated_paraboloid", (2, 1)),
-        (points_at_ends, "paraboloid", (1, 1)),
-    ],
-    "wavy": [(random_points, "wavy_paraboloid", (1, 2))],
-    "circle": [(random_points, "paraboloid", (1, 2))],
-    "edge": [(random_points, "truncated_paraboloid", (1, 2))],
-    "body": [(random_points, "paraboloid", (1, 2)), (random_points, "rounded_punch", (2, 1))],
-}
 SEED = 5
-#: ℓ/a_H of the means.
-DISTANCE = np.array([0.1])
+#: Values of some points at a tolerance, and their errors as far as they are known.
+Values = tuple[np.ndarray, np.ndarray]
 
 
-def solved(kind: str, count: int, rtol: float) -> tuple[np.ndarray, np.ndarray]:
-    """s and s_error of a kind of sample, ``count`` points of each source."""
-    found = []
-    for draw, profile, ratio in SOURCES[kind]:
-        points = draw(profile, max(count // 16, 1) if kind == "body" else count, SEED)
-        points.p[:], points.q[:] = ratio
-        if kind == "edge":
-            points.friction[:] = 0.75 + 0.25 * points.friction
-            points.tangential_amplitude[:] += 3.0
-        with np.errstate(all="ignore"):
-            found.append(_of_body(points) if kind == "body" else _of_line(points, rtol, kind))
-    s, error = (np.concatenate(each) for each in zip(*found, strict=True))
-    return s, error
+def random(profile: str, p: int, q: int) -> Callable[[int], Points]:
+    """Points all over the parameters, of one frequency ratio, so that they are solved together."""
+    return lambda count: _with_ratio(random_points(profile, count, SEED), p, q)
 
 
-def _of_line(points: Points, rtol: float, kind: str) -> tuple[np.ndarray, np.ndarray]:
+def at_ends(profile: str, p: int, q: int) -> Callable[[int], Points]:
+    """Points that crowd at the ends of the allowed ranges."""
+    return lambda count: _with_ratio(points_at_ends(profile, count, SEED), p, q)
+
+
+def _with_ratio(points: Points, p: int, q: int) -> Points:
+    return replace(points, p=np.full_like(points.p, p), q=np.full_like(points.q, q))
+
+
+def sliding_at_edge(count: int) -> Points:
+    """Large friction and tangential amplitude at the sharp edge of a face."""
+    points = random("truncated_paraboloid", 1, 2)(count)
+    slides = 0.75 + 0.25 * points.friction, points.tangential_amplitude + 3.0
+    return replace(points, friction=slides[0], tangential_amplitude=slides[1])
+
+
+def of_table(count: int) -> Points:
+    """A worn paraboloid, as a table."""
+    return replace(random("paraboloid", 1, 2)(count), profile=worn())
+
+
+def mixed(count: int) -> Points:
+    """A normal force and a tangential displacement."""
+    return replace(random("wavy_paraboloid", 1, 2)(count), control=Control(normal_force=True))
+
+
+def forces(count: int) -> Points:
+    """Both forces; small ones, so that most points have an equilibrium."""
+    points = random("rounded_punch", 2, 1)(count)
+    small = {name: 0.3 * getattr(points, name) for name in ("normal_amplitude", "tangential_amplitude")}
+    return replace(points, control=Control(True, True), **small)
+
+
+def with_bulk_stress(count: int) -> Points:
+    """Bulk stress on a third of the scale of the contact's own."""
+    points = random("paraboloid", 2, 1)(count)
+    dice = np.random.default_rng(SEED).uniform(size=(3, count))
+    scales = {"mean": 0.3 * (dice[0] - 0.5), "amplitude": 0.3 * dice[1], "phase": 6.0 * dice[2]}
+    return replace(points, **{f"bulk_stress_{name}": values for name, values in scales.items()})
+
+
+def smooth_loop(count: int) -> Points:
+    """Major and minor cycles."""
+    rows = [(1, 0.6, 0.3), (3, 0.3, 1.0)], [(1, 0.7, 0.0), (5, 0.3, 2.0)]
+    return replace(random("paraboloid", 1, 1)(count), path=LoadPath.harmonic_sum("minor", *rows))
+
+
+def polygon(count: int) -> Points:
+    """An L with a minor turn."""
+    vertices = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.6), (0.9, 0.3), (1.0, 1.0), (-1.0, -1.0)]
+    return replace(random("paraboloid", 1, 1)(count), path=LoadPath("turns", vertices))
+
+
+def on_line(points: Points, rtol: float) -> Values:
+    """The value s and its error."""
     solution = solve_points(points, rtol)
-    return solution.s_surface if kind == "circle" else solution.s, solution.s_error
+    return solution.s, solution.s_error
 
 
-def _of_body(points: Points) -> tuple[np.ndarray, np.ndarray]:
-    """swt of bodies over all planes, at the line's critical points, and means about these, shape (4 n,)."""
+def on_circle(points: Points, rtol: float) -> Values:
+    """The value s_surface and the error of s."""
+    solution = solve_points(points, rtol)
+    return solution.s_surface, solution.s_error
+
+
+def in_body(points: Points, rtol: float) -> Values:
+    """The parameter over all planes in every 16th body: its largest value, and that at the critical point."""
+    some = points.take(np.arange(0, len(points), 16))
     found = []
-    solution = solve_points(points, 1e-5)
-    critical_x = solution.critical_x
-    for k in np.flatnonzero(np.isfinite(critical_x)):
-        scene, x = scene_of(points.take(np.array([k]))), float(critical_x[k])
-        largest, at_line = body_maximum.body_maximum(scene, x)
-        means = nonlocal_swt.nonlocal_swt(scene, critical_x[[k]], solution.critical_angle[[k]], DISTANCE)
-        found += [largest.swt, float(at_line.swt), means.volume[0, 0], means.line[0, 0, 0]]
+    for k, x in enumerate(solve_points(some, rtol).critical_x):
+        if np.isfinite(x):
+            largest, at_line = body_maximum.body_maximum(scene_of(some.take(np.array([k]))), float(x))
+            found += [largest.swt, float(at_line.swt)]
     return np.array(found), np.full(len(found), np.inf)
+
+
+def nonlocal_means(points: Points, rtol: float) -> Values:
+    """Means of every eighth point over two distances, and their errors."""
+    some = points.take(np.arange(0, len(points), 8))
+    columns = quantities_of(some, [item_of(0.05), item_of(0.2)], solve_points(some, rtol))
+    return _with_errors(columns)
+
+
+def work_and_force_ratio(points: Points, rtol: float) -> Values:
+    """The dissipated work and its error, and the largest force ratio."""
+    columns = quantities_of(points, ["dissipation", "force_ratio"], solve_points(points, rtol))
+    return _with_errors(columns)
+
+
+def _with_errors(columns: dict[str, np.ndarray]) -> Values:
+    # The error of s_line@depth is s_line_error@depth.
+    errors = {name: name.split("@")[0] + "_error" + name[len(name.split("@")[0]) :] for name in columns}
+    values = [name for name in columns if "_error" not in name]
+    unknown = np.full(len(next(iter(columns.values()))), np.inf)
+    claimed = [columns.get(errors[name], unknown) for name in values]
+    return np.concatenate([columns[name] for name in values]), np.concatenate(claimed)
+
+
+#: By the kind of a sample: where its points come from, and what is looked at.
+KINDS: dict[str, tuple[list[Callable[[int], Points]], Callable[[Points, float], Values]]] = {
+    "line": (
+        [
+            random("paraboloid", 1, 2),
+            random("rounded_punch", 4, 3),
+            random("truncated_paraboloid", 2, 1),
+            at_ends("paraboloid", 1, 1),
+        ],
+        on_line,
+    ),
+    "wavy": ([random("wavy_paraboloid", 1, 2)], on_line),
+    "power": ([random("power_law", 1, 2), at_ends("power_law", 1, 1)], on_line),
+    "table": ([of_table], on_line),
+    "loop": ([smooth_loop, polygon], on_line),
+    "force": ([mixed, forces], on_line),
+    "bulk": ([with_bulk_stress], on_line),
+    "circle": ([random("paraboloid", 1, 2)], on_circle),
+    "edge": ([sliding_at_edge], on_line),
+    "body": ([random("paraboloid", 1, 2), random("rounded_punch", 2, 1)], in_body),
+    "means": (
+        [random("paraboloid", 1, 2), random("truncated_paraboloid", 2, 1), with_bulk_stress],
+        nonlocal_means,
+    ),
+    "work": ([random("paraboloid", 3, 2), of_table, mixed, smooth_loop], work_and_force_ratio),
+}
+
+
+def solved(kind: str, count: int, rtol: float) -> Values:
+    """What a kind of sample shows, and its errors, from ``count`` points of each source."""
+    sources, look = KINDS[kind]
+    with np.errstate(all="ignore"):
+        found = [look(source(count), rtol) for source in sources]
+    values, errors = (np.concatenate(each) for each in zip(*found, strict=True))
+    return values, errors

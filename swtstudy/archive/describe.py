@@ -30,6 +30,20 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     yield f"  made by        {attributes['source']} ({attributes['versions']})"
     for line in attributes["history"].splitlines():
         yield f"  history        {line}"
+    yield from _parameters(dataset)
+    yield from _contact(dataset)
+    yield f"  prescribed     {grid_of(dataset).control.name}"
+    yield from _quantities(dataset)
+    yield f"  complete       {_completeness(dataset)}"
+    yield f"  asked for      rtol {attributes['rtol']:g}"
+    yield f"  accurate       {_accuracy(dataset)}"
+    yield f"  regimes        {_regimes(dataset)}"
+    yield from _runs(dataset)
+    yield from _failures(dataset)
+    yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
+
+
+def _parameters(dataset: xr.Dataset) -> Iterator[str]:
     for name in map(str, dataset.s.dims):
         if name == SAMPLE:
             yield f"  sample         {_sample_words(dataset[SAMPLE])}"
@@ -45,23 +59,26 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
             yield f"  of each body   {name}: {_axis_words(name, values)}{unit}"
         else:
             yield f"  sampled        {name}: {_range_words(name, values)}{unit}"
-    yield from _contact(dataset)
-    yield f"  prescribed     {grid_of(dataset).control.name}"
-    asked = request_of(dataset, made_by(read_runs(attributes["runs"])))
+
+
+def _quantities(dataset: xr.Dataset) -> Iterator[str]:
+    asked = request_of(dataset, made_by(read_runs(dataset.attrs["runs"])))
     if asked.names:
         yield f"  quantities     {', '.join(asked.names)}"
     if asked.distances:
         distances = ", ".join(f"{value:.4g}" for value in asked.distances)
         yield f"  distances      {distances}{_unit(dataset[DISTANCE])}"
-    yield f"  complete       {_completeness(dataset)}"
-    yield f"  asked for      rtol {attributes['rtol']:g}"
-    yield f"  accurate       {_accuracy(dataset)}"
+
+
+def _regimes(dataset: xr.Dataset) -> str:
     meanings = dataset.regime.attrs["flag_meanings"].split()
     computed = dataset.status.values == COMPUTED
     counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
-    words = (f"{n} {meaning}" for n, meaning in zip(counts, meanings, strict=False) if n)
-    yield f"  regimes        {', '.join(words)}"
-    runs = read_runs(attributes["runs"])
+    return ", ".join(f"{n} {meaning}" for n, meaning in zip(counts, meanings, strict=False) if n)
+
+
+def _runs(dataset: xr.Dataset) -> Iterator[str]:
+    runs = read_runs(dataset.attrs["runs"])
     counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
     for number, run in enumerate(runs):
         yield (
@@ -69,12 +86,14 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
             f"solver version {run.solver_version}, {run.seconds:.1f} s of computing, "
             f"started {run.started}"
         )
+
+
+def _failures(dataset: xr.Dataset) -> Iterator[str]:
     failures = read_failures(dataset.status.attrs["failures"])
     for failure in failures[:_LISTED]:
         yield f"  failed         {failure['point']}: {failure['message']}"
     if len(failures) > _LISTED:
         yield f"  failed         {len(failures) - _LISTED} more"
-    yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
 
 
 def _contact(dataset: xr.Dataset) -> Iterator[str]:

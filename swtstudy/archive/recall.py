@@ -18,7 +18,9 @@ from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, Control, Parameter, replaced_by
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import Control, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.records.columns import columns_back
 from swtstudy.records.labelled import arrays_of

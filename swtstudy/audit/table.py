@@ -14,7 +14,7 @@ from swtstudy.audit.point import VERDICTS, AuditedPoint
 from swtstudy.grid.canonical import COLUMNS
 from swtstudy.grid.codes import Definitions, code_of, value_of
 from swtstudy.mechanics.points import REGIMES, FloatArray
-from swtstudy.parameters import BUILT_IN, PARAMETERS
+from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,6 +32,8 @@ _MEANINGS = {
     **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
 }
 _SCALARS = ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "excess", "remainder")
+#: Parameters whose values are names: their columns hold codes.
+_WITH_NAMES = {name for name, row in PARAMETERS.items() if row.kind == "name"}
 
 
 def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions: Definitions) -> xr.Dataset:
@@ -54,7 +56,7 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions:
     import xarray as xr
 
     coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
-    for name in BUILT_IN.keys() & {*COLUMNS}:
+    for name in _WITH_NAMES & {*COLUMNS}:
         names = [str(value_of(code, definitions, name)) for code in rows[:, COLUMNS.index(name)]]
         coordinates[name] = ("sample", np.array(names, dtype=object))
     columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
@@ -103,7 +105,7 @@ def canonical_rows(dataset: xr.Dataset) -> FloatArray:
         if name in dataset.coords:
             values = dataset[name].values
             own = known.get(name, {})
-            codes = name in BUILT_IN
+            codes = name in _WITH_NAMES
             rows[:, i] = [code_of(own.get(value, value), name) for value in values] if codes else values
         elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
             rows[:, i] = PARAMETERS[name].default

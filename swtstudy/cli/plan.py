@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,8 @@ from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
 
 if TYPE_CHECKING:
+    from swtstudy.records.result import Result
+    from swtstudy.runner.work import Work
     from swtstudy.study.definition import Study
 
 
@@ -35,12 +38,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """What a run would do, in lines."""
-    from swtstudy.grid.cost import duration
     from swtstudy.grid.unique import loads
-    from swtstudy.quantities import DISTANCE, distance_of
-    from swtstudy.runner.chunk import solve_points
-    from swtstudy.runner.estimate import estimate
-    from swtstudy.runner.pace import CHUNK_SECONDS
     from swtstudy.runner.work import assess
 
     work = assess(study, target)
@@ -49,39 +47,56 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
     panels = study.figure.panels if study.figure else None
     count = len(grid.values(panels)) if panels else 1
     shared = int(missing.sum()) - loads(work.points.table[missing])
-    lines = [
+    return [
         study.title,
         f"  prescribed         {grid.control.name}",
         f"  archive            {target}{'' if target.exists() else ' (does not exist yet)'}",
         f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
+        *_quantities(study),
         f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
         f"  already computed   {distinct - todo}",
         f"  to be computed     {todo} ({shared} of them share another's contact solution)",
+        *_again(work),
+        *(_time(work, study.rtol, workers) if todo else ()),
     ]
+
+
+def _quantities(study: Study) -> Iterator[str]:
+    from swtstudy.quantities import DISTANCE, distance_of
+
     if study.asked.items:
-        unit = grid.row(DISTANCE).units.replace("1", "")
+        unit = study.grid.row(DISTANCE).units.replace("1", "")
         asked = [f"{item} {unit}".strip() if distance_of(item) else item for item in study.asked.items]
-        lines.insert(-3, f"  quantities         {', '.join(asked)}")
+        yield f"  quantities         {', '.join(asked)}"
+
+
+def _again(work: Work) -> Iterator[str]:
+    """Which of the points to be computed are known in part."""
     if work.incomplete.any():
-        lines.append(f"  without s          {int(work.incomplete.sum())} of them lack quantities alone")
+        yield f"  without s          {int(work.incomplete.sum())} of them lack quantities alone"
     if work.outdated:
-        lines.append(f"  recomputed         {work.outdated} come from another version of the solver")
+        yield f"  recomputed         {work.outdated} come from another version of the solver"
     if work.coarse:
-        lines.append(f"  recomputed         {work.coarse} are less accurate than the study asks for")
-    if todo:
-        timed: list[int] = []
-        seconds = sum(
-            estimate(
-                *(work.points, wanted, study.rtol, solve_points),
-                lambda result: timed.append(len(result)),
-                asked,
-            )
-            for wanted, asked in work.tasks()
-        )
-        chunk_count = max(1, round(seconds / CHUNK_SECONDS))
-        lines.append(f"  chunks             about {chunk_count}")
-        lines.append(
-            f"  time               about {duration(seconds / workers)} with {workers} workers "
-            f"({1e3 * seconds / todo:.3g} ms a point, from {sum(timed)} points timed)"
-        )
-    return lines
+        yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
+
+
+def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
+    """How long it takes, from a few points that are solved."""
+    from swtstudy.grid.cost import duration
+    from swtstudy.runner.chunk import solve_points
+    from swtstudy.runner.estimate import estimate
+    from swtstudy.runner.pace import CHUNK_SECONDS
+
+    timed: list[int] = []
+
+    def count(result: Result) -> None:
+        timed.append(len(result))
+
+    seconds = sum(
+        estimate(work.points, wanted, rtol, solve_points, count, asked) for wanted, asked in work.tasks()
+    )
+    yield f"  chunks             about {max(1, round(seconds / CHUNK_SECONDS))}"
+    yield (
+        f"  time               about {duration(seconds / workers)} with {workers} workers "
+        f"({1e3 * seconds / work.todo:.3g} ms a point, from {sum(timed)} points timed)"
+    )

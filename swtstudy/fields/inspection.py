@@ -24,14 +24,14 @@ from swtstudy.mechanics.body.body import TimeNodes
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.events.nodes import Nodes
-from swtstudy.mechanics.line.first_look import first_look
+from swtstudy.mechanics.line.first_look import FirstLook, first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.parameters import PAIRS, Control
+from swtstudy.prescribed import PAIRS, Control
 from swtstudy.solving import solve
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
@@ -93,12 +93,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
     line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
-    x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
-    if not np.isfinite(x):
-        side, column = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
-        x, double_angle = float((radius, -radius)[side][column]), float(line.double_angle[0, side, column])
-        double_angle = (double_angle + np.pi) % (2.0 * np.pi) - np.pi
-
+    x, double_angle = _shown(solved, line, radius)
     nodes = instants_of(scene, [abs(x)])
     time = turns(scene) * nodes.instant
     unit = unit_half_load(points.profile, points.shape, 1)
@@ -127,6 +122,16 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     )
     variables["edge_state"] = "time", edge_states(scene, nodes), of_states(slip.state.attrs)
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
+
+
+def _shown(solved: xr.Dataset, line: FirstLook, radius: FloatArray) -> tuple[float, float]:
+    """Position and 2θ of the stress cycle shown: the critical ones, or those of the largest sample."""
+    x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
+    if np.isfinite(x):
+        return x, double_angle
+    side, column = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
+    double_angle = float(line.double_angle[0, side, column])
+    return float((radius, -radius)[side][column]), (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
 def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:

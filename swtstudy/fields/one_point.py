@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from swtstudy.families import family_of
 from swtstudy.grid.canonical import NUMBERS
 from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import as_number
@@ -14,7 +15,6 @@ from swtstudy.mechanics.load.loop import Loop
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import StudyError
-from swtstudy.parameters import family_of
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:

@@ -138,19 +138,18 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             for one, panel in zip(axes[row], panels, strict=True):
                 draw_lines(one, panel, layout, scale)
         else:
-            surfaces = [
-                each.value.rename(values.name).transpose(layout.vertical, layout.x) for each in panels
-            ]
+            flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
+            surfaces = [panel.value.rename(values.name) for panel in flat]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-            if layout.regimes:
-                for one, panel in zip(axes[row], panels, strict=True):
-                    mark_borders(one, panel.regime.transpose(layout.vertical, layout.x))
-        bottom_words = words if upright else axis_words(layout.x, dataset[layout.x].attrs)
-        if not lines or upright:
-            name = layout.vertical or layout.x
-            words = axis_words(name, dataset[name].attrs)
+            for one, panel in zip(axes[row], flat, strict=True) if layout.regimes else ():
+                mark_borders(one, panel.regime)
+        across = axis_words(layout.x, dataset[layout.x].attrs)
+        if upright:
+            across, words = words, across
+        elif not lines:
+            words = axis_words(str(layout.vertical), dataset[layout.vertical].attrs)
         for bottom in sheet.lowest(axes[: row + 1]) if upright or row == len(layout.y) - 1 else []:
-            bottom.set_xlabel(bottom_words)
+            bottom.set_xlabel(across)
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(words)
         title = [title_words(values, y)] if len(layout.y) > 1 else []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from swtstudy.families import family_of
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
 from swtstudy.figures.inspection_panels import (
@@ -19,7 +20,7 @@ from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import PARAMETERS, family_of
+from swtstudy.parameters import PARAMETERS
 from swtstudy.wording import place_words, value_words
 
 if TYPE_CHECKING:

@@ -17,7 +17,8 @@ from swtstudy.figures.style import styled
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mistakes import StudyError
-from swtstudy.parameters import PARAMETERS, Control
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import Control
 from swtstudy.solving import solve
 from swtstudy.wording import axis_words
 

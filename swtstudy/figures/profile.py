@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.families import family_of
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
@@ -15,7 +16,7 @@ from swtstudy.grid.reading import read_grid
 from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS, family_of
+from swtstudy.parameters import PARAMETERS
 from swtstudy.wording import place_words, value_words
 
 if TYPE_CHECKING:

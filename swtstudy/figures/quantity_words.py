@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.families import family_of
 from swtstudy.grid.values import as_number
-from swtstudy.parameters import family_of
 from swtstudy.quantities import attributes_of, every_variable
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.families import FAMILIES, PLAIN, family_of
 from swtstudy.grid.codes import Definitions, code_of, control_code, control_of, value_of
 from swtstudy.named import Named, cost_of
-from swtstudy.parameters import FAMILIES, HARMONIC, PARAMETERS, PLAIN, family_of
+from swtstudy.parameters import HARMONIC, PARAMETERS
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points

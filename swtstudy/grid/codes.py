@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, Control
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
-NAMES = BUILT_IN["profile"]
+NAMES = PARAMETERS["profile"].names
 
 #: What a user has defined, by its code.
 Definitions = Mapping[float, Named]
@@ -23,12 +24,12 @@ Definitions = Mapping[float, Named]
 
 def code_of(value: str | Named, parameter: str = "profile") -> float:
     """The number that stands for a value of a parameter that has names."""
-    return value.code if isinstance(value, Named) else float(BUILT_IN[parameter].index(value))
+    return value.code if isinstance(value, Named) else float(PARAMETERS[parameter].names.index(value))
 
 
 def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Named:
     """The value that a number stands for."""
-    names = BUILT_IN[parameter]
+    names = PARAMETERS[parameter].names
     return names[int(code)] if code < len(names) else definitions[code]
 
 

@@ -17,7 +17,9 @@ from swtstudy.grid.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, ca
 from swtstudy.grid.codes import code_of, control_code
 from swtstudy.grid.values import Value, read_value
 from swtstudy.named import Named
-from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS, Control, Parameter, replaced_by
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
+from swtstudy.prescribed import Control, replaced_by
 from swtstudy.quantities import Request, item_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
 from swtstudy.mistakes import Report, literal
 from swtstudy.named import Named
-from swtstudy.parameters import HARMONIC, PARAMETERS, replaced_by
+from swtstudy.parameters import HARMONIC, PARAMETERS
+from swtstudy.prescribed import replaced_by
 
 
 def check_amplitudes(

@@ -19,7 +19,9 @@ from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, PAIRS, PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE
 
 #: What the user has defined, by parameter and name.
@@ -163,7 +165,7 @@ def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -
 
 def _allowed(row: Parameter, raw: object, known: Known) -> str:
     if row.kind == "name" and isinstance(raw, str):
-        return nearest(raw, [*BUILT_IN[row.name], *known.get(row.name, ())])
+        return nearest(raw, [*row.names, *known.get(row.name, ())])
     return row.allowed
 
 

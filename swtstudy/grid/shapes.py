@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.families import families_with, family_of
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import Report, literal
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, Parameter, families_with, family_of
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray

@@ -10,7 +10,8 @@ from numbers import Rational
 from swtstudy.grid.expression import evaluate
 from swtstudy.mistakes import is_number, plain, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 
 #: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
 Value = float | Fraction | str | Named
@@ -70,7 +71,7 @@ def as_number(value: Value) -> float:
 def _read_name(parameter: str, raw: object, known: Mapping[str, Named]) -> str | Named:
     if isinstance(raw, Named) and raw.parameter == parameter:
         return raw
-    if isinstance(raw, str) and raw in BUILT_IN[parameter]:
+    if isinstance(raw, str) and raw in PARAMETERS[parameter].names:
         return raw
     if isinstance(raw, str) and raw in known:
         return known[raw]

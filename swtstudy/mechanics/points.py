@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.parameters import DISPLACEMENTS, Control
+from swtstudy.prescribed import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
@@ -41,7 +41,7 @@ class Points:
     Attributes
     ----------
     profile
-        Name of the profile, a key of `swtstudy.parameters.FAMILIES`, or the table of one.
+        Name of the profile, a key of `swtstudy.families.FAMILIES`, or the table of one.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
         Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad. The amplitudes are those of
         forces where `control` says so.

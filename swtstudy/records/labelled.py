@@ -15,7 +15,8 @@ from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.named import Named
-from swtstudy.parameters import CONTROLS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.prescribed import CONTROLS
 from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of
 from swtstudy.records import requested
 from swtstudy.records.real import with_units

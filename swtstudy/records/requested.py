@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.axes import QUANTITY_AXES
+from swtstudy.axes import DIRECTIONS, QUANTITY_AXES
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.parameters import DIRECTIONS, Parameter
+from swtstudy.parameter import Parameter
 from swtstudy.quantities import (
     DISTANCE,
     NAMED,

@@ -41,18 +41,10 @@ def textbook_s(
         Add the instants of the events at the positions (turning points, edge passages, slip onsets), and the
         position of the smallest contact radius.
     """
-    p, q = int(point.p[0]), int(point.q[0])
-    d, u0, psi = (v.item() for v in (point.normal_amplitude, point.tangential_amplitude, point.phase))
-
-    def depth(time: FloatArray) -> FloatArray:
-        return 1.0 + d * np.sin(q * time + psi)
-
-    def displacement(time: FloatArray) -> FloatArray:
-        return u0 * np.sin(p * time)
-
+    course = _Course.of(point)
     # Springs are evenly spread in √(ξ² − b²), in which every profile's g is smooth.
     profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
-    smallest, largest = profile.radius(np.array([[max(1.0 - d, 0.0), 1.0 + d]]))[0]
+    smallest, largest = profile.radius(np.array([[max(1.0 - course.d, 0.0), 1.0 + course.d]]))[0]
     b = profile.flat_radius[0]
     radius = np.sqrt(b**2 + np.linspace(0.0, np.sqrt(largest**2 - b**2), springs + 1) ** 2)
     at = np.linspace(0, springs, positions + 1)[1:].astype(int)
@@ -63,27 +55,8 @@ def textbook_s(
     g = profile.depth(radius[None])[0]
     time = np.linspace(0.0, 2.0 * np.pi, steps + 1)
     if aligned:
-        rates = np.stack([p * u0 * np.cos(p * time), q * d * np.cos(q * time + psi)])
-        mixes = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]])
-        falls = mixes @ rates < 0.0
-        mix, step = np.nonzero(falls[:, 1:] != falls[:, :-1])
-        (a, c), fell = mixes[mix].T, falls[mix, step]
-
-        def same_sense(t: FloatArray) -> NDArray[np.bool_]:
-            return (a * p * u0 * np.cos(p * t) + c * q * d * np.cos(q * t + psi) < 0.0) == fell
-
-        time = np.union1d(time, bisect(same_sense, time, step))
-        edge = depth(time)[:, None] > g[at]
-        step, where = np.nonzero(edge[1:] != edge[:-1])
-        touched = edge[step, where]
-        time = np.union1d(time, bisect(lambda t: (depth(t) > g[at[where]]) == touched, time, step))
-        w, tau = march_springs(g[at], depth(time), displacement(time))
-        held = displacement(time)[:, None] - tau
-        step, where = np.nonzero((np.abs(tau) < w)[:-1] & (np.abs(np.diff(held, axis=0)) > 1e-14))
-        held = held[step, where]
-        onset = bisect(lambda t: np.abs(displacement(t) - held) < depth(t) - g[at[where]], time, step)
-        time = np.union1d(time, onset)
-    w, tau = march_springs(g, depth(time), displacement(time))
+        time = _with_events(_with_turns(time, course), course, g[at])
+    w, tau = march_springs(g, course.depth(time), course.displacement(time))
     position = radius[at]
     bulk_mean, bulk_amplitude, bulk_phase = (
         v.item() for v in (point.bulk_stress_mean, point.bulk_stress_amplitude, point.bulk_stress_phase)
@@ -91,9 +64,64 @@ def textbook_s(
     if bulk_mean or bulk_amplitude:
         position = np.concatenate([position, largest * np.geomspace(1.001, 100.0, positions)])
     sigma = surface_stresses(radius, position, w, tau, point)
-    sigma = sigma[0] + bulk_mean + bulk_amplitude * np.sin(p * time + bulk_phase), *sigma[1:]
+    sigma = sigma[0] + bulk_mean + bulk_amplitude * np.sin(course.p * time + bulk_phase), *sigma[1:]
     s, side, k, angle = brute_force(sigma, point.poisson_ratio.item(), planes, point.walker_exponent.item())
     return TextbookSolution(s, float(side * position[k]), angle)
+
+
+class _Course(NamedTuple):
+    """The two oscillations of the load."""
+
+    d: float
+    u0: float
+    psi: float
+    p: int
+    q: int
+
+    @classmethod
+    def of(cls, point: Points) -> _Course:
+        d, u0, psi = point.normal_amplitude, point.tangential_amplitude, point.phase
+        return cls(d.item(), u0.item(), psi.item(), int(point.p[0]), int(point.q[0]))
+
+    def depth(self, time: FloatArray) -> FloatArray:
+        return 1.0 + self.d * np.sin(self.q * time + self.psi)
+
+    def displacement(self, time: FloatArray) -> FloatArray:
+        return self.u0 * np.sin(self.p * time)
+
+    def rates(self, time: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Those of the displacement and of the depth."""
+        pull = self.p * self.u0 * np.cos(self.p * time)
+        return pull, self.q * self.d * np.cos(self.q * time + self.psi)
+
+
+def _with_turns(time: FloatArray, course: _Course) -> FloatArray:
+    """The instants with those at which u, δ, u + δ or u − δ turns."""
+    mixes = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]])
+    falls = mixes @ np.stack(course.rates(time)) < 0.0
+    mix, step = np.nonzero(falls[:, 1:] != falls[:, :-1])
+    (a, c), fell = mixes[mix].T, falls[mix, step]
+
+    def same_sense(t: FloatArray) -> NDArray[np.bool_]:
+        pull, push = course.rates(t)
+        return (a * pull + c * push < 0.0) == fell
+
+    return np.union1d(time, bisect(same_sense, time, step))
+
+
+def _with_events(time: FloatArray, course: _Course, g: FloatArray) -> FloatArray:
+    """The instants with those at which the contact's edge passes springs, and at which they begin to slip."""
+    depth, displacement = course.depth, course.displacement
+    edge = depth(time)[:, None] > g
+    step, where = np.nonzero(edge[1:] != edge[:-1])
+    touched = edge[step, where]
+    time = np.union1d(time, bisect(lambda t: (depth(t) > g[where]) == touched, time, step))
+    w, tau = march_springs(g, depth(time), displacement(time))
+    held = displacement(time)[:, None] - tau
+    step, begins = np.nonzero((np.abs(tau) < w)[:-1] & (np.abs(np.diff(held, axis=0)) > 1e-14))
+    held = held[step, begins]
+    onset = bisect(lambda t: np.abs(displacement(t) - held) < depth(t) - g[begins], time, step)
+    return np.union1d(time, onset)
 
 
 def bisect(

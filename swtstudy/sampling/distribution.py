@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.grid.values import as_number, read_exact, read_value
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import Parameter
+from swtstudy.parameter import Parameter
 
 #: What each distribution is given by, beside its bounds; the bounds of the last ones may be left out.
 KINDS: dict[str, tuple[str, ...]] = {

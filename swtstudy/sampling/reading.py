@@ -10,7 +10,8 @@ from typing import Any
 from swtstudy.grid.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
 from swtstudy.grid.values import NOTHING, Value, read_value
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.sampling.design import BALANCED, DESIGNS, Design
 from swtstudy.sampling.distribution import Distribution, read_distribution
 from swtstudy.sampling.points_file import KEY, read_points

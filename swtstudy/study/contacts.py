@@ -10,7 +10,7 @@ from swtstudy.mistakes import Report
 from swtstudy.quantities import every_variable
 
 if TYPE_CHECKING:
-    from swtstudy.parameters import Parameter
+    from swtstudy.parameter import Parameter
     from swtstudy.units.reading import Given
 
 

@@ -22,7 +22,7 @@ from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import to_toml
 
 if TYPE_CHECKING:
-    from swtstudy.parameters import Parameter
+    from swtstudy.parameter import Parameter
     from swtstudy.sampling.reading import Sample
 
 
@@ -49,7 +49,8 @@ class Study:
     figure
         Layout of the figure, or None.
     text
-        The study file as it was read, with the points of a file in it; it is stored in the archive.
+        The study file as it was read, or, if that names other files, one that says the same without them; it
+        is stored in the archive.
     sample
         Where the sample of the grid comes from, or None.
 
@@ -180,17 +181,29 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     mistakes += found
     figure = _figure_from(raw)
     if figure is not None:
-        # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
-        axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
-        names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
-        dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
-        dims += [] if grid is None else [dim for dim in grid.dims if dim not in dims]
-        check_figure(figure, dims, grid, asked, report, every_name() if contacts and mistakes else ())
+        others = every_name() if contacts and mistakes else ()
+        check_figure(figure, _dims(raw, grid), grid, asked, report, others)
     if mistakes or table is None or grid is None:
         raise StudyError(list(dict.fromkeys(mistakes)))
-    if table.sample is not None and table.sample.file is not None:
+    if _names_files(raw):
+        # An archive and what a killed run leaves are read in other folders, and when the files may be gone.
         text = to_toml(table.title, table.rtol, grid, figure, asked)
     return Study(table.title, grid, table.rtol, asked, figure, text, sample)
+
+
+def _names_files(raw: Mapping[str, Any]) -> bool:
+    """Whether a sound study has parts in files of their own."""
+    defined = [table for kind in ("loads", "profiles") for table in raw.get(kind, {}).values()]
+    return any("file" in table for table in (raw.get("sample", {}), raw.get("material", {}), *defined))
+
+
+def _dims(raw: Mapping[str, Any], grid: Grid | None) -> list[str]:
+    """The dimensions that a figure may name, also where there is no grid because of mistakes."""
+    # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
+    axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
+    names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
+    dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
+    return dims + ([] if grid is None else [dim for dim in grid.dims if dim not in dims])
 
 
 def _sample(

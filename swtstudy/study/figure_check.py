@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 
-from swtstudy.axes import AXES, QUANTITY_AXES
+from swtstudy.axes import AXES, DIRECTIONS, QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.parameters import DIRECTIONS
 from swtstudy.quantities import DISTANCE, Request, every_variable
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 

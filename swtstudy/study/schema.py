@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
+from swtstudy.families import families_with
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.grid.values import NUMERIC
-from swtstudy.parameters import BUILT_IN, PARAMETERS, Parameter, families_with
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
@@ -93,6 +95,32 @@ def study_schema() -> dict[str, Any]:
     schema = StudyTable.model_json_schema()
     schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_without_titles(schema)}
     parts, keys = schema["$defs"], schema["properties"]
+    _describe(keys, parts)
+    keys["quantities"] = {
+        "description": _DESCRIPTIONS["quantities"],
+        "type": "array",
+        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in NAMED.values()]},
+        "uniqueItems": True,
+        "default": [],
+    }
+    for name in ("start", "stop"):
+        parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
+    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
+    keys["units"] = {"description": _DESCRIPTIONS["units"], **_units()}
+    keys["material"] = {"description": _DESCRIPTIONS["material"], **_material()}
+    _name_keys(keys, parts["SampleTable"]["properties"], given)
+    schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
+    roles = parts["FigureTable"]["properties"]
+    for role in _ROLES:
+        roles[role] = {
+            "enum": [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *_SAMPLED.get(role, ())],
+            "description": roles[role]["description"],
+        }
+    return schema
+
+
+def _describe(keys: dict[str, Any], parts: dict[str, Any]) -> None:
+    """Say what each key of each table is."""
     for table, descriptions in (
         (keys, _DESCRIPTIONS),
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
@@ -103,19 +131,10 @@ def study_schema() -> dict[str, Any]:
     ):
         for name, entry in table.items():
             entry["description"] = descriptions[name]
-    keys["quantities"] = {
-        "description": keys["quantities"]["description"],
-        "type": "array",
-        "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in NAMED.values()]},
-        "uniqueItems": True,
-        "default": [],
-    }
-    for name in ("start", "stop"):
-        parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
-    sample = parts["SampleTable"]["properties"]
-    given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
-    keys["units"] = {"description": _DESCRIPTIONS["units"], **_units()}
-    keys["material"] = {"description": _DESCRIPTIONS["material"], **_material()}
+
+
+def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str, Parameter]) -> None:
+    """Say which parameters a table may have."""
     for table, part, entry_of, names in (
         (keys, "fixed", _value, given),
         (keys, "axes", _axis, given),
@@ -131,14 +150,6 @@ def study_schema() -> dict[str, Any]:
         }
     similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
     keys["fixed"]["properties"][SIMILAR_KEY] = similar
-    schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
-    roles = parts["FigureTable"]["properties"]
-    for role in _ROLES:
-        roles[role] = {
-            "enum": [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *_SAMPLED.get(role, ())],
-            "description": roles[role]["description"],
-        }
-    return schema
 
 
 def schema_text() -> str:
@@ -185,7 +196,7 @@ def _value(parameter: Parameter) -> dict[str, Any]:
     if parameter.default is not None:
         entry["default"] = parameter.default
     if parameter.kind == "name":
-        names = list(BUILT_IN[parameter.name])
+        names = list(parameter.names)
         # Beside the built-in ones there may be what the study defines.
         return entry | {"type": "string", "examples": names}
     kinds = ["number", "string"] + ["array"] * (parameter.name in OF_BODIES)

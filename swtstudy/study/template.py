@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.axes import QUANTITY_AXES
-from swtstudy.parameters import FAMILIES, PARAMETERS, Parameter
+from swtstudy.families import FAMILIES
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.families import family_of
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.shapes import largest_depths, largest_reach
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.mistakes import Report
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, family_of
+from swtstudy.parameters import PARAMETERS
 from swtstudy.units.rows import MEAN_LOADS
 from swtstudy.units.seats import MOST_SEATS, SEAT_NAMES, seat_dims
 

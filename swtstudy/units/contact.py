@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from swtstudy.families import family_of, is_profile
 from swtstudy.grid.canonical import canonical_number, rounded
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
-from swtstudy.parameters import HARMONIC, PAIRS, PARAMETERS, family_of, is_profile
+from swtstudy.parameters import HARMONIC, PARAMETERS
+from swtstudy.prescribed import PAIRS
 from swtstudy.units.bodies import bodies_of, checked_body, cycles_from, swt_from
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import length_of, number_of

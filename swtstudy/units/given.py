@@ -7,8 +7,10 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from swtstudy.families import families_with, family_of
 from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
-from swtstudy.parameters import PARAMETERS, SYMBOLS, families_with, family_of, spelled
+from swtstudy.parameter import spelled
+from swtstudy.parameters import PARAMETERS, SYMBOLS
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES, may_vanish
 from swtstudy.units.sizes import LARGEST, wrong_size

@@ -16,7 +16,8 @@ from swtstudy.grid.codes import code_of
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import as_number
 from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import Request, item_of
 from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units

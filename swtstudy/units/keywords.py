@@ -9,12 +9,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import given_twice, read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, family_of, is_profile, replaced_by
+from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
+from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.contact import Contact
 from swtstudy.units.given import (

@@ -13,7 +13,9 @@ from swtstudy.grid.shapes import check_shapes_given
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, Report, literal, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import LOOP_AMPLITUDE, PAIRS, Parameter, replaced_by
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import LOOP_AMPLITUDE
+from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies

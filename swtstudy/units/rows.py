@@ -6,7 +6,8 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 from swtstudy.units.labels import Units
 from swtstudy.units.scales import SCALES, may_vanish
 from swtstudy.units.sizes import LARGEST, SMALLEST

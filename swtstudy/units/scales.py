@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.parameters import PARAMETERS, Parameter
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from swtstudy.units.contact import Contact

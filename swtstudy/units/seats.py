@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.families import family_of
 from swtstudy.grid.canonical import SHAPE_COLUMNS
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mistakes import StudyError
 from swtstudy.named import Named
-from swtstudy.parameters import family_of
 from swtstudy.units.contact import Contact
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.axes import DIRECTIONS
 from swtstudy.mechanics.body.around import Around
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.parameters import DIRECTIONS
 
 #: Largest over smallest distance that share their places.
 SPAN = 40.0

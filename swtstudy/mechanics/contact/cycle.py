@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.memory import Memory
 from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states
 from swtstudy.mechanics.load.load import PERIOD, Load
@@ -31,10 +32,10 @@ class Cycle:
         The n loads.
     begin, end
         Shape (n, i): first and last instants φ of the intervals, ascending from 0 to `PERIOD`.
-    number
-        Shape (n, i): number of the interval in the division from which it was selected.
     memory
         Pieces inside of the front, shape (n, i, d); during growth, with the growing piece.
+    times
+        When the memory's growths were.
     forward, backward
         Shape (n, i): whether T − N rises, so that springs slip at τ = +w, and whether T + N falls, so
         that they slip at τ = −w. With neither of them the contact sticks.
@@ -45,8 +46,8 @@ class Cycle:
     load: Load
     begin: FloatArray
     end: FloatArray
-    number: NDArray[np.intp]
     memory: Memory
+    times: GrowthTimes
     forward: NDArray[np.bool_]
     backward: NDArray[np.bool_]
     gross_slip: NDArray[np.bool_]
@@ -64,16 +65,9 @@ class Cycle:
         empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
 
-    def numbered(self, which: NDArray[np.bool_], count: int) -> NDArray[np.bool_]:
-        """Some of the intervals, shape (n, i), by their numbers in a division of ``count``, (n, count)."""
-        row, interval = np.nonzero(which)
-        result = np.zeros((len(which), count), dtype=bool)
-        result[row, self.number[row, interval]] = True
-        return result
-
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
-        return slip_states(self.load, self.memory, self.senses, interval, instant)
+        return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)
 
     @property
     def senses(self) -> Senses:
@@ -98,8 +92,8 @@ class Cycle:
             self.load.take(index),
             self.begin[at],
             self.end[at],
-            self.number[at],
             self.memory.take(at),
+            self.times.take(index),
             self.forward[at],
             self.backward[at],
             self.gross_slip[index],

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
 from swtstudy.mechanics.contact.slip_front import slip_states
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
@@ -33,6 +34,8 @@ class _Course:
         Shape (n, i): the load's branch in which the interval lies.
     growth
         Shape (n, i): slope of what grows in stick: `GROWTH`, or that of a line.
+    times
+        When that is.
     """
 
     instant: FloatArray
@@ -43,6 +46,7 @@ class _Course:
     grows: NDArray[np.bool_]
     branch: IntArray
     growth: FloatArray
+    times: GrowthTimes
 
 
 def solve_cycle(load: Load) -> Cycle:
@@ -67,13 +71,12 @@ def solve_cycle(load: Load) -> Cycle:
             _slip(load, stack, course, i)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
-    number = np.broadcast_to(np.arange(intervals), (n, intervals))
     return Cycle(
         load,
         course.instant[:, :-1],
         course.instant[:, 1:],
-        number,
         memory,
+        course.times,
         course.forward,
         course.backward,
         gross_slip=stick_coordinate(load) < 0.0,
@@ -93,7 +96,8 @@ def _course(load: Load) -> _Course:
     if load.grows_in_lines:
         np.divide(tangential_rate, normal_rate, out=growth, where=grows)
     tangential, branch = load.tangential(instant), load.branch(middle)
-    return _Course(instant, edge, tangential, forward, backward, grows, branch, growth)
+    times = GrowthTimes.of(load, edge, branch, grows & (growth == GROWTH))
+    return _Course(instant, edge, tangential, forward, backward, grows, branch, growth, times)
 
 
 def _grow(stack: Memory, course: _Course, i: int) -> None:
@@ -111,7 +115,7 @@ def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
     """What has slipped lies on a slip line."""
     row = np.zeros((len(load), 1), dtype=np.intp)
     senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
-    states = slip_states(load, stack, senses, row, course.instant[:, i + 1 : i + 2])
+    states = slip_states(load, stack, senses, course.times, row, course.instant[:, i + 1 : i + 2])
     edge, tangential, front, sign = (
         values[:, 0] for values in (states.edge, states.tangential, states.front, states.sign)
     )

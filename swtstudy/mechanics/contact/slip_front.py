@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.growth_times import GrowthTimes
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import count_below
-from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray
 
 #: In which intervals springs may slip forward (τ = +w) and backward (τ = −w), each of shape (n, i).
@@ -43,7 +43,12 @@ class SlipStates:
 
 
 def slip_states(
-    load: Load, memory: Memory, senses: Senses, interval: NDArray[np.intp], instant: FloatArray
+    load: Load,
+    memory: Memory,
+    senses: Senses,
+    times: GrowthTimes,
+    interval: NDArray[np.intp],
+    instant: FloatArray,
 ) -> SlipStates:
     """Where the springs slip at instants.
 
@@ -58,6 +63,8 @@ def slip_states(
         Pieces inside of the front, shape (n, i, d).
     senses
         Of shape (n, i).
+    times
+        When the memory's growths were.
     interval, instant
         Shape (n, …) or broadcast to it: instants φ and their intervals.
     """
@@ -74,7 +81,7 @@ def slip_states(
             continue
         slip_line, of = sense * tangential.take(active) - ground[active], place[active]
         inside = count_below(memory.start - sense * memory.offset, of, -slip_line) - 1
-        found = _front_in_piece(load, memory, sense, slip_line, of, inside)
+        found = _front_in_piece(load, memory, sense, times, slip_line, of, inside)
         nearer = found < front[active]
         slips = active[nearer]
         front[slips], sign[slips], piece[slips] = np.maximum(found[nearer], 0.0), sense, inside[nearer]
@@ -86,6 +93,7 @@ def _front_in_piece(
     load: Load,
     memory: Memory,
     sense: float,
+    times: GrowthTimes,
     slip_line: FloatArray,
     place: NDArray[np.intp],
     piece: NDArray[np.intp],
@@ -107,23 +115,8 @@ def _front_in_piece(
     grown = np.flatnonzero(grown & (piece >= 0))
     if grown.size:
         row = place[grown] // memory.start.shape[1]
-        front[grown] = _front_in_growth(load, memory, sense, slip_line[grown], at[grown], row)
+        brackets = times.slip_line_brackets(sense, row, memory.growth.take(at[grown]))
+        several = load.take(row)
+        # The front is where the edge was when the slip line had this value.
+        front[grown] = several.normal(several.slip_line_instant(sense, slip_line[grown], brackets))
     return np.where(piece < 0, -np.inf, front)
-
-
-def _front_in_growth(
-    load: Load,
-    memory: Memory,
-    sense: float,
-    slip_line: FloatArray,
-    at: NDArray[np.intp],
-    row: NDArray[np.intp],
-) -> FloatArray:
-    """`_front_in_piece` for growths, numbered ``at`` along the flattened memory, of the loads ``row``."""
-    pieces = np.flatnonzero((memory.slope == GROWTH) & np.isfinite(memory.start))
-    one = load.take(pieces // (memory.slope.size // len(load)))
-    branch = memory.branch.take(pieces)
-    begin, end = (one.touch_down(ends.take(pieces), branch) for ends in (memory.start, memory.stop))
-    brackets: Brackets = one.slip_line_brackets(sense, begin, end).take(np.searchsorted(pieces, at))
-    several = load.take(row)
-    return several.normal(several.slip_line_instant(sense, slip_line, brackets))

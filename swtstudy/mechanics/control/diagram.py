@@ -13,7 +13,7 @@ from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.parameters import Control
+from swtstudy.prescribed import Control
 
 
 def largest_depth(

@@ -34,15 +34,10 @@ def front_passes(cycle: Cycle, coordinate: FloatArray) -> FloatArray:
     return first
 
 
-def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
+def split_at_breakpoints(cycle: Cycle) -> Cycle:
     """The same cycle with its intervals cut where a slip front passes a breakpoint of the memory.
 
     The front changes its speed there, and with it the stress at every x outside of it.
-
-    Returns
-    -------
-    The finer division, numbered anew, and the interval of the cycle that each of its intervals is a part of,
-    shape (n, i).
     """
     memory = cycle.memory
     rows, instants = [], []
@@ -57,16 +52,15 @@ def split_at_breakpoints(cycle: Cycle) -> tuple[Cycle, NDArray[np.intp]]:
     return split_at(cycle, filled_rows(row, instant, len(memory.start), PERIOD))
 
 
-def split_at(cycle: Cycle, cuts: FloatArray) -> tuple[Cycle, NDArray[np.intp]]:
-    """The same cycle with its intervals cut at more instants, (n, k), and as `split_at_breakpoints`."""
+def split_at(cycle: Cycle, cuts: FloatArray) -> Cycle:
+    """The same cycle with its intervals cut at more instants, (n, k)."""
     n = len(cuts)
     edges = np.sort(np.concatenate([np.zeros((n, 1)), cycle.end, cuts], axis=1), axis=1)
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
     parent = (middle[:, :, None] >= cycle.end[:, None]).sum(axis=-1)
     parent = np.minimum(parent, cycle.end.shape[1] - 1)
     finer = cycle.take_intervals(np.arange(n), parent)
-    number = np.broadcast_to(np.arange(parent.shape[1]), parent.shape)
-    return replace(finer, begin=edges[:, :-1], end=edges[:, 1:], number=number), parent
+    return replace(finer, begin=edges[:, :-1], end=edges[:, 1:])
 
 
 def _slip_line_passes(

@@ -1,4 +1,4 @@
-"""The registry of profiles: a family is a file here, a line below and a row of `parameters.FAMILIES`."""
+"""The registry of profiles: a family is a file here, a line below and a row of `families.FAMILIES`."""
 
 from __future__ import annotations
 

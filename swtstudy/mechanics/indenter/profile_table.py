@@ -13,7 +13,7 @@ from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN
+from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -189,7 +189,7 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
     if not isinstance(name, str) or not name.strip():
         yield Mistake("name", literal(name), "a text that is not empty")
         name = "profile"
-    if name in BUILT_IN["profile"]:
+    if name in PARAMETERS["profile"].names:
         yield Mistake("name", literal(name), "another one: this is a built-in profile")
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1 or not np.all(np.isfinite(values)):

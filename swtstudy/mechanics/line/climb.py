@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import FirstLook
-from swtstudy.mechanics.line.look import LEVEL, Resolution
+from swtstudy.mechanics.line.look import LEVEL
 from swtstudy.mechanics.line.positions import PositionBrackets, Positions
-from swtstudy.mechanics.line.value import hot_intervals
-from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -29,8 +27,6 @@ class Climb:
     ----------
     point, side, column
         Number of the point, sign of x, and column of the position around which is searched.
-    hot
-        Shape (m, i): intervals of the cycle that are looked at.
     angle
         2θ of the best plane so far, rad.
     centre, width
@@ -48,7 +44,6 @@ class Climb:
     point: NDArray[np.intp]
     side: FloatArray
     column: NDArray[np.intp]
-    hot: NDArray[np.bool_]
     angle: FloatArray
     centre: FloatArray
     width: FloatArray
@@ -59,28 +54,14 @@ class Climb:
     settled: NDArray[np.bool_]
 
     @classmethod
-    def start(
-        cls,
-        scene: Scene,
-        split: Scene,
-        part_of: NDArray[np.intp],
-        look: FirstLook,
-        positions: Positions,
-        resolution: Resolution,
-    ) -> Climb:
-        """From the first look at a scene, for its finer division, see `split_at_breakpoints`."""
-        peak = look.candidates(positions.r)
-        point, side, column = peak
-        angle, hot = look.closer(scene, *peak)
-        hot = gather(hot, part_of[point])
-        x_sign = np.where(side == 0, 1.0, -1.0)
-        chosen = split.select(point, hot)
-        found = hot_intervals(chosen, positions.r[point, column], x_sign, angle, resolution)
-        hot = chosen.cycle.numbered(found, hot.shape[1])
+    def start(cls, scene: Scene, look: FirstLook, positions: Positions) -> Climb:
+        """From the first look at a scene."""
+        point, side, column = look.candidates(positions.r)
+        angle, x_sign = look.closer(scene, point, side, column), np.where(side == 0, 1.0, -1.0)
         centre, top, seen, remaining = np.zeros((4, len(point)))
         width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
         settled = np.zeros(len(point), dtype=bool)
-        return cls(point, x_sign, column, hot, angle, centre, width, top, seen, remaining, rounds, settled)
+        return cls(point, x_sign, column, angle, centre, width, top, seen, remaining, rounds, settled)
 
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Climb:
         """The local maxima at ``index``."""

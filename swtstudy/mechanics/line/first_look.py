@@ -1,8 +1,4 @@
-"""A first look at swt along the surface line, and which parts of the cycle make it.
-
-Few event-aligned instants and planes show where swt may be largest, and in which intervals of the cycle its
-three extremes can be: the local search looks nowhere else.
-"""
+"""A first look at swt along the surface line: at few event-aligned instants, on few planes."""
 
 from __future__ import annotations
 
@@ -11,10 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.events.stretches import NO_STRETCH
-from swtstudy.mechanics.line.look import Look, Resolution, near_extremes, reach
-from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
 from swtstudy.mechanics.points import FloatArray
@@ -45,10 +38,6 @@ class FirstLook:
     swt, double_angle, highest
         Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad; and how high swt
         may really be between the instants.
-    interval
-        Shape (n, X, T): interval of the cycle in which each instant of `history` is, or whose mirror image.
-    first, last
-        Shape (n, 2, i): intervals of the whole cycle that each interval, and its mirror image, is made of.
     history
         What was seen there; where both sides are alike, the second half is the mirror image of the first.
     """
@@ -56,9 +45,6 @@ class FirstLook:
     swt: FloatArray
     double_angle: FloatArray
     highest: FloatArray
-    interval: NDArray[np.intp]
-    first: NDArray[np.intp]
-    last: NDArray[np.intp]
     history: History
 
     def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
@@ -76,8 +62,8 @@ class FirstLook:
 
     def closer(
         self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """A closer look at single positions, on more planes.
+    ) -> FloatArray:
+        """2θ of the best planes at single positions, rad, shape (m,), from a closer look on more planes.
 
         Parameters
         ----------
@@ -85,26 +71,10 @@ class FirstLook:
             The n points.
         point, side, column
             Shape (m,): index of the positions.
-
-        Returns
-        -------
-        double_angle
-            Shape (m,): 2θ of the best plane, rad.
-        hot
-            Shape (m, i): intervals of the cycle that can hold an extreme.
         """
         x_sign = np.where(side == 0, 1.0, -1.0)[:, None, None]
         planes = scene.take(point).planes(self.history.take(point[:, None], column[:, None]), x_sign)
-        _, angle = coarse_swt(planes, CLOSER_PLANES)
-        both = angle, self.double_angle[point, side, column][:, None]
-        row, _, instant = np.nonzero(near_extremes(planes, both))
-        count = self.interval.shape[-1]
-        at = point[row], instant // count, self.interval[point[row], column[row], instant % count]
-        # Ranges of intervals, as steps up and down.
-        steps = np.zeros((len(point), scene.cycle.begin.shape[1] + 1), dtype=np.intp)
-        np.add.at(steps, (row, self.first[at]), 1)
-        np.add.at(steps, (row, self.last[at] + 1), -1)
-        return angle[:, 0], np.cumsum(steps, axis=1)[:, :-1] > 0
+        return coarse_swt(planes, CLOSER_PLANES)[1][:, 0]
 
 
 def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
@@ -134,8 +104,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
         _seen(scene.planes(history, side), inside, planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
     ]
     swt, angle, highest = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    interval = look.nodes.spread(look.nodes.interval)
-    return FirstLook(swt, angle, highest, interval, *_parts_of_whole(cycle, scene.cycle), history)
+    return FirstLook(swt, angle, highest, history)
 
 
 def _seen(
@@ -148,22 +117,6 @@ def _seen(
     of_swt = curves(*planes.take(*at).on_plane(angle[at]))
     highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
     return swt, angle, highest
-
-
-def _parts_of_whole(cycle: Cycle, whole: Cycle) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """First and last interval of the whole cycle in each interval of a cycle, and in its mirror image.
-
-    An interval of the first half may reach beyond it, and its mirror image into several.
-
-    Returns
-    -------
-    Each of shape (n, 2, i).
-    """
-    begin, end = (np.stack([v, v + 0.5 * PERIOD], axis=1)[..., None] for v in (cycle.begin, cycle.end))
-    first = (whole.end[:, None, None] <= begin + NO_STRETCH).sum(axis=-1)
-    last = np.maximum((whole.begin[:, None, None] < end - NO_STRETCH).sum(axis=-1) - 1, first)
-    most = whole.begin.shape[1] - 1
-    return np.minimum(first, most), np.minimum(last, most)
 
 
 def local_maxima(

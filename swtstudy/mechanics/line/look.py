@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -14,7 +13,7 @@ from swtstudy.mechanics.events.nodes import Nodes, Placed, cosine_nodes
 from swtstudy.mechanics.events.stretches import Stretches, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import gather, pick
-from swtstudy.mechanics.numerics.peaks import near_maximum, parabola
+from swtstudy.mechanics.numerics.peaks import parabola
 from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
@@ -25,9 +24,6 @@ from swtstudy.mechanics.stress.scene import Scene
 #: A smooth maximum may be higher than the best instant by this share of the bend there: a parabola through
 #: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33. 1/8: no change at 128 points.
 REACH = 0.4
-#: An interval in which a stress or strain comes this near to its extreme, in its range, may hold it or do so
-#: at the next position. 0.25: 9e-5 at 1 of 128 points; 0.35 after the first look: none of 1,001, no faster.
-HOT = 0.5
 #: A curve falls at once where twice its first slope is at least this share of the fall over a step: 2 on a
 #: line. 0: 3e-4 at a point with a bulk stress; 1.5: as without graded samples.
 AT_ONCE = 0.9
@@ -230,12 +226,3 @@ def _rise_beside_end(
         more = np.divide(slope * slope, 8.0 * bend, out=np.zeros_like(end), where=beside)
         rise = np.maximum(rise, more)
     return rise
-
-
-def near_extremes(planes: PlaneHistory, angles: Iterable[FloatArray]) -> NDArray[np.bool_]:
-    """Instants at which σ_n or ε_n come near to an extreme, within `HOT` of their range, on any plane."""
-    near = np.zeros(planes.stress.shape[1:], dtype=bool)
-    for angle in angles:
-        for curve in curves(*planes.on_plane(angle)):
-            near |= near_maximum(curve, HOT)
-    return near

@@ -140,7 +140,7 @@ def reach_of_edge(profile: Profile) -> FloatArray:
 
 def _left_at_tip(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     """How much many more instants change swt at the n positions of the maxima, shape (n,)."""
-    split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     more = replace(resolution, nodes=TIMES_AT_TIP * resolution.nodes)
     place = np.abs(found.position)[:, None], np.sign(found.position), found.double_angle[:, None]
     value, _ = refine(split, *place, more)
@@ -183,7 +183,7 @@ def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     A maximum may be at a cusp, with a steep flank on one side: the better half of the numbers counts.
     """
     r = np.abs(found.position)[:, None]
-    split = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     steps = np.concatenate([NEIGHBOURS, FARTHER])
     near = np.maximum(r + steps * np.spacing(r), scene.profile.flat_radius[:, None])
     angle = np.broadcast_to(found.double_angle[:, None], near.shape)
@@ -199,11 +199,10 @@ def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
 
 def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     """First look, local search and check."""
-    finer, part_of = split_at_breakpoints(scene.cycle)
-    split = replace(scene, cycle=finer)
+    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
     look = first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
-    climb = Climb.start(scene, split, part_of, look, positions, accuracy.search)
+    climb = Climb.start(scene, look, positions)
     largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)
     for turn in range(LARGEST_ROUND_COUNT):
         going = np.flatnonzero(~climb.settled)
@@ -219,9 +218,7 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     # What is still on its way counts for what was seen of it.
     climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])
     r = climb.brackets(positions).radius(climb.centre[:, None])
-    value, angle = refine(
-        split.select(climb.point, climb.hot), r, climb.side, climb.angle[:, None], accuracy.check
-    )
+    value, angle = refine(split.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
     order = np.lexsort((-value[:, 0], climb.point))
     best = order[np.unique(climb.point[order], return_index=True)[1]]
     swt = value[best, 0]

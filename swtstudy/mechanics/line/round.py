@@ -46,7 +46,7 @@ class _Seen:
     Attributes
     ----------
     scene, brackets
-        The climbs' scenes, of the parts of the cycle that they look at, and the gaps that they are in.
+        The climbs' scenes, and the gaps that they are in.
     c, values, angles
         Shape (m, k): positions in the gaps, swt there and 2θ of the best planes, rad.
     best
@@ -118,7 +118,7 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     c = np.where(centre > 0.0, np.maximum(c, 0.0), c)
     c = np.where(centre < 0.0, np.minimum(c, 0.0), c)
     start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
-    chosen = scene.select(climb.point, climb.hot)
+    chosen = scene.take(climb.point)
     values, angles = refine(chosen, brackets.radius(c), climb.side, start, accuracy.search)
     # Equal values, as beyond the last position, count for the centre.
     best = (values * (1.0 - TIE * np.abs(c - centre))).argmax(axis=1)

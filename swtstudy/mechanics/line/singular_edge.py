@@ -125,7 +125,7 @@ def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
 def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt at 0 < ε ≤ `reach_of_edge`."""
     # The instant at which the front arrives at G = 0 is a breakpoint.
-    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle)[0])
+    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
     n = len(scene)
     rows = np.arange(n)
     found = Maximum.unknown(n, 0.0)

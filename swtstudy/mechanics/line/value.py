@@ -18,7 +18,6 @@ from swtstudy.mechanics.line.look import (
     extreme_instants,
     extremes_and_rivals,
     lifted,
-    near_extremes,
     reach,
 )
 from swtstudy.mechanics.line.samples import ANGLE_ROUNDS, Samples, of_extremes
@@ -37,29 +36,6 @@ SAME_PLANE = 0.01
 #: A plane whose swt, interpolated, is below this share of the best one's is no rival: 4e-4 of s was lost at a
 #: point where the two were nearer (tests/test_narrow_maxima.py), and looking at all planes costs 2 %.
 RIVAL_SHARE = 0.97
-
-
-def hot_intervals(
-    scene: Scene, position: FloatArray, side: FloatArray, double_angle: FloatArray, resolution: Resolution
-) -> NDArray[np.bool_]:
-    """Intervals of the cycle that can hold an extreme at one position or next to it, shape (n, i).
-
-    Parameters
-    ----------
-    scene
-        n points.
-    position, side, double_angle
-        Shape (n,): r = |x|, sign of x, 2θ in rad.
-    resolution
-        Its zooms are not used.
-    """
-    look = Look.at(scene, position[:, None], resolution.nodes, resolution.digits)
-    planes = scene.planes(look.history, side[:, None, None])
-    near = near_extremes(planes, STARTS + double_angle[:, None])
-    row, column, place = np.nonzero(near)
-    hot = np.zeros(scene.cycle.begin.shape, dtype=bool)
-    hot[row, look.placed.interval[row, column, place]] = True
-    return hot
 
 
 def refine(

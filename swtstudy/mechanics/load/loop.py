@@ -9,7 +9,8 @@ from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.parameters import BUILT_IN, PAIRS
+from swtstudy.parameters import PARAMETERS
+from swtstudy.prescribed import PAIRS
 
 
 class BulkCourse(Protocol):
@@ -75,6 +76,6 @@ def checked_name(name: object) -> str:
     """
     if not isinstance(name, str) or not name.strip():
         raise StudyError([Mistake("name", literal(name), "a text that is not empty")])
-    if name in BUILT_IN["load"]:
+    if name in PARAMETERS["load"].names:
         raise StudyError([Mistake("name", literal(name), "another one: this is a built-in load")])
     return name

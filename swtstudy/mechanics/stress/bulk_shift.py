@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from swtstudy.families import PLAIN
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.load.of_points import alike, load_of
 from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.parameters import PLAIN
 
 
 def bulk_shift(points: Points) -> FloatArray:

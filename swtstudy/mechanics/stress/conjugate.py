@@ -57,7 +57,7 @@ class Conjugate:
     @classmethod
     def of(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
         """Over as much of the cycles of a scene as is no mirror image of the rest: all, or the first half."""
-        cycle, _ = split_at_breakpoints(scene.cycle)
+        cycle = split_at_breakpoints(scene.cycle)
         if cycle.load.mirrored_half:
             half = cycle.first_half()
             cycle = replace(half, end=np.minimum(half.end, 0.5 * PERIOD))

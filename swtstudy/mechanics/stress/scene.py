@@ -21,7 +21,7 @@ from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
-from swtstudy.parameters import Control
+from swtstudy.prescribed import Control
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Scene:
         """The same with bulk stresses."""
         if bulk is None or not bulk.moves.any():
             return replace(self, bulk=bulk)
-        return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants())[0])
+        return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants()))
 
     @property
     def largest_radius(self) -> FloatArray:
@@ -89,10 +89,6 @@ class Scene:
     def mirrored_half(self) -> bool:
         """Whether half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
-
-    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Scene:
-        """The points at ``index`` with the intervals of their cycles to keep, shape (len(index), i)."""
-        return replace(self.take(index), cycle=self.cycle.select(index, keep))
 
     @property
     def one_walker_exponent(self) -> float:
