@@ -113,8 +113,8 @@ def spelled(symbol: str) -> str:
 
     Examples
     --------
-    >>> spelled("δ_A"), spelled(r"G^* u_A"), spelled("λ")
-    ('deltaa', 'gua', 'lambda')
+    >>> spelled("δ_A"), spelled(r"G^* u_A"), spelled("λ"), spelled("α"), spelled("Ω")
+    ('deltaa', 'gua', 'lambda', 'alpha', 'omega')
     """
     # NFKC makes a keyboard's µ the letter μ; Unicode writes lambda without its b.
     words = (

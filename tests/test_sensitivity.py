@@ -153,6 +153,12 @@ def test_the_bars_are_the_indices(indices):
             one = indices.sel(quantity=quantity).isel(normal_amplitude=column)
             heights = [bar.get_height() for bar in panels[row, column].patches]
             assert heights == [*one.first_order.values, *one.total.values]
+            bars = panels[row, column].collections
+            for key, drawn in zip(("first_order", "total"), bars, strict=True):
+                ends = np.array([segment[:, 1] for segment in drawn.get_segments()])
+                value = one[key].values
+                np.testing.assert_allclose(ends[:, 0], np.minimum(one[f"{key}_low"], value), atol=1e-12)
+                np.testing.assert_allclose(ends[:, 1], np.maximum(one[f"{key}_high"], value), atol=1e-12)
     assert panels[0, 1].get_title(loc="left") == r"$\delta_A/\delta_0$ = 0.5"
     assert [text.get_text() for text in panels[1, 0].get_xticklabels()][:2] == [r"$\mu$", r"$\nu$"]
 
