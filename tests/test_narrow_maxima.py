@@ -134,6 +134,19 @@ FROZEN = [
     # Nearer, where contact is lost.
     ("paraboloid", (0.5, 0.0081136441, 6.93747178, 7.5921989e-05, 2.34399114, 1, 2), {}, 1.170560e-08),
     ("paraboloid", (0.5, 0.05539213, 5.4026985, 5.6188342e-05, 5.16040084, 1, 1), {}, 3.221889e-07),
+    # At a cusp, around which the search does not look farther away before it has looked twice.
+    (
+        "truncated_paraboloid",
+        (0.34210261, 0.87115678, 0.04084294, 0.05000156, 3.01743196, 2, 1),
+        {"flat_radius": 1.31366125},
+        0.1010117911,
+    ),
+    (
+        "wavy_paraboloid",
+        (0.15822604, 0.96059685, 0.19305387, 0.33376002, 2.62997834, 1, 2),
+        {"waviness_amplitude": 0.08103229, "wavelength": 6.04912115},
+        0.5751403677,
+    ),
 ]
 
 
