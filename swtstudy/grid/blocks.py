@@ -8,8 +8,9 @@ from swtstudy.grid.canonical import LOAD_COLUMNS, SHARED_COLUMNS, select
 from swtstudy.grid.cost import weights
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Points in a block, times their weight: about a second of work. In small blocks each point costs more.
-_BLOCK_SIZE = 512
+#: Points in a block, times their weight: one or two seconds of work. In small blocks each point costs more:
+#: with half of it, and of the solver's batches, a tenth at long cycles.
+_BLOCK_SIZE = 1024
 _SMALLEST_BLOCK = 4
 #: Points that are worth more than one block: then there are as many for one of two workers as for the other.
 _WORTH_SHARING = 64

@@ -23,12 +23,9 @@ from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Points times turning instants of one batch: enough to hide the interpreter. Half: 4 % slower, 60 MB less at
-#: 1,600 points; four times: 6 % faster, 80 MB more.
-BATCH_SIZE = 1600
-#: The same with the square of the turning instants, which are instants and positions. A quarter: 9 % slower,
-#: 120 MB less at 1,600 points; four times: no faster, 45 MB more.
-BATCH_SQUARES = 60_000
+#: Points times turning instants of one batch, and with their square, which are instants and positions: enough
+#: to hide the interpreter. Half of both: 13 % slower at long cycles; twice: no faster.
+BATCH_SIZE, BATCH_SQUARES = 3200, 120_000
 #: Relative error of tables, series and rounding, which no rtol removes (results/accuracy.md, at 1e-7).
 LEAST_ERROR = 8e-8
 #: swt closer to that far from the contact than this is no more than that, relative.

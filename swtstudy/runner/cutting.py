@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.cost import weights
 from swtstudy.grid.unique import UniquePoints
-from swtstudy.mechanics.points import IntArray
+from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk
 
 
@@ -33,12 +33,7 @@ def chunks(
     weight = weights(points.table)
     blocks: list[IntArray] = []
     heaviness = 0
-    begin = 0
-    for end in block_ends(points.table).tolist():
-        rows = begin + np.flatnonzero(wanted[begin:end])
-        begin = end
-        if not len(rows):
-            continue
+    for rows in _heaviest_first(points.table, wanted, weight):
         for block in np.array_split(rows, -(-len(rows) // (asked.block or len(rows)))):
             block_weight = int(weight[block].sum())
             if blocks and heaviness + block_weight > size():
@@ -48,3 +43,14 @@ def chunks(
             heaviness += block_weight
     if blocks:
         yield Chunk.of(points, blocks, asked)
+
+
+def _heaviest_first(table: FloatArray, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
+    """The wanted rows of each block that has some: the light blocks at the end let no worker wait long."""
+    begin, found = 0, []
+    for end in block_ends(table).tolist():
+        rows = begin + np.flatnonzero(wanted[begin:end])
+        begin = end
+        if len(rows):
+            found.append(rows)
+    return sorted(found, key=lambda rows: -int(weight[rows].sum()))

@@ -54,9 +54,9 @@ class Climb:
     settled: NDArray[np.bool_]
 
     @classmethod
-    def start(cls, scene: Scene, look: FirstLook, positions: Positions) -> Climb:
-        """From the first look at a scene."""
-        point, side, column = look.candidates(positions.r)
+    def start(cls, scene: Scene, look: FirstLook, r: FloatArray) -> Climb:
+        """From the first look at positions r of a scene, shape (n, X)."""
+        point, side, column = look.candidates(r)
         angle, x_sign = look.closer(scene, point, side, column), np.where(side == 0, 1.0, -1.0)
         centre, top, seen, remaining = np.zeros((4, len(point)))
         width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
