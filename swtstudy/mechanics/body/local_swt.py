@@ -106,12 +106,9 @@ class LocalSwt:
 
     def _decisive(self, shown: Places) -> tuple[NDArray[np.bool_], CoarsePlanes]:
         """In which gaps between the instants swt is made at places, shape (m, T), and on what planes."""
-        every = CoarsePlanes.everywhere()
-        histories, rows = Histories(self.scene, *shown, self.springs), np.arange(shown.radius.size)
-        instant = self._instants(shown, np.ones((rows.size, self.instant.size), dtype=bool))
+        open_ = np.zeros((shown.radius.size, self.instant.size), dtype=bool)
+        histories, instant = Histories(self.scene, *shown, self.springs), self._instants(shown, ~open_)
         stress = histories.stress(instant)
-        normal = highest_coarse_planes(stress, every, self.ν, self.γ)
-        instant, stress, _ = self._closer(histories, rows, instant, stress, normal, FIRST)
         hot = np.zeros(instant.shape, dtype=bool)
         planes, normal = planes_like(stress, self.ν, self.γ)
         _, normal = climb_from(stress, self.ν, normal, self.γ)
@@ -119,7 +116,6 @@ class LocalSwt:
             hot |= near_maximum(curve, HOT)
         row, column = np.nonzero(hot)
         at = instant[row, column]
-        open_ = np.zeros((rows.size, self.instant.size), dtype=bool)
         # Beside an instant that is common both gaps.
         for side in (at - SAME_INSTANT, at + SAME_INSTANT):
             open_[row, np.searchsorted(self.instant, side) - 1] = True
