@@ -34,8 +34,8 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of all intervals of a cycle at most, unless each has one: 200 sides are a third faster.
 MANY = 256
-#: The edge or a front passes so far from a place, in its depth, at its own instants. Four of them, a twentieth
-#: faster: two of 72 means over lines were 1e-3 and 4e-3 low.
+#: The edge or a front passes so far from a place, in its depth, at its own instants. Four: 5 % faster, but
+#: two of 72 means over lines were 1e-3 and 4e-3 low.
 OFFSETS = np.array([-3.0, -1.5, -0.7, 0.0, 0.5, 1.0])
 #: Passages nearer to the end of an interval, rad, are at that end, or none.
 NO_PASSAGE = 1e-9
