@@ -341,3 +341,40 @@ def test_of_a_real_contact_its_column_is_one_of_stresses() -> None:
     # From -20 to 100: R = 0.25 wants 60 more, so that it goes from 40 to 160.
     assert swtstudy.physical(**given, bulk_stress_ratio=0.25).bulk_stress_mean == pytest.approx(60.0)
     assert contact.with_parameters(friction=0.4).bulk_stress_amplitude == pytest.approx(1.0)
+
+
+def swt_at(x: Array, y: Array, z: Array, **own: Any) -> Array:
+    """swt of the stress field at places, at many common instants."""
+    time = np.linspace(0.0, 2.0 * np.pi, 301)
+    places = [xr.DataArray(values, dims="place") for values in (x, y, z)]
+    field = swtstudy.stress_field(*places, time=time, load=LoadPath("mine", LOOP), **own)
+    stress = np.stack([field[name].transpose("place", "time").values for name in COMPONENTS], axis=-1)
+    return swt_of_history(stress, 0.3, 1.0 - 0.3**2).swt
+
+
+def test_nonlocal_means_hold_it() -> None:
+    """Against the field at the places of Gauss's rule in spherical coordinates about the critical point."""
+    own = {"bulk_stress_amplitude": 0.25, "bulk_stress_mean": 0.05}
+    distance = 0.2
+    found = solved(LOOP, critical_distance=[1e-8, distance], **own)
+    x = float(found.critical_x)
+    np.testing.assert_allclose([found.s_volume[0], *found.s_point[0]], float(found.s), rtol=2e-3)
+    nodes = (np.polynomial.legendre.leggauss(count) for count in (4, 4, 6))
+    (u, of_u), (v, of_v), (w, of_w) = ((0.5 + 0.5 * node, 0.5 * weight) for node, weight in nodes)
+    # Denser towards the point, beside which swt falls like a root, and towards the surface.
+    u, v, w = np.meshgrid(u**2, v**2, np.pi * w, indexing="ij")
+    out = distance * u * np.sqrt(1.0 - v**2)
+    swt = swt_at(*(a.ravel() for a in (x + out * np.cos(w), out * np.sin(w), distance * u * v)), **own)
+    weight = of_u[:, None, None] * u**2.5 * of_v[:, None] * np.sqrt(v) * of_w
+    expected = (weight.ravel() @ swt) / weight.sum()
+    assert float(found.s_volume[1]) == pytest.approx(expected, rel=5e-3)
+    below = swt_at(np.array([x]), np.zeros(1), np.array([0.5 * distance]), **own)
+    assert float(found.s_point.sel(direction="depth")[1]) == pytest.approx(float(below[0]), rel=1e-3)
+
+
+def test_far_beneath_the_contact_there_is_nothing_else() -> None:
+    mean, amplitude = 3.0, 5.0
+    own = {"bulk_stress_amplitude": amplitude, "bulk_stress_mean": mean, "critical_distance": 10.0}
+    found = solved(LOOP, **own)
+    expected = (mean + 0.4 * amplitude) * 0.5 * (0.4 + 0.2) * amplitude / (1.0 - 0.3**2)
+    assert float(found.s_point.sel(direction="depth")) == pytest.approx(expected, rel=3e-3)

@@ -11,7 +11,7 @@ from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body import around
 from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
-from swtstudy.mechanics.body.half_sphere import HalfSpheres
+from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
 from swtstudy.mechanics.body.histories import Histories
 from swtstudy.mechanics.body.local_swt import Fineness
 from swtstudy.mechanics.body.spring_cells import SpringCells
@@ -287,3 +287,18 @@ def test_what_peaks_may_hide():
     lower = int(both.value[0, :, 1].argmin())
     beside[0, lower] += 1.25
     np.testing.assert_allclose(both.hidden(beside), 0.25)
+
+
+def test_kinks_on_lines_are_seen():
+    """They make the mean no more wrong than is said, and more places where that is too much."""
+    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), np.array([0.1]))
+    share = nested(len(own.lines)) ** own.layout.line_power
+    own.points[..., 0], own.points[..., 1] = 1.0, 0.0
+    own.lines[:, 0, 0], own.lines[:, 0, 1] = 1.0 + np.abs(share - 0.3), 0.0
+    found = own.on_lines()
+    off = abs(found.value[1, 0, 0] - (1.0 + 0.5 * (0.3**2 + 0.7**2)))
+    assert 5e-5 < off < found.of_places[1, 0, 0] < 100.0 * off
+    assert not own._refine_lines(found, 0.05)
+    assert own._refine_lines(found, 3e-4)
+    assert np.isnan(own.lines[::2]).all()
+    np.testing.assert_array_equal(own.lines[1::2, 0, 0], 1.0 + np.abs(share - 0.3))

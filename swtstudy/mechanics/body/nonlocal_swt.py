@@ -22,7 +22,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Largest over smallest distance that share their places.
-SPAN = 40.0
+SPAN = 12.0
 #: The least error claimed of a single value, over that.
 OF_POINT = 1e-3
 
