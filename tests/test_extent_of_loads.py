@@ -54,3 +54,16 @@ def test_the_second_half_mirrors_the_first_where_it_says_so(name: str) -> None:
     turned = np.allclose(load.tangential(later), -load.tangential(instant), atol=1e-12)
     assert load.mirrored_half == (same and turned)
     assert load.mirrored_half == (name in ("even, odd", "mean, odd", "3/2"))
+
+
+def test_a_sum_without_motion_ends_where_it_is() -> None:
+    assert harmonics((0, 0.7, 0.5 * np.pi), (2, 0.0, 0.3)).ends == pytest.approx((0.7, 0.7), rel=1e-15)
+
+
+def test_the_inverse_of_a_sum_of_many_harmonics_has_all_digits() -> None:
+    one = harmonics((1, 1.0, 0.2), (5, 0.15, 1.0), (7, 0.04, 2.0))
+    for stretch, begin in enumerate(one.turns):
+        end = np.append(one.turns, one.turns[0] + 2.0 * np.pi)[stretch + 1]
+        instant = begin + (end - begin) * np.linspace(0.05, 0.95, 40)
+        found = one.inverse(one.value(instant), np.full(40, stretch))
+        np.testing.assert_allclose(found, instant, rtol=0.0, atol=1e-11)

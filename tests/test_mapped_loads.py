@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.control.diagram import diagram
+from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
+from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.prescribed import Control
@@ -72,3 +73,18 @@ def test_growth_leaves_the_ratio_of_the_rates(name: str, control: Control) -> No
     np.testing.assert_allclose(found[rises], -ratio[rises], rtol=1e-7)
     at = load.touch_down(load.normal(instant), branch)
     np.testing.assert_allclose(np.mod(at, 2.0 * np.pi)[rises], np.mod(instant, 2.0 * np.pi)[rises], atol=1e-9)
+
+
+def test_the_largest_depth_is_that_of_the_largest_normal_load() -> None:
+    largest = np.array([1.3, 2.0])
+    for tangential_force in (True, False):
+        found = largest_depth(Control(False, tangential_force), "paraboloid", {}, largest)
+        np.testing.assert_allclose(found, largest, rtol=1e-12)
+        found = largest_depth(Control(True, tangential_force), "paraboloid", {}, largest)
+        np.testing.assert_allclose(found, largest ** (2.0 / 3.0), rtol=1e-12)
+
+
+def test_a_depth_that_lifts_off_carries_no_tangential_force_but_none() -> None:
+    given = BimodalLoad(np.full(2, 1.3), np.array([0.0, 0.1]), np.zeros(2), 1, 1)
+    load, _ = diagram(Control(False, True), "paraboloid", {}, given)
+    assert out_of_equilibrium(load, Control(False, True)).tolist() == [False, True]
