@@ -349,3 +349,9 @@ def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
     assert found["load"].values.tolist() == ["mine"]
     again = swtstudy.audit_study(study, tmp_path / "audit.nc", points=1, workers=1)
     xr.testing.assert_identical(again.drop_attrs(), found.drop_attrs())
+
+
+@pytest.mark.parametrize("vertices", ["ab", ["a", 1], [[0, 1], 2], [[0, 1], [0, "x"]], {0: 1}, None])
+def test_vertices_that_are_no_numbers_are_a_mistake(vertices: object) -> None:
+    with pytest.raises(StudyError, match="vertices of mine: found .*; allowed: a list of pairs of numbers"):
+        LoadPath("mine", vertices)  # type: ignore[arg-type]

@@ -200,3 +200,10 @@ def test_figures_have_the_units(solved):
     assert labels == ["$u_A$ = 0.001 mm", "$u_A$ = 0.0025 mm"]
     over = solved.swt.panels(x="normal_force", hue="tangential_amplitude", panels="phase", y="SWT")
     assert over.axes[0].get_xlabel() == "$F_0$ (N)"
+
+
+def test_of_two_profiles_one_has_a_wavelength():
+    text = plain("quantities", "critical_distance")
+    text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")
+    study = Study.from_text(text.replace("[axes]", '[axes]\nprofile = ["paraboloid", "wavy_paraboloid"]'))
+    assert len(unique_points(study.grid).table) == study.grid.size == 16

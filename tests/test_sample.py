@@ -100,6 +100,28 @@ def test_distributions_have_their_quantiles():
     assert Distribution("uniform", {}, 0.1, 0.7).values(unit)[[0, -1]].tolist() == [0.1, 0.7]
 
 
+@pytest.mark.parametrize(
+    ("entry", "kind", "numbers"),
+    [
+        ("[0.1, 0.7]", "uniform", {}),
+        ("{distribution='triangular', low=0.1, high=0.7, mode='1/4'}", "triangular", {"mode": 0.25}),
+        (
+            "{distribution='normal', mean=0.3, deviation=0.2, low=0.1, high=0.7}",
+            *("normal", {"mean": 0.3, "deviation": 0.2}),
+        ),
+        (
+            "{distribution='lognormal', median=0.3, deviation=0.2, low=0.1, high=0.7}",
+            *("lognormal", {"median": 0.3, "deviation": 0.2}),
+        ),
+    ],
+)
+def test_distributions_are_read(entry, kind, numbers):
+    table = f'[sample]\ndesign = "random"\nsize = 8\n[sample.ranges]\nfriction = {entry}'
+    drawn = Study.from_text(HEAD + table).grid.samples["friction"]
+    unit = Design("random", 8, 0).points(1)[:, 0]
+    assert drawn == pytest.approx(Distribution(kind, numbers, 0.1, 0.7).values(unit).tolist(), rel=1e-9)
+
+
 def test_each_point_is_solved_with_its_own_parameters(tmp_path):
     study = sampled()
     found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)

@@ -99,8 +99,14 @@ class Sample:
         self.unaltered, (self.reference, _, _) = in_a_process(*nothing, kind, count, (RTOL, REFERENCE_RTOL))
 
     def row(self, module: str, constant: str, expression: str) -> str:
-        """Cells: largest error, points that miss s_error, largest change, all relative, and the time."""
-        [(s, claimed, now)] = in_a_process(module, constant, expression, self.kind, self.count, (RTOL,))
+        """Cells: largest error, points that miss s_error, largest change, all relative, and the time.
+
+        Or what stops the solver with that constant.
+        """
+        try:
+            [(s, claimed, now)] = in_a_process(module, constant, expression, self.kind, self.count, (RTOL,))
+        except Exception as error:
+            return f"{type(error).__name__} | | | "
         regular = np.isfinite(self.reference) & (self.reference > 0.0)
         reference, before = self.reference[regular], self.unaltered[0][regular]
         error, change = np.abs(s[regular] - reference), np.abs(s[regular] - before)
