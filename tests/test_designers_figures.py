@@ -106,3 +106,13 @@ def test_values_over_critical_distances_are_logarithmic():
     (axes,) = draw(dataset.assign(s_volume=means), FigureLayout("critical_distance", y=("s_volume",))).axes
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
     np.testing.assert_allclose(axes.lines[0].get_ydata(), 0.3 / (1 + 30 * distance))
+
+
+@pytest.mark.parametrize(("amplitudes", "plain"), [([0.1, 0.4, 1.6], True), ([0.01, 0.1, 1.0, 10.0], False)])
+def test_amplitudes_in_equal_ratios_are_in_decades_of_their_own(amplitudes, plain):
+    results = made_up(lambda tangential_amplitude: tangential_amplitude, tangential_amplitude=amplitudes)
+    (axes,) = draw(results, FigureLayout("tangential_amplitude", kind="life")).axes
+    assert axes.get_yscale() == "log"
+    assert axes.get_ylim() == (amplitudes[0], amplitudes[-1])
+    words = axes.yaxis.get_major_formatter()(0.2, 0)
+    assert (words == "0.2") == plain

@@ -70,6 +70,7 @@ def test_the_arrow_goes_with_time_and_away_from_the_marks(moving, axes):
     assert ends[1] == ends[0] + 2
     assert (u[ends[0]], depth[ends[0]]) == arrow.xyann
     assert (u[ends[1]], depth[ends[1]]) == arrow.xy
+    assert type(arrow.arrow_patch.get_arrowstyle()).__name__ == "CurveFilledB"  # a head at its end
     # No other instant is further from its nearest mark.
     marks = np.array(list(numbers(axes).values()))
     distance = np.hypot(u[:, None] - marks[:, 0], depth[:, None] - marks[:, 1]).min(axis=1)

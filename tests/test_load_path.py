@@ -353,5 +353,5 @@ def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("vertices", ["ab", ["a", 1], [[0, 1], 2], [[0, 1], [0, "x"]], {0: 1}, None])
 def test_vertices_that_are_no_numbers_are_a_mistake(vertices: object) -> None:
-    with pytest.raises(StudyError, match="vertices of mine: found .*; allowed: a list of pairs of numbers"):
+    with pytest.raises(StudyError, match=r"vertices of mine: found .*; allowed: a list of pairs of numbers"):
         LoadPath("mine", vertices)  # type: ignore[arg-type]

@@ -22,7 +22,7 @@ from swtstudy.mechanics.indenter import (
     too_small,
     wavy_paraboloid,
 )
-from swtstudy.mechanics.indenter.struve import safe_struve, struve_functions
+from swtstudy.mechanics.indenter.struve import struve_functions, struve_integrals
 from swtstudy.parameters import PARAMETERS
 
 Array = NDArray[np.float64]
@@ -274,18 +274,26 @@ def test_the_paraboloid_is_the_limit(name: str, shape: dict[str, float], toleran
 
 def test_struve_functions_next_to_a_zero_where_the_library_fails() -> None:
     z = 25.765363129500482
-    assert np.isnan(struve(0, z))  # else this guard has become superfluous
-    value = safe_struve(0, np.array([z - 1e-9, z, z + 1e-9]))
+    assert np.isnan(struve(0, z))  # else the integrals have become superfluous
+    value = struve_integrals(np.array([z - 1e-9, z, z + 1e-9]))[0]
     # Its asymptotic series (DLMF 11.6.1), whose first neglected term is below 1e-12 here.
     series = sum(c / z**k for c, k in ((1, 1), (-1, 3), (9, 5), (-225, 7), (11025, 9), (-893025, 11)))
     np.testing.assert_allclose(value, y0(z) + 2.0 / np.pi * series, atol=1e-9)
 
 
+@pytest.mark.parametrize("largest", [0.0, 1.0, 60.0, 1000.0])
+def test_struve_functions_by_their_integrals(largest: float) -> None:
+    z = np.append(np.random.default_rng(0).uniform(0.0, largest, 2000), [0.0, largest])
+    for order, value in enumerate(struve_integrals(z)):
+        expected = struve(order, z)
+        known = ~np.isnan(expected)
+        assert known.sum() > 1990
+        np.testing.assert_allclose(value[known], expected[known], rtol=0.0, atol=1e-13 * (1.0 + largest))
+
+
 def test_struve_functions_of_the_table() -> None:
     z = np.random.default_rng(0).uniform(0.0, 60.0, 2000)
-    zeroth, first = struve_functions(z)
-    np.testing.assert_allclose(zeroth, safe_struve(0, z), rtol=0.0, atol=1e-10)
-    np.testing.assert_allclose(first, safe_struve(1, z), rtol=0.0, atol=1e-10)
+    np.testing.assert_allclose(struve_functions(z), struve([[0], [1]], z), rtol=0.0, atol=1e-10)
 
 
 @pytest.mark.parametrize(("h", "amplitude"), [(0.01, 1.75), (0.1, 1.75), (1e-4, 0.0), (0.5, 0.9)])

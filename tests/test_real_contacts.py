@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 from real import ALUMINIUM, STUDY, plain, without
+from scipy import constants
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
+from swtstudy.units.labels import KNOWN
 
 
 @pytest.fixture(scope="module")
@@ -208,3 +210,28 @@ def test_materials_come_by_name_from_a_file(tmp_path):
             study(table)
         assert str(error.value).startswith(f"mine.toml: {words}"), error.value
         assert len(error.value.mistakes) == 1
+
+
+def test_known_units_are_those_of_scipy():
+    prefixes = {
+        "k": 1e3,
+        "M": 1e6,
+        "G": 1e9,
+        "c": 1e-2,
+        "m": 1e-3,
+        "µ": 1e-6,
+        "μ": 1e-6,
+        "u": 1e-6,
+        "n": 1e-9,
+    }
+    others = {
+        "in": constants.inch,
+        "lbf": constants.lbf,
+        "kip": 1e3 * constants.lbf,
+        "psi": constants.psi,
+        "ksi": 1e3 * constants.psi,
+    }
+    for kind, base in (("length", "m"), ("force", "N"), ("stress", "Pa")):
+        for label, value in KNOWN[kind].items():
+            scaled = 1.0 if label == base else prefixes.get(label.removesuffix(base), np.nan)
+            assert value == pytest.approx(others.get(label, scaled), rel=1e-9), label

@@ -60,7 +60,6 @@ OTHERS = {
     "round.WALKING": ("v / 2",),
     "singular_edge.FINER": ("v[:1]", "v[1:]"),
     "stretches.PER_INTERVAL": (),
-    "struve.STEPS": ("(1e-2, 2e-2)",),
     "value.STARTS": ("v[:1]", "v / 2", "2 * v"),
     "wavy_paraboloid.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),

@@ -8,7 +8,9 @@ from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
 from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.control.normal_map import DepthOfForce, ForceOfDepth, NormalMap
+from swtstudy.mechanics.control.tabled_map import TabledMap
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
+from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
@@ -56,16 +58,26 @@ def diagram(
     if not control.mixed:
         return load, coordinate
     force = ForceCoordinate(profile, unit)
-    return _mapped(load, DepthOfForce(force) if control.normal_force else ForceOfDepth(force)), coordinate
+    exact = DepthOfForce(force) if control.normal_force else ForceOfDepth(force)
+    if not isinstance(load, BimodalLoad):
+        return _mapped_polygon(load, exact), coordinate
+    tables = profile.tables()
+    return MappedLoad(
+        load, exact if tables is None else TabledMap.of(exact, tables), _waves(profile)
+    ), coordinate
 
 
-def _mapped(load: Load, normal_map: NormalMap) -> Load:
-    """The load with its normal component mapped."""
-    if isinstance(load, BimodalLoad):
-        return MappedLoad(load, normal_map)
+def _mapped_polygon(load: Load, normal_map: NormalMap) -> Load:
+    """The polygon with its normal component mapped."""
     if not isinstance(load, PolygonLoad) or np.any(load.largest_normal != load.least_normal):
         raise ValueError(
             "a loop whose normal load is not constant needs two displacements or two forces: "
             "with one of each its straight sides are curved in the memory diagram"
         )
     return load.with_normal(normal_map.value)
+
+
+def _waves(profile: Profile) -> float:
+    """How many waves of the profiles the edge passes at most."""
+    reach = profile.radius(profile.largest_depth)
+    return float(np.max(reach / profile.feature_length, initial=0.0))

@@ -37,16 +37,19 @@ class MappedLoad(Load):
         The loads as they are prescribed.
     map
         n monotone functions to the normal loads of the diagram.
+    waves
+        How many waves of the indenter the contact edge passes at most.
     """
 
     given: BimodalLoad
     map: NormalMap
+    waves: float
 
     def __len__(self) -> int:
         return len(self.given)
 
     def take(self, index: NDArray[np.intp]) -> MappedLoad:
-        return MappedLoad(self.given.take(index), self.map.take(index))
+        return MappedLoad(self.given.take(index), self.map.take(index), self.waves)
 
     def normal(self, instant: FloatArray) -> FloatArray:
         return self.map.value(self.given.normal(instant))
@@ -97,9 +100,9 @@ class MappedLoad(Load):
         return self.given.touch_down(self.map.inverse(normal), branch)
 
     def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
-        given = self.map.inverse(normal)
+        given, slope = self.map.inverse_and_slope(normal)
         rate, normal_rate = self.given.rates_at_touch_down(given, branch)
-        normal_rate = normal_rate * self.map.slope(given)
+        normal_rate = normal_rate * slope
         ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
         return -np.clip(ratio, -1.0, 1.0)
 
@@ -114,15 +117,15 @@ class MappedLoad(Load):
 
     def _slip_line(self, sense: float) -> Function:
         """The slip line sense·tangential − normal of the loads, and two derivatives."""
+        given, p, q = self.given, self.given.p, self.given.q
 
         def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
-            one = self.given.take(active)
-            level, rate = one.normal(instant), one.normal_rate(instant)
-            value, slope, bend = self.map.take(active).with_derivatives(level)
-            u = one.tangential(instant)
-            first = sense * one.tangential_rate(instant) - slope * rate
-            second = one.q**2 * slope * (level - 1.0) - bend * rate * rate - sense * one.p**2 * u
-            return sense * u - value, first, second
+            d, psi, u = (v[active] for v in (given.normal_amplitude, given.phase, given.tangential_amplitude))
+            ground, own, u = q * instant + psi, p * instant, sense * u
+            sine, rate, u_sine = d * np.sin(ground), q * d * np.cos(ground), u * np.sin(own)
+            value, slope, bend = self.map.take(active).with_derivatives(1.0 + sine)
+            first = p * u * np.cos(own) - slope * rate
+            return u_sine - value, first, q * q * slope * sine - bend * rate * rate - p * p * u_sine
 
         return line
 
@@ -155,8 +158,5 @@ class MappedLoad(Load):
 
     def _sample_count(self) -> int:
         normal, tangential = self.oscillations
-        profile = self.map.force.profile
-        reach = profile.radius(profile.largest_depth)
-        waves = float(np.max(reach / profile.feature_length, initial=0.0))
         count = LEAST_COUNT + COUNT_PER_OSCILLATION * max(0.5 * tangential / normal, 0.5)
-        return math.ceil(count + COUNT_PER_WAVE * waves)
+        return math.ceil(count + COUNT_PER_WAVE * self.waves)

@@ -22,21 +22,12 @@ from swtstudy.mechanics.points import FloatArray
 LEAST_RADIUS = 1e-8
 
 
-@dataclass(frozen=True)
 class NormalMap(ABC):
-    """Monotone functions of n indenters from the prescribed normal load to that of the diagram.
+    """Monotone functions of n indenters from the prescribed normal load to that of the diagram."""
 
-    Attributes
-    ----------
-    force
-        The n indenters, and their normal force over that at δ0.
-    """
-
-    force: ForceCoordinate
-
+    @abstractmethod
     def take(self, index: NDArray[np.intp]) -> NormalMap:
         """The functions at ``index``, repetitions allowed."""
-        return type(self)(self.force.take(index))
 
     def value(self, load: FloatArray) -> FloatArray:
         """The diagram's normal load, shape (n, …)."""
@@ -46,16 +37,54 @@ class NormalMap(ABC):
         """The prescribed normal load at which the diagram has the value, shape (n, …)."""
         return np.where(value > 0.0, self._inverse(np.maximum(value, 0.0)), value)
 
+    def inverse_and_slope(self, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`inverse`, and the derivative of `value` there; where there is contact, to the digits of tables."""
+        return self._inverse_and_slope(np.maximum(value, 0.0))
+
     def with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """`value` and two derivatives."""
-        radius = np.maximum(self._radius(np.maximum(load, 0.0)), LEAST_RADIUS)
-        value, slope, bend = self._derivatives(radius)
+        value, slope, bend = self._with_derivatives(np.maximum(load, 0.0))
         touches = load > 0.0
         return np.where(touches, value, load), np.where(touches, slope, 1.0), np.where(touches, bend, 0.0)
 
     def slope(self, load: FloatArray) -> FloatArray:
         """Derivative of `value`."""
         return self.with_derivatives(load)[1]
+
+    @abstractmethod
+    def _value(self, load: FloatArray) -> FloatArray:
+        """`value` where there is contact."""
+
+    @abstractmethod
+    def _inverse(self, value: FloatArray) -> FloatArray:
+        """`inverse` where there is contact."""
+
+    @abstractmethod
+    def _inverse_and_slope(self, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`inverse_and_slope` where there is contact."""
+
+    @abstractmethod
+    def _with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """`with_derivatives` where there is contact."""
+
+
+@dataclass(frozen=True)
+class ByRadius(NormalMap):
+    """Both loads as functions of the contact radius.
+
+    Attributes
+    ----------
+    force
+        The n indenters, and their normal force over that at δ0.
+    """
+
+    force: ForceCoordinate
+
+    def take(self, index: NDArray[np.intp]) -> ByRadius:
+        return type(self)(self.force.take(index))
+
+    def _with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return self._derivatives(np.maximum(self._radius(load), LEAST_RADIUS))
 
     def _slope_of_depth(self, radius: FloatArray) -> FloatArray:
         """g′ at radii, nowhere 0."""
@@ -67,14 +96,6 @@ class NormalMap(ABC):
         return align(self.force.unit, like)
 
     @abstractmethod
-    def _value(self, load: FloatArray) -> FloatArray:
-        """`value` where there is contact."""
-
-    @abstractmethod
-    def _inverse(self, value: FloatArray) -> FloatArray:
-        """`inverse` where there is contact."""
-
-    @abstractmethod
     def _radius(self, load: FloatArray) -> FloatArray:
         """Contact radius at the prescribed load."""
 
@@ -83,7 +104,7 @@ class NormalMap(ABC):
         """The diagram's normal load at contact radii, and its derivatives by the prescribed one."""
 
 
-class ForceOfDepth(NormalMap):
+class ForceOfDepth(ByRadius):
     """N(δ), for a tangential force with the depth prescribed: dN = ξ g′ dξ/unit, dδ = g′ dξ."""
 
     def _value(self, load: FloatArray) -> FloatArray:
@@ -91,6 +112,10 @@ class ForceOfDepth(NormalMap):
 
     def _inverse(self, value: FloatArray) -> FloatArray:
         return self.force.profile.depth(self.force.radius(value))
+
+    def _inverse_and_slope(self, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+        radius = self.force.radius(value)
+        return self.force.profile.depth(radius), radius / self._unit(radius)
 
     def _radius(self, load: FloatArray) -> FloatArray:
         return self.force.profile.radius(load)
@@ -100,7 +125,7 @@ class ForceOfDepth(NormalMap):
         return self.force.of(radius), radius / unit, 1.0 / (unit * self._slope_of_depth(radius))
 
 
-class DepthOfForce(NormalMap):
+class DepthOfForce(ByRadius):
     """G(N), for a tangential displacement with the normal force prescribed."""
 
     def _value(self, load: FloatArray) -> FloatArray:
@@ -108,6 +133,10 @@ class DepthOfForce(NormalMap):
 
     def _inverse(self, value: FloatArray) -> FloatArray:
         return self.force.of(self.force.profile.radius(value))
+
+    def _inverse_and_slope(self, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+        radius = self.force.profile.radius(value)
+        return self.force.of(radius), self._unit(radius) / np.maximum(radius, LEAST_RADIUS)
 
     def _radius(self, load: FloatArray) -> FloatArray:
         return self.force.radius(load)

@@ -7,6 +7,7 @@ one family is one object; its methods take arrays of shape (n, …).
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -45,6 +46,25 @@ class Primitives(ABC):
     def pressure(self, radius: FloatArray) -> FloatArray:
         """Π alone, the first of `outer`, shape (n, X, …)."""
         return np.asarray(self.outer(radius)[0])
+
+
+@dataclass(frozen=True)
+class Tables:
+    """How to tabulate depths and forces of n profiles.
+
+    Attributes
+    ----------
+    profile
+        Those that differ.
+    number
+        Shape (n,): which of them each of the profiles is.
+    cells
+        Number of even cells up to the largest depth and force.
+    """
+
+    profile: Profile
+    number: NDArray[np.intp]
+    cells: int
 
 
 class Profile(ABC):
@@ -122,6 +142,10 @@ class Profile(ABC):
     def landmarks(self) -> FloatArray:
         """Shape (n, k): radii near which g′ turns within a small part of the contact."""
         return np.zeros((len(self.largest_depth), 0))
+
+    def tables(self) -> Tables | None:
+        """How depths and forces are tabulated against each other, None where formulas are as fast."""
+        return None
 
     def extra_nodes(self, digits: float) -> int:
         """Chebyshev nodes that running integrals of g′ need beyond those of a smooth profile."""

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 FEWEST, NEGATIVE = 8, 1e-6
 #: Radii at which compactness is looked at, and of the first guess of the contact radius.
 RADII = 4001
+#: Radii of that at a force: Newton's method takes one step from there.
+RADII_BY_LOAD = 20_001
 #: A piece shorter than this share of the contact is a landmark of the search, of which there are so many.
 SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
 
@@ -125,6 +127,13 @@ class TabulatedProfile(Named):
         w = np.linspace(0.0, 2.0 * end, RADII)
         depth = self.pieces.value(self.pieces.depth, w, self.pieces.piece(w))
         return np.sqrt(np.maximum.accumulate(np.maximum(depth, 0.0))), w
+
+    @cached_property
+    def guesses_by_load(self) -> tuple[FloatArray, FloatArray]:
+        """The cubic root of half of the normal force, nearly straight, and w, each of shape (k,)."""
+        w = np.linspace(0.0, 2.0 * self.pieces.start[-1], RADII_BY_LOAD)
+        half_load = self.pieces.value(self.pieces.half_load, w, self.pieces.piece(w))
+        return np.cbrt(np.maximum.accumulate(np.maximum(half_load, 0.0))), w
 
     @cached_property
     def landmarks(self) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The Struve functions H₀ and H₁ from a table: fast, and safe where the library's are NaN."""
+"""The Struve functions H₀ and H₁ from a table."""
 
 from __future__ import annotations
 
@@ -13,8 +13,10 @@ from swtstudy.mechanics.points import FloatArray
 #: Twice: s changes by 1e-10.
 STEP = 0.01
 SMALLEST_RANGE = 64.0
-#: Distances of the neighbours that stand in where the library is NaN.
-STEPS = (1e-3, 2e-3)
+#: Gauss nodes of the integrals, and so many more per rad: rounding. Half of the second: of no use beyond 50.
+NODES, NODES_PER_RADIAN = 24, 0.5
+#: Values of the integrand that are made at a time.
+PART = 1_000_000
 
 
 def struve_functions(z: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -39,7 +41,7 @@ def _cubic(coefficients: FloatArray, cell: NDArray[np.intp], rest: FloatArray) -
 def _table(reach: float) -> FloatArray:
     """Coefficients of cubics for H₀ and H₁, shape (2, 4, cells)."""
     z = np.arange(0.0, reach + 2.0 * STEP, STEP)
-    zeroth, first = safe_struve(0, z), safe_struve(1, z)
+    zeroth, first = struve_integrals(z)
     # H₀′ = 2/π − H₁ and H₁′ = H₀ − H₁/z make them Hermite polynomials.
     slopes = 2.0 / np.pi - first, zeroth - np.divide(first, z, out=np.zeros_like(z), where=z > 0.0)
     return np.stack([_hermite(value, slope) for value, slope in ((zeroth, slopes[0]), (first, slopes[1]))])
@@ -53,16 +55,17 @@ def _hermite(value: FloatArray, slope: FloatArray) -> FloatArray:
     return np.stack([cubic, square, left, value[:-1]])
 
 
-def safe_struve(order: int, z: FloatArray) -> FloatArray:
-    """`scipy.special.struve`, mended where it is NaN: next to its zeros."""
-    from scipy.special import struve  # takes as long to import as all else, and few need it
+def struve_integrals(z: FloatArray) -> FloatArray:
+    """H₀(z) and H₁(z) for z ≥ 0 of shape (m,), by their integrals, shape (2, m).
 
-    value = struve(order, z)
-    broken = np.isnan(value)
-    if np.any(broken):
-        near = np.asarray(z)[broken]
-        # The neighbours lie outside of the broken zone; the cubic through them is good to 1e-12.
-        inner, outer = (0.5 * (struve(order, near - step) + struve(order, near + step)) for step in STEPS)
-        value = np.array(value)
-        value[broken] = (4.0 * inner - outer) / 3.0
-    return value
+    Those of scipy are NaN next to zeros of H₀, and take longer to import than all else here.
+    """
+    count = NODES + int(NODES_PER_RADIAN * z.max(initial=0.0))
+    node, weight = np.polynomial.legendre.leggauss(count)
+    θ, half = 0.25 * np.pi * (1.0 + node), 0.5 * weight
+    # H₀ = (2/π) ∫ sin(z cos θ) dθ and H₁ = (2z/π) ∫ sin(z cos θ) sin²θ dθ from 0 to π/2.
+    weights = np.stack([half, half * np.sin(θ) ** 2])
+    parts = np.array_split(z, -(-z.size * count // PART) or 1)
+    waves = (np.sin(part[:, None] * np.cos(θ)) for part in parts)
+    zeroth, first = np.concatenate([np.einsum("mk,ck->cm", wave, weights) for wave in waves], axis=1)
+    return np.stack([zeroth, z * first])

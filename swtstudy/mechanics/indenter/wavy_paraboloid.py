@@ -8,7 +8,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.indenter.base import Primitives, Profile, Tables
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.indenter.tables import TablePrimitives
 from swtstudy.mechanics.numerics.arrays import RowTable, align
@@ -17,8 +17,10 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
 #: Half of the first: 4e-6 at rtol 1e-5, no faster; twice: 2e-10. Of the second: 6e-8; no third one: 3e-8.
 NODES_PER_DIGIT, NODES_PER_RADIAN, NODES_PER_RADIAN_AND_DIGIT = 2.2, 0.55, 0.025
-#: Positions of the first guess of the contact radius of a smooth profile. Half or twice: 5e-14.
-GUESSES = 64
+#: Cells of tables up to the largest radius of a smooth profile, and for each rad of kξ. As first guesses half
+#: or twice: 5e-14; of mixed control half of the first or quarter of the second: 4e-9 at rtol 1e-6, half of
+#: the second: 3e-10, twice: 3e-8, no slower.
+CELLS, CELLS_PER_RADIAN = 64, 8
 #: Step of kξ in rad between levels of roughness, which are solved apart. Half: 27 % slower; twice: no faster.
 ROUGHNESS_STEP = 16.0
 #: Level beyond which the waves are left out: h/δ0 of some 1e-5.
@@ -98,6 +100,15 @@ class WavyParaboloid(Profile):
     def extra_nodes(self, digits: float) -> int:
         return int((NODES_PER_RADIAN + NODES_PER_RADIAN_AND_DIGIT * digits) * self.phase)
 
+    def tables(self) -> Tables:
+        shape = np.stack([self.largest_depth, self.waviness_amplitude, self.wavelength], axis=1)
+        _, first, number = np.unique(shape, axis=0, return_index=True, return_inverse=True)
+        return Tables(self.take(first), number.reshape(-1), self._even_cells)
+
+    @property
+    def _even_cells(self) -> int:
+        return CELLS + int(CELLS_PER_RADIAN * self.phase)
+
     @property
     def feature_length(self) -> FloatArray:
         with np.errstate(divide="ignore"):
@@ -137,7 +148,7 @@ class WavyParaboloid(Profile):
     @cached_property
     def _guesses(self) -> RowTable:
         """Radii over √g, whose both ends are straight."""
-        radius = self.reach[:, None] * np.linspace(0.0, 1.0, GUESSES + int(8 * self.phase))
+        radius = self.reach[:, None] * np.linspace(0.0, 1.0, self._even_cells)
         return RowTable(np.sqrt(np.maximum(self.depth(radius), 0.0)), radius)
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
