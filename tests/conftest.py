@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Iterator
+
+# Before NumPy: two processes of tests with two BLAS threads each would fight for two cores.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import pytest
 

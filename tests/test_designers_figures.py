@@ -1,15 +1,19 @@
 """Figures that designers read: lives in decades, S–N-like curves, maps with the regimes."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from made_up import made_up
 
+import swtstudy
+from swtstudy import Study, open_results
 from swtstudy.figures.draw import draw
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.study.figure import FigureLayout
 
+RESULTS = Path(__file__).parents[1] / "results"
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 19), np.linspace(0.1, 0.9, 17)
 
 
@@ -75,6 +79,24 @@ def test_a_map_of_lives_has_decades_and_the_border_of_regimes(results):
     assert np.abs(inner[:, 0] - inner[:, 1]).max() < 0.05
     plain = draw(results, replace(layout, regimes=False)).axes[0]
     assert not [text for text in plain.texts if "slip" in text.get_text()]
+
+
+def test_the_map_of_forces_ends_where_the_contact_slides():
+    study = Study.from_toml("fretting_map")
+    found = open_results(RESULTS / "fretting_map.nc").stack(
+        point=["tangential_force_amplitude", "normal_force"]
+    )
+    slides = found.tangential_force_amplitude > 0.5 * found.normal_force + 1e-9
+    assert (found.regime == REGIMES.index("no_equilibrium")).equals(
+        slides.drop_vars("regime", errors="ignore")
+    )
+    assert found.cycles.isnull().equals(slides)
+    at = {"tangential_force_amplitude": 40.0, "normal_force": 100.0}
+    fixed = {
+        name: study.grid.fixed[name] for name in ("young_modulus", "poisson_ratio", "radius", "friction")
+    }
+    alone = swtstudy.physical(**fixed, **at).solve(rtol=1e-4)
+    np.testing.assert_allclose(found.SWT.sel(**at).item(), alone.SWT[0], rtol=1e-3)
 
 
 def test_values_over_critical_distances_are_logarithmic():

@@ -4,10 +4,10 @@ import pytest
 
 import swtstudy
 
-pytest.importorskip("hvplot")
-
 
 def test_labels_are_those_of_the_results():
+    # Here and not above: it takes seconds, and every process of tests collects all tests.
+    pytest.importorskip("hvplot")
     import holoviews
     import hvplot.xarray  # noqa: F401
 

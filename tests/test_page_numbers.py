@@ -15,8 +15,8 @@ from swtstudy import open_results, solve
 from swtstudy.audit.point import TOLERANCE
 from swtstudy.cli.run import POINTS_FAILED
 from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
-from swtstudy.mechanics.line.circle_gain import SAFE_POISSON_RATIO
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
+from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.units.given import SIMILAR
 

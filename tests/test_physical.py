@@ -286,7 +286,7 @@ def test_a_contact_without_friction_does_not_move():
         ),
         ({"young_modulus": -1}, "young_modulus: found -1"),
         ({"poisson_ratio": 0.6}, "poisson_ratio: found 0.6"),
-        ({"normal_force": 1.0}, "one of the two"),
+        ({"normal_force": 1.0}, "depth, normal_force: found both; allowed: one of the two: it says how deep"),
         ({"depth": None}, "neither"),
         ({"friction": -1}, "friction"),
         ({"frequency_ratio": math.pi}, "irrational"),

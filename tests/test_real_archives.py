@@ -93,6 +93,9 @@ def test_the_contact_of_an_archive_is_checked(tmp_path):
     save(lacking, tmp_path / "c.nc")
     with pytest.raises(ValueError, match="friction: found nothing"):
         open_results(tmp_path / "c.nc")
+    save(found.assign_coords(depth=1e-3), tmp_path / "d.nc")
+    with pytest.raises(ValueError, match="depth, normal_force: found both; allowed: one of the two"):
+        open_results(tmp_path / "d.nc")
     assert xr.open_dataset(tmp_path / "a.nc").SWT.attrs["units"] == "MPa"
 
 

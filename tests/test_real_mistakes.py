@@ -69,6 +69,17 @@ MISTAKES = [
         "critical_distance = 0",
         "fixed.critical_distance: found 0 (out of range); allowed: a positive length in mm",
     ),
+    (
+        "critical_distance = 0.05",
+        "critical_distance = [0.02, 0.05]",
+        "fixed.critical_distance: found [0.02, 0.05] (not a number); allowed: a positive length in mm; "
+        "several values under [axes]",
+    ),
+    (
+        "friction = 0.5",
+        "friction = 0.5\ndepth = 1e-3",
+        "fixed.depth, axes.normal_force: found both; allowed: one of the two: it says how deep",
+    ),
     ("friction = 0.5", "friction = 0", "axes.tangential_amplitude: found 0.001 mm at radius = 50 mm"),
     ("friction = 0.5", "friction = 0.5\nbody = 1.5", "fixed.body: found [1.5]; allowed: 1 or 2"),
     ("friction = 0.5", "friction = 0.5\nsimilar = -1", "fixed.similar: found -1; allowed: a number ≥ 0"),

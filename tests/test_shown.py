@@ -16,7 +16,8 @@ import pytest
 import shown
 
 import swtstudy
-from swtstudy import Study
+from swtstudy import Study, open_results
+from swtstudy.archive.write import save
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.work import assess
 
@@ -111,7 +112,9 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
             if "hvplot" in block.text:
                 pytest.importorskip("hvplot")
             if "dask_jobqueue" in block.text:
-                (tmp_path / "results" / "figure4.nc").unlink()  # or there is nothing to do for it
+                # All but some phases: or there is nothing to do for the cluster.
+                archive = tmp_path / "results" / "figure4.nc"
+                save(open_results(archive).isel(phase=slice(20, None)), archive)
             with contextlib.redirect_stdout(io.StringIO()) as printed:
                 exec(compile("\n" * block.line + block.text, str(page), "exec"), names)
             for dims in re.findall(r"# dims: (\(.*\))", block.text):
@@ -120,6 +123,7 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
         assert slurm
         assert names["ds"].sizes == {"normal_amplitude": 2, "frequency_ratio": 5, "phase": 145}
         assert np.isfinite(names["ds"].s).all()
+        assert re.search(r" [1-9]\d* of \d+ distinct points computed", names["ds"].history.splitlines()[0])
 
 
 @pytest.mark.parametrize("page", SHELL, ids=lambda page: page.name)

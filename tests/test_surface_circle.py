@@ -10,7 +10,7 @@ from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.line import circle_gain
+from swtstudy.mechanics.line import surface_maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.field import contact_states
@@ -70,6 +70,6 @@ def test_the_line_is_enough_for_more_compressible_bodies():
 
 def test_a_safe_ratio_is_not_looked_at(monkeypatch):
     """The bound only saves time: without it the line has the maximum all the same."""
-    monkeypatch.setattr(circle_gain, "SAFE_POISSON_RATIO", -1.0)
+    monkeypatch.setattr(surface_maximum, "SAFE_POISSON_RATIO", -1.0)
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}), friction=[0.1, 0.8])
     np.testing.assert_array_equal(solved.s_surface, solved.s)

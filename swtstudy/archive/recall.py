@@ -30,7 +30,7 @@ from swtstudy.records.requested import columns_from, request_of
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed
-from swtstudy.units.rows import MEAN_LOADS, rows
+from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -91,8 +91,8 @@ def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     for name in lacking:
         if not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
-    if len([name for name in MEAN_LOADS if grid.values(name)]) != 1:
-        report(", ".join(MEAN_LOADS), "none or both", "one of the two")
+    if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):
+        report(", ".join(MEAN_LOADS), *wrong)
     if not mistakes:
         check_contacts(grid, str, report)
     if mistakes:

@@ -13,7 +13,7 @@ from swtstudy.archive.attributes import defined_in
 from swtstudy.audit.point import TOLERANCE, VERDICTS
 from swtstudy.audit.table import canonical_rows
 from swtstudy.grid.canonical import describe_point
-from swtstudy.mechanics.line.circle_gain import SAFE_POISSON_RATIO
+from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 
 if TYPE_CHECKING:

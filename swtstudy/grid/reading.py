@@ -159,7 +159,11 @@ def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -
     try:
         return read_value(row, raw, known.get(row.name, NOTHING))
     except ValueError as error:
-        report(key, f"{literal(raw)} ({error})", _allowed(row, raw, known))
+        allowed = _allowed(row, raw, known)
+        # As TOML gives what is meant for an axis.
+        if isinstance(raw, list | dict) and key == f"fixed.{row.name}":
+            allowed += "; several values under [axes]"
+        report(key, f"{literal(raw)} ({error})", allowed)
         return None
 
 

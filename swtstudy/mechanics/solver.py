@@ -13,9 +13,9 @@ from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import resolved_shape, roughness
 from swtstudy.mechanics.line.accuracy import Accuracy
-from swtstudy.mechanics.line.circle_gain import surface_maximum
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
+from swtstudy.mechanics.line.surface_maximum import surface_maximum
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT

@@ -12,6 +12,7 @@ from swtstudy.mistakes import Mistake, literal, meant, nearest, plain_number
 from swtstudy.parameter import spelled
 from swtstudy.parameters import PARAMETERS, SYMBOLS
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.rows import MEAN_LOADS, wrong_mean_load
 from swtstudy.units.scales import SCALES, may_vanish
 from swtstudy.units.sizes import LARGEST, wrong_size
 
@@ -77,10 +78,10 @@ def wrong_bodies(young: tuple[Any, Any], poisson: tuple[Any, Any], similar: obje
 
 def wrong_load(depth: object, normal_force: object) -> list[Mistake]:
     """A load that is not given once."""
-    load = {"depth": depth, "normal_force": normal_force}
+    load = dict(zip(MEAN_LOADS, (depth, normal_force), strict=True))
     given = {name: value for name, value in load.items() if value is not None}
-    if len(given) != 1:
-        return [Mistake("depth, normal_force", "both" if given else "neither", "one of the two")]
+    if wrong := wrong_mean_load(given):
+        return [Mistake(", ".join(MEAN_LOADS), *wrong)]
     ((name, value),) = given.items()
     return wrong_size(name, value, "a positive number")
 

@@ -22,7 +22,7 @@ from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows
+from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
 
 
 @dataclass(frozen=True)
@@ -159,10 +159,8 @@ def _check_given(
             report(keys(name), "nothing", own[name].allowed)
     if "radius" in everything and all(tables) and tables:
         report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
-    loads = [name for name in MEAN_LOADS if name in everything]
-    if len(loads) != 1:
-        both = ", ".join(map(keys, MEAN_LOADS))
-        report(both, "both" if loads else "neither", "one of the two: it says how deep the contact is")
+    if wrong := wrong_mean_load(everything):
+        report(", ".join(map(keys, MEAN_LOADS)), *wrong)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything.keys():
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")

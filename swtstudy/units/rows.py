@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -26,6 +27,14 @@ _KINDS = {"young_modulus": "stress", "radius": "length", "depth": "length", "nor
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Of which exactly one is given.
 MEAN_LOADS = ("depth", "normal_force")
+
+
+def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
+    """What was found and what is allowed, unless one of `MEAN_LOADS` is among the names given."""
+    found = [name for name in MEAN_LOADS if name in given]
+    if len(found) == 1:
+        return None
+    return "both" if found else "neither", "one of the two: it says how deep the contact is"
 
 
 @dataclass(frozen=True)
