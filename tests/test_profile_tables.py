@@ -11,6 +11,8 @@ import pytest
 import swtstudy
 from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
+from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.mechanics.indenter.profile_table import MOST_LANDMARKS, SHORT_PIECE
 from swtstudy.mistakes import StudyError
 from swtstudy.study.writing import to_toml
 
@@ -187,3 +189,12 @@ def test_mistakes_about_a_real_contact_of_a_table(given: dict[str, float], messa
     with pytest.raises(StudyError) as caught:
         swtstudy.physical(profile=swtstudy.TabulatedProfile("pad", r, r**2 / 100.0), **given, **PAD)
     assert message in str(caught.value)
+
+
+def test_a_rough_table_has_few_landmarks_over_its_whole_range():
+    r = np.linspace(0.0, 2.0, 401)
+    table = TabulatedProfile("rough", r, 0.5 * r**2 + 1e-4 * np.sin(40.0 * r))
+    short = np.diff(table.pieces.start) < SHORT_PIECE * table.pieces.start[-1]
+    assert short.sum() > MOST_LANDMARKS
+    assert MOST_LANDMARKS // 2 < table.landmarks.size <= MOST_LANDMARKS
+    assert np.ptp(table.landmarks) > 1.0

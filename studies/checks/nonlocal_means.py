@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.body import around
 from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.local_swt import Fineness
@@ -57,9 +58,8 @@ RATIOS = [(1, 1), (1, 2), (2, 1), (3, 2), (1, 3)]
 SEED = 19
 #: Means with so many places and instants are what the others are held against.
 TIGHT = {
-    "COUNTS": ((17, 37),),
-    "LINE_COUNTS": (61,),
-    "FINENESS": (Fineness(6, 60),),
+    "ONE": around.ONE._replace(distances=19, inclinations=39, on_line=63),
+    "FINENESS": Fineness(8, 60),
 }
 #: Places of the other rule: over the distance from the circle, the angle about the axis, and the depth.
 OTHER = 9, 4, 13
@@ -130,7 +130,7 @@ def off_and_claimed(point: Points, distance: float) -> tuple[FloatArray, FloatAr
     """What the three kinds of means of one point are off from tight ones, and claim, over these, (3,)."""
     at = place_of(point)[:3]
     quick = means.nonlocal_swt(*at, np.array([distance]))
-    with patch.multiple(means, **TIGHT):
+    with patch.multiple(around, **TIGHT):
         tight = means.nonlocal_swt(*at, np.array([distance]))
     off, claimed = np.zeros((2, len(KINDS)))
     for k, name in enumerate(KINDS):

@@ -18,8 +18,6 @@ import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
 
-#: d is this power of the abscissa: roots are smooth, and small spheres have their places.
-POWER = 2
 #: Distances and inclinations at which the change along the arcs is seen.
 SIDE = 4
 #: How much of what another place on the arcs adds counts as a change.
@@ -27,8 +25,8 @@ ADDED = 0.25
 #: Largest radii of the spheres over the centre's distance from the axis up to which so many places, from one
 #: on, are enough on half an arc.
 REACH = (0.35, 0.8, 1.0)
-#: Abscissae of the integrals of the interpolation.
-ABSCISSAE = 32
+#: Abscissae of the integrals of an interpolation, at least, and over the number of its nodes.
+ABSCISSAE, FINER = 32, 2
 
 
 @dataclass(frozen=True)
@@ -41,12 +39,15 @@ class HalfSpheres:
         Distance of the centre from the axis in a_H.
     largest
         Largest radius of a half sphere.
+    power
+        Distances are this power of the abscissa: large ones leave more places to small spheres.
     distances, inclinations
         Number of distances from the circle, and of inclinations.
     """
 
     centre: float
     largest: float
+    power: float
     distances: int
     inclinations: int
 
@@ -55,82 +56,90 @@ class HalfSpheres:
         """Number of places on half an arc."""
         return 1 + sum(self.largest > reach * self.centre for reach in REACH)
 
-    def places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Radius, depth, and angle about the axis from the centre, each of shape (N,)."""
-        side = replace(self, distances=SIDE, inclinations=SIDE)
-        both = self.grid(self.along), side.grid(self.along + 1)
-        radius, depth, angle = (np.concatenate(parts) for parts in zip(*both, strict=True))
-        return radius, depth, angle
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Number of distances, of inclinations, and of places on half an arc."""
+        return self.distances, self.inclinations, self.along
+
+    def finer(self, axis: int) -> HalfSpheres:
+        """With a place more beside each of the distances (axis 0) or inclinations (1); these stay."""
+        if axis == 0:
+            return replace(self, distances=2 * self.distances + 1)
+        return replace(self, inclinations=2 * self.inclinations + 1)
+
+    def side_places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radius, depth and angle of the places that show the change along the arcs."""
+        return self._side.grid(self.along + 1)
 
     def weights(self, size: FloatArray) -> FloatArray:
-        """Weights of the values at the places in the means over radii ``size``, (k,), shape (k, N)."""
-        return np.concatenate([self._weights(size, self.along), self._side_weights(size)], axis=1)
+        """Weights of the values at the grid's places in the means over radii ``size``, (k,), shape (k, N)."""
+        return self._weights(size, self.along)
 
-    def changes(self, size: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How much the means would change without every other distance or inclination, and what is added.
+    def side_weights(self, size: FloatArray) -> FloatArray:
+        """Weights at the side places of what another place on the arcs adds to the means, shape (k, …)."""
+        fewer = self._side._weights(size, self.along).reshape(-1, self.along)
+        fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))
+        return self._side._weights(size, self.along + 1) - fewer.reshape(len(size), -1)
+
+    def changes(self, weights: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How much the means would change without every other distance or inclination.
 
         Parameters
         ----------
-        size
-            Shape (k,).
-        values
-            Shape (N,): at the places.
+        weights, values
+            Shape (k, N) and (N,): of and at the grid's places.
 
         Returns
         -------
         change, off
-            Shape (k,): of the means, and of the values, which does not cancel.
+            Shape (2, k), without distances and without inclinations: of the means, and of the values, which
+            does not cancel.
         """
-        inner = self.distances * self.inclinations * self.along
-        grid = values[:inner].reshape(self.distances, self.inclinations, self.along)
+        grid = values.reshape(self.shape)
         lacking = (
-            grid - np.tensordot(_from_every_other(self.distances), grid[::2], 1),
-            grid - np.einsum("ij,kjl->kil", _from_every_other(self.inclinations), grid[:, ::2]),
+            grid - np.tensordot(_from_every_other(self.distances), grid[1::2], 1),
+            grid - np.einsum("ij,kjl->kil", _from_every_other(self.inclinations), grid[:, 1::2]),
         )
-        weights = self._weights(size, self.along)
-        change, off = ADDED * np.abs(self._side_weights(size) @ values[inner:]), np.zeros(len(size))
-        for missing in lacking:
-            change += np.abs(weights @ missing.ravel())
-            off += np.abs(weights) @ np.abs(missing).ravel()
-        return change, off
+        change = [np.abs(weights @ missing.ravel()) for missing in lacking]
+        off = [np.abs(weights) @ np.abs(missing).ravel() for missing in lacking]
+        return np.stack(change), np.stack(off)
 
-    def _side_weights(self, size: FloatArray) -> FloatArray:
-        """Weights of what another place on the arcs adds, shape (k, …)."""
-        side = replace(self, distances=SIDE, inclinations=SIDE)
-        fewer = side._weights(size, self.along).reshape(-1, self.along)
-        fewer = fewer @ _even_polynomials(_along(self.along + 1), _along(self.along))
-        return side._weights(size, self.along + 1) - fewer.reshape(len(size), -1)
+    @property
+    def _side(self) -> HalfSpheres:
+        return replace(self, distances=SIDE, inclinations=SIDE)
 
-    def grid(self, along: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Radius, depth and angle of places, so many of them on half of each arc."""
-        distance = (self.largest * gauss(self.distances)[0] ** POWER)[:, None]
-        inclination = self._most(distance) * _inclined(gauss(self.inclinations)[0])
+    def grid(self, along: int | None = None) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radius, depth and angle about the axis of places, (N,), so many on half of each arc."""
+        distance = (self.largest * nested(self.distances) ** self.power)[:, None]
+        inclination = self._most(distance) * _inclined(nested(self.inclinations))
         radius = self._radius(distance, inclination)
         depth = distance * np.sin(inclination)
-        angle = self._arc(distance, radius, self.largest)[..., None] * _along(along)
+        angle = self._arc(distance, radius, self.largest)[..., None] * _along(along or self.along)
         radius, depth, angle = np.broadcast_arrays(radius[..., None], depth[..., None], angle)
         return radius.ravel(), depth.ravel(), angle.ravel()
 
     def _weights(self, size: FloatArray, along: int) -> FloatArray:
         """Weights of distances, inclinations and places along the arcs in the means, shape (k, …)."""
-        node, weight = gauss(self.inclinations)
+        node, weight = gauss(_abscissae(self.inclinations))
         weight = 6.0 * node * (1.0 - node) * weight
         # The arcs end like a root at the pole of a sphere.
-        fine, of_fine = gauss(ABSCISSAE)
+        fine, of_fine = gauss(_abscissae(self.distances))
         root = 1.0 - (1.0 - fine) ** 2
         size = size[:, None, None]
-        distance = size * root[:, None] ** POWER
+        distance = size * root[:, None] ** self.power
         most = self._most(distance)
         radius = self._radius(distance, most * _inclined(node))
         whole = self._arc(distance, radius, self.largest)
         part = self._arc(distance, radius, size) / whole
-        of_fine = (of_fine * (1.0 - fine) * root ** (2 * POWER - 1))[:, None]
-        # dV = d dd dφ r dθ, with dd ~ root^(POWER − 1) d root.
+        of_fine = (of_fine * (1.0 - fine) * root ** (2.0 * self.power - 1.0))[:, None]
+        # dV = d dd dφ r dθ, with dd ~ root^(power − 1) d root.
         volume = (of_fine * most * weight * radius * whole)[..., None] * _integrals(along, part)
-        scaled = (size[..., 0] / self.largest) ** (1.0 / POWER) * root
-        of_distance = np.swapaxes(interpolation(gauss(self.distances)[0], scaled), -1, -2)
+        scaled = (size[..., 0] / self.largest) ** (1.0 / self.power) * root
+        of_distance = np.swapaxes(interpolation(nested(self.distances), scaled), -1, -2)
+        of_inclination = interpolation(nested(self.inclinations), node).T
         found = of_distance @ volume.reshape(*volume.shape[:2], -1)
-        return np.asarray(found.reshape(len(size), -1) / found.sum(axis=(1, 2))[:, None])
+        found = of_inclination @ found.reshape(len(size), self.distances, -1, along)
+        return np.asarray(found.reshape(len(size), -1) / found.sum(axis=(1, 2, 3))[:, None])
 
     def _most(self, distance: FloatArray) -> FloatArray:
         """Largest inclination: π, or that of the axis."""
@@ -148,9 +157,12 @@ class HalfSpheres:
 
 @lru_cache(maxsize=16)
 def _from_every_other(count: int) -> FloatArray:
-    """Matrix from the values at every other node of Gauss's rule to those at all."""
-    node, _ = gauss(count)
-    return interpolation(node[::2], node)
+    """Matrix from the values at every other node to those at all."""
+    return interpolation(nested(count)[1::2], nested(count))
+
+
+def _abscissae(count: int) -> int:
+    return max(ABSCISSAE, FINER * count)
 
 
 def _inclined(abscissa: FloatArray) -> FloatArray:
@@ -184,6 +196,17 @@ def gauss(count: int) -> tuple[FloatArray, FloatArray]:
     node, weight = 0.5 * (1.0 + node), 0.5 * weight
     node.flags.writeable = weight.flags.writeable = False
     return node, weight
+
+
+@lru_cache(maxsize=16)
+def nested(count: int) -> FloatArray:
+    """Nodes of Fejér's rule in (0, 1), denser towards both ends: as good as Gauss's where swt has kinks.
+
+    Every other one of 2 n + 1 nodes, from the second on, is one of n.
+    """
+    node = np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(1, count + 1) / (count + 1)))
+    node.flags.writeable = False
+    return node
 
 
 def interpolation(node: FloatArray, at: FloatArray) -> FloatArray:

@@ -37,6 +37,7 @@ class Histories:
     ) -> None:
         self.scene, self.radius, self.depth, self.angle = scene, radius, depth, angle
         self.springs = springs
+        self.x, self.y = (radius * turn(angle) for turn in (np.cos, np.sin))
         cells, pieces = springs.cell.size, springs.share.size
         #: Shape (10, c · N): what a closed form lacks to the integral from the function's first cell.
         self.constant = np.empty((FUNCTIONS, cells * radius.size))
@@ -87,10 +88,11 @@ class Histories:
         """
         at = np.arange(len(self.radius)) if rows is None else rows
         ν = float(self.scene.poisson_ratio[0])
-        normal, drag = self._functions(instant, np.broadcast_to(at[:, None], instant.shape))
-        x, y = (self.radius[at] * turn(self.angle[at]) for turn in (np.cos, np.sin))
-        place = x[:, None], y[:, None], self.depth[at, None]
-        stress = normal_components(normal, *place, ν) + tangential_components(drag, *place, ν)
+        where = np.repeat(at, instant.shape[1])
+        normal, drag = self._functions(instant.ravel(), where)
+        x, y, z = (values.take(where) for values in (self.x, self.y, self.depth))
+        stress = normal_components(normal, x, y, z, ν) + tangential_components(drag, x, y, z, ν)
+        stress = stress.reshape(*instant.shape, 6)
         if self.scene.bulk is not None:
             stress[..., 0] += self.scene.bulk.at(instant[None])[0]
         return stress
@@ -98,7 +100,7 @@ class Histories:
     def _functions(
         self, instant: FloatArray, place: NDArray[np.intp]
     ) -> tuple[PunchFunctions, PunchFunctions]:
-        """The ten functions integrated over the springs at instants of places, of pressure and of drag."""
+        """The functions integrated over the springs at instants of places, (n,), of pressure and of drag."""
         scene, springs = self.scene, self.springs
         cycle, coordinate = scene.cycle, scene.coordinate
         interval = np.minimum(np.searchsorted(cycle.end[0], instant), cycle.end.shape[1] - 1)
@@ -109,25 +111,30 @@ class Histories:
         sign, piece = states.sign[0], springs.index[interval, states.piece[0]]
         function, share = springs.function[piece], springs.share[piece]
         profile = np.zeros_like(function)
-        normal = self._up_to(edge, profile, place)
+        primitive = self._primitives(edge, place)
+        normal = self._up_to(edge, profile, place, primitive)
         # Where nothing slips the front is at the edge.
-        inner = normal.copy()
-        slips = front < edge
-        inner[:, slips] = self._up_to(front[slips], profile[slips], place[slips])
-        held = inner * share
-        grown = function > 0
-        held[:, grown] = self._up_to(front[grown], function[grown], place[grown])
+        inner, slips = normal.copy(), np.flatnonzero(front < edge)
+        at_front = self._primitives(front[slips], place[slips])
+        inner[:, slips] = self._up_to(front[slips], profile[slips], place[slips], at_front)
+        primitive[..., slips] = at_front
+        held, grown = inner * share, np.flatnonzero(function)
+        held[:, grown] = self._up_to(front[grown], function[grown], place[grown], primitive[..., grown])
         held += self.base.take(piece * len(self.radius) + place, axis=1)
         # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
         drag = -scene.friction[0] * (held - sign * (normal - inner))
         return PunchFunctions(*normal), PunchFunctions(*drag)
 
-    def _up_to(self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp]) -> FloatArray:
+    def _primitives(self, radius: FloatArray, place: NDArray[np.intp]) -> FloatArray:
+        """Primitives of the functions, with the weights 1 and ξ, at radii, shape (2, 10, …)."""
+        return np.array(primitives(self.radius.take(place), self.depth.take(place), radius))
+
+    def _up_to(
+        self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp], primitive: FloatArray
+    ) -> FloatArray:
         """Integrals of slope functions from their first cells to radii at places, shape (10, …)."""
         cell = self.springs.cell_of(radius, function)
         result = self.constant.take(cell * len(self.radius) + place, axis=1)
-        intercept, gradient = self.springs.intercept.take(cell), self.springs.gradient.take(cell)
-        plain, weighted = primitives(self.radius[place], self.depth[place], radius)
-        for total, a, b in zip(result, plain, weighted, strict=True):
-            total += intercept * a + gradient * b
+        result += self.springs.intercept.take(cell) * primitive[0]
+        result += self.springs.gradient.take(cell) * primitive[1]
         return result

@@ -19,16 +19,16 @@ from swtstudy.mechanics.body.quick_planes import (
     climb_from,
     highest_coarse_planes,
     highest_planes,
+    on_planes,
     planes_like,
 )
 from swtstudy.mechanics.body.spring_cells import SpringCells
+from swtstudy.mechanics.body.time_peaks import SAME_INSTANT, Peaks
 from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
-from swtstudy.mechanics.numerics.peaks import near_maximum, parabola_maximum
-from swtstudy.mechanics.planes.ascent import normal_weights
+from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.criterion import curves
-from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -38,18 +38,17 @@ MANY = 256
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0])
 #: Passages nearer to the end of an interval, rad, are at that end, or none.
 NO_PASSAGE = 1e-9
-#: Instants nearer to one another, rad, are one.
-SAME_INSTANT = 1e-9
 #: A stress or strain this near to its extreme over the cycle, in its range, may have it close by, also at
 #: other places.
-HOT = 0.1
+HOT = 0.05
 #: So many of the places that are shown tell for the others near to them.
-NEAREST = 6
-#: Peaks of each curve beside which instants are added in each round. Places whose swt grew by less than the
-#: share need no other one.
-PEAKS, SETTLED = (3, 1, 1, 1), 1e-3
-#: What is missing at last, over what each round added: means of scenes all over the parameters miss less.
-DOUBTS = (0.1, 0.5, 0.5, 0.5)
+NEAREST = 9
+#: Peaks of each curve beside which instants are added, before the planes are searched and in rounds after.
+#: Places need no other round that can hide less of swt, over it, than the next.
+FIRST, PEAKS, SETTLED = 1, (2, 1, 1, 1), 2e-3
+#: What is missing at last, over what each round added, and over what may be hidden: means of scenes all over
+#: the parameters miss less.
+DOUBTS, HIDDEN = (0.05, 0.1, 0.1, 0.1), 0.15
 
 
 class Places(NamedTuple):
@@ -112,9 +111,10 @@ class LocalSwt:
         instant = self._instants(shown, np.ones((rows.size, self.instant.size), dtype=bool))
         stress = histories.stress(instant)
         normal = highest_coarse_planes(stress, every, self.ν, self.γ)
-        instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
+        instant, stress, _ = self._closer(histories, rows, instant, stress, normal, FIRST)
         hot = np.zeros(instant.shape, dtype=bool)
-        _, normal = climb_from(stress, self.ν, highest_coarse_planes(stress, every, self.ν, self.γ), self.γ)
+        planes, normal = planes_like(stress, self.ν, self.γ)
+        _, normal = climb_from(stress, self.ν, normal, self.γ)
         for curve in self._curves(stress, normal):
             hot |= near_maximum(curve, HOT)
         row, column = np.nonzero(hot)
@@ -123,7 +123,7 @@ class LocalSwt:
         # Beside an instant that is common both gaps.
         for side in (at - SAME_INSTANT, at + SAME_INSTANT):
             open_[row, np.searchsorted(self.instant, side) - 1] = True
-        return open_, planes_like(stress, self.ν, self.γ)
+        return open_, planes
 
     def _open_at(self, places: Places) -> NDArray[np.bool_]:
         """Which of the gaps matter at places: those that do at some of the nearest that are shown."""
@@ -147,19 +147,19 @@ class LocalSwt:
         stress = histories.stress(instant)
         # A peak between the instants may make another plane critical: the planes are searched twice.
         normal = highest_coarse_planes(stress, self.planes, self.ν, self.γ)
-        instant, stress = self._closer(histories, rows, instant, stress, normal, 2)
+        instant, stress, _ = self._closer(histories, rows, instant, stress, normal, FIRST)
         swt, normal = highest_planes(stress, self.planes, self.ν, self.γ)
-        missing = np.zeros_like(swt)
+        missing, hides = np.zeros((2, *swt.shape))
         for peaks, doubt in zip(PEAKS, DOUBTS, strict=True):
-            instant, stress = self._closer(histories, rows, instant, stress, normal, peaks)
+            instant, stress, share = self._closer(histories, rows, instant, stress, normal, peaks)
             better, normal = climb_from(stress, self.ν, normal, self.γ)
             missing[rows] += doubt * (better - swt[rows])
-            open_ = better > (1.0 + SETTLED) * swt[rows]
-            swt[rows] = better
+            swt[rows], hides[rows] = better, share * better
+            open_ = share > SETTLED
             rows, instant, stress, normal = rows[open_], instant[open_], stress[open_], normal[open_]
             if not rows.size:
                 break
-        return swt, missing
+        return swt, missing + HIDDEN * hides
 
     def _closer(
         self,
@@ -169,19 +169,36 @@ class LocalSwt:
         stress: FloatArray,
         normal: FloatArray,
         peaks: int,
-    ) -> tuple[FloatArray, FloatArray]:
-        """Instants and stresses of some places, and those beside the highest peaks on one plane each."""
-        closer = _beside_peaks(instant, self._curves(stress, normal), peaks)
-        instant = np.concatenate([instant, closer], axis=1)
-        stress = np.concatenate([stress, histories.stress(closer, rows)], axis=1)
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Instants and stresses of some places, and those beside the highest peaks on one plane each.
+
+        Also what of swt, over it, may be hidden by these peaks, as far as they are no parabolas.
+        """
         order = np.argsort(instant, axis=1)
-        return gather(instant, order), stress[np.arange(len(order))[:, None], order]
+        curves = [gather(curve, order) for curve in self._curves(stress, normal)]
+        several = [Peaks.of(gather(instant, order), curve, peaks) for curve in curves]
+        closer = np.concatenate([each.beside for each in several], axis=1)
+        new = histories.stress(closer, rows)
+        beside = self._curves(new, normal)
+        parts = (np.split(curve, len(several), axis=1)[k] for k, curve in enumerate(beside))
+        hidden = [peaks.hidden(part) for peaks, part in zip(several, parts, strict=True)]
+        tops = [np.maximum(a.max(axis=1), b.max(axis=1)) for a, b in zip(curves, beside, strict=True)]
+        instant, stress = (np.concatenate(v, axis=1) for v in ((instant, closer), (stress, new)))
+        return instant, stress, self._share(hidden, tops)
+
+    def _share(self, hidden: list[FloatArray], tops: list[FloatArray]) -> FloatArray:
+        """What of swt, over it, is hidden by peaks of the curves that hide so much each."""
+        tension, amplitude = tops[0], tops[1] + tops[2]
+        some = (tension > 0.0) & (amplitude > 0.0)
+        tension, amplitude = np.where(some, tension, np.inf), np.where(some, amplitude, np.inf)
+        of_amplitude = (hidden[1] + hidden[2]) / amplitude
+        return 2.0 * ((1.0 - self.γ) * hidden[0] / tension + self.γ * of_amplitude)
 
     def _instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
-        """Instants of places in some of the gaps, shapes (N, T): common ones and their own, ascending."""
+        """Instants of places in some of the gaps, shapes (N, T): common ones and their own."""
         common = np.broadcast_to(self.instant, open_.shape)
         (common,) = packed(open_ | np.roll(open_, 1, axis=1), common)
-        return np.sort(np.concatenate([common, self._own_instants(places, open_)], axis=1), axis=1)
+        return np.concatenate([common, self._own_instants(places, open_)], axis=1)
 
     def _own_instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""
@@ -201,46 +218,5 @@ class LocalSwt:
 
     def _curves(self, stress: FloatArray, normal: FloatArray) -> tuple[FloatArray, ...]:
         """The curves of the criterion, each of shape (m, T), of histories on one plane each."""
-        weights = normal_weights(normal)[..., None]
-        of_stress, of_strain = ((v @ weights)[..., 0] for v in (stress, strain_history(stress, self.ν)))
-        return curves(of_stress, of_strain)
-
-
-def _beside_peaks(instant: FloatArray, several: tuple[FloatArray, ...], peaks: int) -> FloatArray:
-    """Instants beside the highest peaks of curves over the periodic cycle, shape (m, 3 · peaks · curves).
-
-    In the middle of both gaps, and where a parabola has its maximum. Instants that meet are one.
-    """
-    around, at = _neighbours(instant)
-    row = np.arange(len(instant))[:, None]
-    found = []
-    for curve in several:
-        before, after = curve[row, at[0]], curve[row, at[2]]
-        peaked = (curve >= before) & (curve >= after) & (around[0] < around[1])
-        highest = np.argpartition(np.where(peaked, -curve, np.inf), peaks, axis=1)[:, :peaks]
-        three, values = (
-            np.stack([v[row, highest] for v in parts], axis=-1) for parts in (around, (before, curve, after))
-        )
-        top, _ = parabola_maximum(three.reshape(-1, 3), values.reshape(-1, 3))
-        found += [
-            0.5 * (three[..., 0] + three[..., 1]),
-            top.reshape(highest.shape),
-            0.5 * (three[..., 1] + three[..., 2]),
-        ]
-    return np.mod(np.concatenate(found, axis=1), PERIOD)
-
-
-def _neighbours(instant: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
-    """The last instant before each of the rows', itself, and the next one, and where they are, (3, m, T).
-
-    Those that meet have the same next one; only the first of them has one before.
-    """
-    count = instant.shape[1]
-    index = np.broadcast_to(np.arange(count), instant.shape)
-    new = np.ones((len(instant), count + 1), dtype=bool)
-    new[:, 1:-1] = np.diff(instant) > SAME_INSTANT
-    begins = np.where(new, np.arange(count + 1), count)
-    after = np.minimum.accumulate(begins[:, :0:-1], axis=1)[:, ::-1]
-    before = np.where(new[:, :-1], index - 1, index)
-    at = np.stack([before, index, after])
-    return gather(instant, at % count) + PERIOD * (at // count), at % count
+        of_stress, of_strain = on_planes(stress, self.ν, normal[:, None])
+        return curves(of_stress[:, 0], of_strain[:, 0])

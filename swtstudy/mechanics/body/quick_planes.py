@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
-from swtstudy.mechanics.planes.ascent import climb
-from swtstudy.mechanics.planes.criterion import Walker
+from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by, normal_weights
+from swtstudy.mechanics.planes.criterion import Walker, combined
 from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.points import FloatArray
 
@@ -56,13 +56,13 @@ class CoarsePlanes:
         return swt
 
 
-def planes_like(stress: FloatArray, ν: float, γ: float) -> CoarsePlanes:
-    """Those of all planes that are near to the highest in some of the histories, and those beside them."""
+def planes_like(stress: FloatArray, ν: float, γ: float) -> tuple[CoarsePlanes, FloatArray]:
+    """Those near to the highest in some of the histories, and those beside them; the highest, (m, 3)."""
     every = CoarsePlanes.everywhere()
     swt = every.swt(stress, ν, γ)
     high = (swt >= NEAR * swt.max(axis=1, keepdims=True)).any(axis=0)
     high[_beside()[high]] = True
-    return CoarsePlanes(every.normal[high])
+    return CoarsePlanes(every.normal[high]), every.normal[swt.argmax(axis=1)]
 
 
 def highest_planes(
@@ -84,11 +84,10 @@ def highest_planes(
     swt, normal
         Shape (m,), over E* δ0/R, and (m, 3).
     """
-    index = np.tile(np.arange(len(stress)), CANDIDATES)
     coarse = planes.swt(stress, poisson_ratio, walker_exponent)
-    highest = np.argpartition(-coarse, CANDIDATES, axis=1)[:, :CANDIDATES].T
-    swt, normal = climb_from(stress[index], poisson_ratio, planes.normal[highest.ravel()], walker_exponent)
-    best = swt.reshape(CANDIDATES, -1).argmax(axis=0) * len(stress) + np.arange(len(stress))
+    highest = np.argpartition(-coarse, CANDIDATES, axis=1)[:, :CANDIDATES]
+    swt, normal = _climb(stress, poisson_ratio, planes.normal[highest], walker_exponent)
+    best = np.arange(len(stress)), swt.argmax(axis=1)
     swt, normal = swt[best], normal[best]
     # Tension may be confined to few planes.
     none = np.flatnonzero(swt <= 0.0)
@@ -107,9 +106,39 @@ def highest_coarse_planes(
 
 def climb_from(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
     """Summits of swt over E* δ0/R, (m,), and their normals, (m, 3), from normals nearby."""
-    modulus = 1.0 - ν**2
-    strain = strain_history(stress, ν, modulus)
-    return climb(stress, strain, start, Walker.of(γ, modulus, len(start)), LAST_STEP)
+    swt, normal = _climb(stress, ν, start[:, None], γ)
+    return swt[:, 0], normal[:, 0]
+
+
+def on_planes(stress: FloatArray, ν: float, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """σ_n and E ε_n of histories, (m, T, 6), on k planes each, (m, k, 3), shape (m, k, T)."""
+    tension = normal_weights(normal) @ stress.swapaxes(1, 2)
+    trace = stress[..., 0] + stress[..., 1] + stress[..., 2]
+    return tension, (1.0 + ν) * tension - ν * trace[:, None]
+
+
+def _climb(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
+    """Summits, (m, k), and their normals, (m, k, 3), from normals, (m, k, 3)."""
+    several, modulus = start.shape[1], 1.0 - ν**2
+    flat = start.reshape(-1, 3)
+    every, current = np.arange(len(flat)), flat.copy()
+
+    def active(rows: Rows, normal: FloatArray, own: Walker | None) -> ActiveForms:
+        current[rows] = normal
+        history, number = np.divmod(every[rows], several)
+        some = np.unique(history)
+        histories = stress if some.size == len(stress) else stress[some]
+        tension, strain = on_planes(histories, ν, current.reshape(start.shape)[some])
+        history = np.searchsorted(some, history)
+        tension, strain = tension[history, number], strain[history, number]
+        row = np.arange(len(history))
+        top, high, low = tension.argmax(axis=1), strain.argmax(axis=1), strain.argmin(axis=1)
+        swing = strain_history(0.5 * (histories[history, high] - histories[history, low]), ν, modulus)
+        swt = combined(tension[row, top], 0.5 / modulus * (strain[row, high] - strain[row, low]), own)
+        return swt, histories[history, top], swing
+
+    swt, normal = climb_by(active, flat, Walker.of(γ, modulus, len(flat)), LAST_STEP)
+    return swt.reshape(start.shape[:2]), normal.reshape(start.shape)
 
 
 @lru_cache(maxsize=1)

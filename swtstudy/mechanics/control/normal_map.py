@@ -86,11 +86,11 @@ class ByRadius(NormalMap):
     def _with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         return self._derivatives(np.maximum(self._radius(load), LEAST_RADIUS))
 
-    def _slope_of_depth(self, radius: FloatArray) -> FloatArray:
-        """g′ at radii, nowhere 0."""
+    def _slope_of_depth(self, radius: FloatArray, weighted_slope: FloatArray) -> FloatArray:
+        """g′ at radii, nowhere 0, from the profile's `weighted_slope`."""
         b = align(self.force.profile.flat_radius, radius)
         rise = np.sqrt(np.maximum((radius - b) * (radius + b), LEAST_RADIUS**2))
-        return np.maximum(self.force.profile.weighted_slope(radius) / rise, LEAST_RADIUS)
+        return np.maximum(weighted_slope / rise, LEAST_RADIUS)
 
     def _unit(self, like: FloatArray) -> FloatArray:
         return align(self.force.unit, like)
@@ -122,7 +122,8 @@ class ForceOfDepth(ByRadius):
 
     def _derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         unit = self._unit(radius)
-        return self.force.of(radius), radius / unit, 1.0 / (unit * self._slope_of_depth(radius))
+        value, weighted_slope = self.force.with_weighted_slope(radius)
+        return value, radius / unit, 1.0 / (unit * self._slope_of_depth(radius, weighted_slope))
 
 
 class DepthOfForce(ByRadius):
@@ -142,6 +143,7 @@ class DepthOfForce(ByRadius):
         return self.force.radius(load)
 
     def _derivatives(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        value, weighted_slope = self.force.profile.depth_and_weighted_slope(radius)
         slope = self._unit(radius) / radius
-        bend = -(slope**2) / (radius * self._slope_of_depth(radius))
-        return self.force.profile.depth(radius), slope, bend
+        bend = -(slope**2) / (radius * self._slope_of_depth(radius, weighted_slope))
+        return value, slope, bend

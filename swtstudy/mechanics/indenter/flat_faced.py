@@ -55,8 +55,8 @@ class RoundedPunch(FlatFaced):
     """g = ξ (w − b arctan(w/b))."""
 
     def depth(self, radius: FloatArray) -> FloatArray:
-        b, w = self._face(radius), self._rise(radius)
-        return np.maximum(radius, b) * (w - b * np.arctan2(w, b))
+        b, w, angle = self._shape_at(radius)
+        return np.maximum(radius, b) * (w - b * angle)
 
     def radius(self, depth: FloatArray) -> FloatArray:
         b, depth = self._face(depth), np.maximum(depth, 0.0)
@@ -72,12 +72,31 @@ class RoundedPunch(FlatFaced):
         return np.sqrt(b * b + w * w)
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
-        b, w = self._face(radius), self._rise(radius)
-        return w * (2.0 * w - b * np.arctan2(w, b))
+        return self._weighted_slope(*self._shape_at(radius))
+
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        b, w, angle = at = self._shape_at(radius)
+        return np.maximum(radius, b) * (w - b * angle), self._weighted_slope(*at)
 
     def half_load(self, radius: FloatArray) -> FloatArray:
+        return self._half_load(*self._shape_at(radius))
+
+    def half_load_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        at = self._shape_at(radius)
+        return self._half_load(*at), self._weighted_slope(*at)
+
+    def _shape_at(self, radius: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """b, w and arctan(w/b), which takes longest."""
         b, w = self._face(radius), self._rise(radius)
-        return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * np.arctan2(w, b) - b * w)
+        return b, w, np.arctan2(w, b)
+
+    @staticmethod
+    def _weighted_slope(b: FloatArray, w: FloatArray, angle: FloatArray) -> FloatArray:
+        return w * (2.0 * w - b * angle)
+
+    @staticmethod
+    def _half_load(b: FloatArray, w: FloatArray, angle: FloatArray) -> FloatArray:
+        return (2.0 / 3.0) * w**3 - 0.5 * b * ((w * w + b * b) * angle - b * w)
 
     def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
         root = np.cbrt(half_load)

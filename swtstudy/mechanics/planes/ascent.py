@@ -11,7 +11,10 @@ close by. `swap_instants` looks from one summit to those that a change of one in
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.planes import criterion
 from swtstudy.mechanics.planes.criterion import Walker
@@ -25,6 +28,11 @@ SMALLEST_STEP = 1e-9
 LARGEST_ITERATIONS = 40
 #: Instants that may take the place of an active one. Half or twice: no change in 16 values of bodies.
 RIVALS = 16
+
+#: The parameter on one plane a row, (n,), and the stress and half the strain change of its triple, (n, 6).
+ActiveForms = tuple[FloatArray, FloatArray, FloatArray]
+#: Some rows, or all.
+Rows = NDArray[np.intp] | slice
 
 
 def normal_weights(normal: FloatArray) -> FloatArray:
@@ -73,8 +81,22 @@ def climb(
     swt, normal
         Shapes (n,), (n, 3).
     """
+
+    def active(rows: Rows, normal: FloatArray, own: Walker | None) -> ActiveForms:
+        return _active_forms(stress[rows], strain[rows], normal, own)
+
+    return climb_by(active, start, walker, last_step)
+
+
+def climb_by(
+    active: Callable[[Rows, FloatArray, Walker | None], ActiveForms],
+    start: FloatArray,
+    walker: Walker | None,
+    last_step: float,
+) -> tuple[FloatArray, FloatArray]:
+    """`climb` with what is active on a plane each of some rows given by a function."""
     normal = start.copy()
-    swt, tension, elongation = _active_forms(stress, strain, normal, walker)
+    swt, tension, elongation = active(slice(None), normal, walker)
     trust = np.full(len(normal), LARGEST_STEP)
     going = np.flatnonzero(swt > 0.0)
     for _ in range(LARGEST_ITERATIONS):
@@ -86,7 +108,7 @@ def climb(
         forms = _apply(jets, tension[going]), _apply(jets, elongation[going])
         step, _ = _newton_step(*forms, trust[going], own)
         trial = _move(here, tangent, step)
-        value, new_tension, new_elongation = _active_forms(stress[going], strain[going], trial, own)
+        value, new_tension, new_elongation = active(going, trial, own)
         up = value > swt[going]
         moved = going[up]
         swt[moved], normal[moved] = value[up], trial[up]
@@ -154,7 +176,7 @@ def _ranked(jets: FloatArray) -> FloatArray:
 
 def _active_forms(
     stress: FloatArray, strain: FloatArray, normal: FloatArray, walker: Walker | None
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+) -> ActiveForms:
     """The parameter on one plane per history, with the stress and half the strain change of its triple.
 
     Returns
