@@ -237,6 +237,7 @@ def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monke
 
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
     monkeypatch.setattr("swtstudy.archive.parts._JOINED", 3)
+    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 512)
     path = tmp_path / "line.nc"
     # One block a chunk: the pace is taken for very slow.
     monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)

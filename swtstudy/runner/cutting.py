@@ -33,7 +33,7 @@ def chunks(
     weight = weights(points.table)
     blocks: list[IntArray] = []
     heaviness = 0
-    for rows in _heaviest_first(points.table, wanted, weight):
+    for rows in _long_cycles_first(points.table, wanted, weight):
         for block in np.array_split(rows, -(-len(rows) // (asked.block or len(rows)))):
             block_weight = int(weight[block].sum())
             if blocks and heaviness + block_weight > size():
@@ -45,12 +45,12 @@ def chunks(
         yield Chunk.of(points, blocks, asked)
 
 
-def _heaviest_first(table: FloatArray, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
-    """The wanted rows of each block that has some: the light blocks at the end let no worker wait long."""
+def _long_cycles_first(table: FloatArray, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
+    """The wanted rows of each block that has some, long cycles first: the last blocks let no worker wait."""
     begin, found = 0, []
     for end in block_ends(table).tolist():
         rows = begin + np.flatnonzero(wanted[begin:end])
         begin = end
         if len(rows):
             found.append(rows)
-    return sorted(found, key=lambda rows: -int(weight[rows].sum()))
+    return sorted(found, key=lambda rows: -int(weight[rows].max()))
