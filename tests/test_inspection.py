@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import swtstudy
+from swtstudy.fields.cycle_curves import marked_instants
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import nodes_at
@@ -145,6 +146,20 @@ def test_mistakes_are_named():
         swtstudy.inspect(frictoin=0.1)
     with pytest.raises(ValueError, match="phase"):
         swtstudy.inspect(phase=[0, 1])
+
+
+def test_instants_near_to_one_another_are_one_also_across_the_end_of_the_cycle():
+    share = np.linspace(0.0, 1.0, 101)
+    curves = {"depth": 1.0 + 0.0 * share, "displacement": np.sin(2.0 * np.pi * share)}
+    curves["normal_stress"] = np.where(np.arange(101) == 2, 1.0, 0.0)
+    curves["normal_strain"] = np.where(np.arange(101) == 97, -1.0, 0.0)
+    index, reasons = marked_instants(share, curves)
+    # 0.02 and 0.97 are 0.05 of a cycle apart.
+    assert "ε_n smallest" not in reasons
+    assert 2 in index
+    curves["normal_strain"] = np.where(np.arange(101) == 80, -1.0, 0.0)
+    index, reasons = marked_instants(share, curves)
+    assert dict(zip(reasons, index.tolist(), strict=True))["ε_n smallest"] == 80
 
 
 def test_where_nothing_moves_one_instant_is_shown():

@@ -14,6 +14,7 @@ from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
 from swtstudy.mechanics.body.histories import Histories
 from swtstudy.mechanics.body.local_swt import Fineness
+from swtstudy.mechanics.body.quick_planes import CoarsePlanes, highest_planes
 from swtstudy.mechanics.body.spring_cells import SpringCells
 from swtstudy.mechanics.body.time_peaks import Peaks
 from swtstudy.mechanics.indenter import TabulatedProfile
@@ -302,3 +303,16 @@ def test_kinks_on_lines_are_seen():
     assert own._refine_lines(found, 3e-4)
     assert np.isnan(own.lines[::2]).all()
     np.testing.assert_array_equal(own.lines[1::2, 0, 0], 1.0 + np.abs(share - 0.3))
+
+
+def test_tension_between_the_coarse_planes_is_found() -> None:
+    """σ_xx = σ_yy = −1 press while σ_zz = 0.001 pulls: planes are in tension within 2° of the z axis."""
+    pull, ν = 1e-3, 0.3
+    stress = np.array([[[0.0] * 6, [-1.0, -1.0, pull, 0.0, 0.0, 0.0]]])
+    towards = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+    planes = CoarsePlanes(CoarsePlanes.everywhere().normal @ towards)
+    assert planes.swt(stress, ν, 0.5).max() == 0.0
+    swt, normal = highest_planes(stress, planes, ν, 0.5)
+    # σ_max Δε/2 over E* = E/(1 − ν²) = 1, with ε = (σ_zz + 2ν)/E.
+    assert swt[0] == pytest.approx(pull * 0.5 * (pull + 2.0 * ν) / (1.0 - ν**2), rel=1e-6)
+    assert abs(normal[0, 2]) == pytest.approx(1.0, abs=1e-6)

@@ -81,6 +81,12 @@ def test_how_it_was_found(found):
     assert (found.evaluations > 200).all()
 
 
+def test_each_case_has_its_own_numbers(found):
+    assert found.case.values.tolist() == ["best", "worst"]
+    for name in ("s", "converged", "evaluations"):
+        assert found[name].dims == ("case",), name
+
+
 def test_the_neighbourhood_is_along_each_parameter(found):
     best = found.sel(case="best")
     assert np.allclose(best.nearby.sel(step=0.0, method="nearest"), best.s, rtol=1e-9)

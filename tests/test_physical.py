@@ -70,6 +70,7 @@ def test_swt_of_a_sliding_contact_in_numbers():
         r"\Delta \mathrm{SWT}",
         "x",
     ]
+    assert own["critical_position"]["units"] == "unit of length"
     assert own["SWT"]["ancillary_variables"] == "SWT_error regime"
     assert not {"comment", "ancillary_variables"} & {*own["SWT_error"], *own["critical_position"]}
     assert "comment" not in own["SWT"]

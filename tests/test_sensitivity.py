@@ -135,7 +135,7 @@ def test_wrong_arguments_are_named(results, given, words):
 
 def test_other_samples_are_refused(results, tmp_path):
     for part in (results.isel(sample=slice(100)), results.isel(sample=slice(None, None, -1))):
-        with pytest.raises(StudyError, match="all points of a saltelli design"):
+        with pytest.raises(StudyError, match=r"^sample: found .*; allowed: all points of a saltelli design"):
             sensitivity(part)
     other = Study.from_text(STUDY.format(size=8).replace("saltelli", "sobol"))
     with pytest.raises(StudyError, match=r"sample.design: found the design sobol"):
@@ -159,6 +159,7 @@ def test_the_bars_are_the_indices(indices):
                 value = one[key].values
                 np.testing.assert_allclose(ends[:, 0], np.minimum(one[f"{key}_low"], value), atol=1e-12)
                 np.testing.assert_allclose(ends[:, 1], np.maximum(one[f"{key}_high"], value), atol=1e-12)
+    assert panels[1, 0].get_ylabel() == "share of the variance of critical x"
     assert panels[0, 1].get_title(loc="left") == r"$\delta_A/\delta_0$ = 0.5"
     assert [text.get_text() for text in panels[1, 0].get_xticklabels()][:2] == [r"$\mu$", r"$\nu$"]
 
