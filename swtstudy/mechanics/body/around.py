@@ -15,7 +15,7 @@ from swtstudy.mechanics.stress.scene import Scene
 MOST, LINE_MOST = 1000, 80
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells).
-OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.14, 0.014, 0.1, 2e-4
+OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.22, 0.022, 0.2, 3e-4
 #: How much of what another place on the arcs adds is an error.
 OF_ADDED = 0.06
 #: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
