@@ -256,6 +256,16 @@ def test_workers_start_with_one_thread_each_and_without_the_script_that_calls(mo
     assert sys.modules["__main__"] is main
 
 
+def test_workers_keep_the_memory_of_arrays_unless_the_user_says_otherwise(monkeypatch):
+    monkeypatch.setenv("MALLOC_TRIM_THRESHOLD_", "1000")
+    monkeypatch.delenv("MALLOC_MMAP_THRESHOLD_", raising=False)
+    with _clean_start():
+        assert os.environ["MALLOC_TRIM_THRESHOLD_"] == "1000"
+        assert int(os.environ["MALLOC_MMAP_THRESHOLD_"]) == 2**25  # the most that glibc takes
+    assert os.environ["MALLOC_TRIM_THRESHOLD_"] == "1000"
+    assert "MALLOC_MMAP_THRESHOLD_" not in os.environ
+
+
 def test_the_pace_of_the_first_chunks_and_of_later_ones():
     """The first are a fifth as long as later ones; then the mean of the last estimate and the new timing."""
     result = Result(np.arange(1), None, np.zeros(1, bool), {}, 4.0, "1")
