@@ -13,7 +13,7 @@ from swtstudy.mechanics.points import FloatArray
 #: Twice: s changes by 1e-10.
 STEP = 0.01
 SMALLEST_RANGE = 64.0
-#: Gauss nodes of the integrals, and so many more per rad: errors of 2e-13 up to 66, of 1e-12 up to 400. Half of
+#: Gauss nodes of the integrals, and so many more per rad: errors of 2e-13 up to 66, 1e-12 up to 400. Half of
 #: the second: 2e-9, and no digit right at 400.
 NODES, NODES_PER_RADIAN = 24, 0.5
 #: Values of the integrand that are made at a time.
