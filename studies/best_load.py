@@ -131,11 +131,10 @@ def main() -> None:
     ratios = RATIOS[1:2] if given.quick else RATIOS
     rtol = 1e-1 if given.quick else 1e-3
     grid = fine_grid(ratios, COARSE if given.quick else FINE, rtol)
+    # With an amplitude of 0 all phases are one point.
     over: dict[str, tuple[object, object]] = {"phase": (0, "2*pi")}
-    # With none, all phases are one point.
-    amplitude: dict[str, object] = {"normal_amplitude": 0.0}
-    if not given.quick:
-        over["normal_amplitude"] = 0.0, amplitude.pop("normal_amplitude")
+    over |= {} if given.quick else {"normal_amplitude": (0.0, LARGEST)}
+    amplitude: dict[str, object] = {"normal_amplitude": 0.0} if given.quick else {}
     found = {
         ratio: swtstudy.optimise(over=over, rtol=rtol, frequency_ratio=ratio, **amplitude) for ratio in ratios
     }

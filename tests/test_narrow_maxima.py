@@ -294,3 +294,14 @@ def test_a_cusp_whose_instant_is_rounded_where_the_load_turns_is_one_cusp(rtol):
     one = points(FACED, 0.3824, 0.8762, 0.2162, 0.0722, 6.2122, 3, 2)
     mixed = replace(one, control=Control(False, True))
     assert solve_points(mixed, rtol).s[0] == pytest.approx(0.171475262006, rel=0.1 * rtol)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+@pytest.mark.parametrize(
+    ("amplitude", "s"), [(9.999999999999999e-06, 0.00547978330), (7.498942093324552e-06, 0.00547027190)]
+)
+def test_cusps_of_a_small_motion_are_near_to_one_another(amplitude, s, rtol):
+    # The tangential amplitude is 1e-4 of the normal one: depths of cusps differ by some 1e-8 of that. Taken
+    # for one, they hid 1.5e-4 of s. The values are those at 1e-8.
+    found = solve_points(points("paraboloid", 0.3, 0.3, 0.1, amplitude, 0.7, 1, 1), rtol)
+    assert found.s[0] == pytest.approx(s, rel=3e-7)

@@ -22,7 +22,14 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 KINDS = {"wavy": "wavy", "struve": "wavy", "surface_maximum": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"harmonic_sum": "loop", "_path": "loop", "polygon": "loop", ".control.": "force", "bulk": "bulk"}
-KINDS |= {"nonlocal": "means", "local_swt": "means", "half_sphere": "means", "quick_planes": "means"}
+KINDS |= {
+    "nonlocal": "means",
+    "around": "means",
+    "time_peaks": "means",
+    "local_swt": "means",
+    "half_sphere": "means",
+    "quick_planes": "means",
+}
 KINDS |= {"spring_cells": "means", "histories": "means", "conjugate": "work", ".work": "work"}
 KINDS |= {"flat_faced": "edge", ".field.": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
 #: Numbers that mean something rather than tune something.

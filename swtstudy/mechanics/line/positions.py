@@ -36,10 +36,6 @@ BEYOND = np.array([1.5, 5.0, 40.0])
 OUTSIDE_STEPS = 5
 #: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
 BESIDE_FACE = 0.999
-#: Coordinates of cusps nearer than this, in the amplitudes of the motion, are one: where a load turns,
-#: rounding moves an instant by 1e-8. 1e-9: two cusps for one, and off by 2e-6 and 9e-4, at 2 of 2,500 points
-#: of mixed control; 1e-7: 1e-12.
-SAME_DEPTH = 2e-8
 #: A stretch between cusps shorter than this share of the range is none. 1e-14: no change; 1e-10: 2e-10.
 NO_LENGTH = 1e-12
 #: Angles α nearer than this to 0 or π are an end of the stretch. 1e-11 or 1e-7: no change at 128 points.
@@ -83,7 +79,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     places = np.concatenate([deepest, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
     places = np.sort(places, axis=1)
     motion = np.minimum(cycle.load.motion, 1.0)
-    new = np.diff(places, axis=1, prepend=0.0) > SAME_DEPTH * motion[:, None]
+    new = np.diff(places, axis=1, prepend=0.0) > cycle.load.same_cusp * motion[:, None]
     new[:, -1] = True
     radius = coordinate.radius(packed(new, places)[0])
     largest = radius.max(axis=1, keepdims=True)

@@ -17,6 +17,9 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Length of the common period in φ, rad.
 PERIOD = 2.0 * np.pi
+#: Coordinates of events nearer than this, over the amplitudes of the motion, are those of one cusp. 1e-11:
+#: 2e-15; 2e-8: 1.5e-4 too low where the tangential amplitude is 1e-4 of the normal one.
+SAME_CUSP = 1e-9
 
 
 class Load(ABC):
@@ -81,6 +84,11 @@ class Load(ABC):
     @abstractmethod
     def mirrored_half(self) -> bool:
         """Whether half a period later the normal load is the same and the tangential one has changed sign."""
+
+    @property
+    def same_cusp(self) -> float:
+        """Coordinates of events nearer than this, over `motion`, are those of one cusp."""
+        return SAME_CUSP
 
     @property
     def grows_in_lines(self) -> bool:
