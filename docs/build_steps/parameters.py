@@ -1,7 +1,9 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.parameters import FAMILIES, PARAMETERS, PLAIN, Family, Parameter
+from swtstudy.families import FAMILIES, PLAIN, Family
+from swtstudy.parameter import Parameter
+from swtstudy.parameters import PARAMETERS
 
 
 def parameters() -> str:
