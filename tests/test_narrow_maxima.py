@@ -16,6 +16,7 @@ from scenes import points
 from swtstudy import TabulatedProfile
 from swtstudy.mechanics import solve_points
 from swtstudy.prescribed import Control
+from swtstudy.reference.textbook import textbook_s
 
 # Profile, then ν, μ, δA/δ0, amplitude, ψ, p, q, the profile's lengths, and s.
 CASES = [
@@ -305,3 +306,14 @@ def test_cusps_of_a_small_motion_are_near_to_one_another(amplitude, s, rtol):
     # for one, they hid 1.5e-4 of s. The values are those at 1e-8.
     found = solve_points(points("paraboloid", 0.3, 0.3, 0.1, amplitude, 0.7, 1, 1), rtol)
     assert found.s[0] == pytest.approx(s, rel=3e-7)
+
+
+@pytest.mark.parametrize(
+    "load", [(0.4949, 0.001433, 0.0, 0.04296, 4.974, 1, 1), (0.5, 0.1048, 0.0, 0.01602, 4.189, 1, 1)]
+)
+def test_under_a_constant_normal_load_the_edge_of_the_contact_is_looked_at(load):
+    # Next to ν = 1/2 nothing else is in tension.
+    point = points("paraboloid", *load)
+    found, textbook = solve_points(point, 1e-4), textbook_s(point, 400, 64, 400, 720, aligned=True)
+    assert abs(found.critical_x[0]) == textbook.critical_x == 1.0
+    assert found.s[0] == pytest.approx(textbook.s, rel=6e-3)

@@ -9,6 +9,7 @@ from swtstudy import StudyError, optimise
 from swtstudy.grid.values import NUMERIC
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
+from swtstudy.optimum.planes import planes_from, probes
 from swtstudy.parameters import PARAMETERS
 
 pytestmark = pytest.mark.xdist_group("optimise")
@@ -221,3 +222,14 @@ def test_kinks_are_followed_to_their_lowest_point(dimensions):
         assert objective.values.min() == pytest.approx(1.0, abs=1e-5)
         assert objective.values.min() < found.searched
         assert objective(found.unit[None]) == objective.values.min()
+
+
+def test_planes_that_touch_a_linear_function_are_that_function():
+    points = np.array([[0.2, 0.3], [0.8, 0.1], [0.4, 0.9]])
+
+    def linear(at):
+        return 1.0 + at @ [3.0, -5.0]
+
+    planes = planes_from(points, 0.1, linear(probes(points, 0.1)))
+    np.testing.assert_allclose(planes.gradients, [[3.0, -5.0]] * 3, rtol=1e-6)
+    np.testing.assert_allclose(planes.values, linear(points))

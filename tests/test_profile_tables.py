@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import swtstudy
+from swtstudy import Study
 from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics.indenter import TabulatedProfile
@@ -198,3 +199,11 @@ def test_a_rough_table_has_few_landmarks_over_its_whole_range():
     assert short.sum() > MOST_LANDMARKS
     assert MOST_LANDMARKS // 2 < table.landmarks.size <= MOST_LANDMARKS
     assert np.ptp(table.landmarks) > 1.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"), [("profiles", "radius and height, or file"), ("loads", "vertices or file")]
+)
+def test_what_is_defined_is_a_table(kind: str, words: str) -> None:
+    with pytest.raises(StudyError, match=rf"{kind}.mine: found 3; allowed: a table with {words}"):
+        Study.from_text(f'title = "t"\n{kind}.mine = 3\n')

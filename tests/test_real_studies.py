@@ -7,7 +7,7 @@ import pytest
 from real import ALUMINIUM, BODIES, STUDY, plain, without
 
 import swtstudy
-from swtstudy import FatigueConstants, Study, open_results, physical, run
+from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
@@ -207,3 +207,11 @@ def test_of_two_profiles_one_has_a_wavelength():
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")
     study = Study.from_text(text.replace("[axes]", '[axes]\nprofile = ["paraboloid", "wavy_paraboloid"]'))
     assert len(unique_points(study.grid).table) == study.grid.size == 16
+
+
+@pytest.mark.parametrize("name", ["body", "critical_distance"])
+def test_what_is_no_parameter_of_a_contact_is_not_sampled(name):
+    text = plain("quantities", "critical_distance", "phase")
+    sample = f'\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{name} = [0.1, 1]\n'
+    with pytest.raises(StudyError, match=f"sample.ranges.{name}: found unknown parameter '{name}'"):
+        Study.from_text(text + sample)

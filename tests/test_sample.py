@@ -286,6 +286,14 @@ def test_a_scatter_has_a_panel_for_each_parameter(results):
     ]
 
 
+def test_a_scatter_of_regimes_has_a_row_for_each(results):
+    (axes, _) = draw(results, FigureLayout("sample", y=("regime",), kind="scatter", hue="profile")).axes
+    assert [text.get_text() for text in axes.get_yticklabels()] == [
+        *("stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium")
+    ]
+    assert axes.get_ylim() == (-0.5, 5.5)
+
+
 def test_a_histogram_counts_and_has_percentiles(results):
     figure = draw(results, FigureLayout("sample", panels="profile", kind="histogram"))
     for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):
