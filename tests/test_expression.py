@@ -15,6 +15,7 @@ from swtstudy.grid.expression import evaluate
         ("8/9", Fraction(8, 9)),
         ("3/2", Fraction(3, 2)),
         (" 0.1 ", Fraction(1, 10)),
+        ("0.1234567890123456789", Fraction(1234567890123456789, 10**19)),
         ("1e-3", Fraction(1, 1000)),
         (".5", Fraction(1, 2)),
         ("2.", Fraction(2)),
