@@ -11,7 +11,6 @@ from scenes import points
 from soundness import regime_names, sound
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.singular_edge import _swt
 from swtstudy.mechanics.line.value import refine
@@ -20,8 +19,7 @@ from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 
 def split_scene(batch: Points) -> Scene:
-    scene = scene_of(batch)
-    return replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    return scene_of(batch).split_at_breakpoints()
 
 
 def truncated(

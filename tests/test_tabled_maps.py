@@ -37,6 +37,16 @@ def exact(name: str, kind: type[ByRadius]) -> ByRadius:
     return kind(ForceCoordinate(profile, unit_half_load(family, shape, 3)))
 
 
+@pytest.fixture(params=[ForceOfDepth, DepthOfForce])
+def kind(request: pytest.FixtureRequest) -> type[ByRadius]:
+    return request.param
+
+
+@pytest.fixture(params=["few", "many", "rippled"])
+def of(request: pytest.FixtureRequest, kind: type[ByRadius]) -> ByRadius:
+    return exact(request.param, kind)
+
+
 def loads(of: ByRadius) -> Array:
     """Prescribed loads from next to none to the largest."""
     share = np.sort(np.concatenate([np.geomspace(1e-9, 1.0, 40), np.linspace(1e-3, 1.0, 301)]))
@@ -71,10 +81,7 @@ def test_an_even_table_is_exact_for_quintics() -> None:
             np.testing.assert_allclose(values, expected[k], rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("kind", [ForceOfDepth, DepthOfForce])
-@pytest.mark.parametrize("name", ["few", "many", "rippled"])
-def test_tables_are_what_they_stand_for(name: str, kind: type[ByRadius]) -> None:
-    of = exact(name, kind)
+def test_tables_are_what_they_stand_for(of: ByRadius) -> None:
     table, load = tabled(of), loads(of)
     expected = of.with_derivatives(load)
     for found in (table.with_derivatives(load), (table.value(load), table.slope(load))):
@@ -85,11 +92,8 @@ def test_tables_are_what_they_stand_for(name: str, kind: type[ByRadius]) -> None
     np.testing.assert_allclose(table.value(load), expected[0], rtol=1e-5)
 
 
-@pytest.mark.parametrize("kind", [ForceOfDepth, DepthOfForce])
-@pytest.mark.parametrize("name", ["few", "many", "rippled"])
-def test_inverses_are_of_the_table_to_the_last_digit(name: str, kind: type[ByRadius]) -> None:
+def test_inverses_are_of_the_table_to_the_last_digit(of: ByRadius) -> None:
     # An edge that arrives at x is told from one that does not by less than 2e-15.
-    of = exact(name, kind)
     table, load = tabled(of), loads(of)
     value = table.value(load)
     off = np.abs(table.value(table.inverse(value)) - value)
@@ -99,7 +103,6 @@ def test_inverses_are_of_the_table_to_the_last_digit(name: str, kind: type[ByRad
     np.testing.assert_allclose(slope, of.slope(load), rtol=1e-5)
 
 
-@pytest.mark.parametrize("kind", [ForceOfDepth, DepthOfForce])
 @pytest.mark.parametrize("family", ["paraboloid", "rounded_punch", "truncated_paraboloid", "power_law"])
 def test_the_slope_at_a_value_is_that_at_the_load(family: str, kind: type[ByRadius]) -> None:
     name = "exponent" if family == "power_law" else "flat_radius"

@@ -11,7 +11,6 @@ import argparse
 import csv
 import sys
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +21,6 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.positions import cusps
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
@@ -37,12 +35,6 @@ STEPS, POSITIONS, PLANES, KEPT = 6, 240, 72, 6
 CLOSER_STEPS, CLOSER, ROUNDS = 32, 9, 10
 
 Array = NDArray[np.float64]
-
-
-def split_scene(one: Points) -> Scene:
-    """The scene of one point, its cycle cut wherever the stress has a kink."""
-    scene = scene_of(one)
-    return replace(scene, cycle=split_at_breakpoints(scene.cycle))
 
 
 def swt(scene: Scene, r: Array, side: float, double_angle: Array, steps: int) -> Array:
@@ -98,7 +90,7 @@ def rows(profile: str, points: Points) -> Iterator[list[str]]:
     tight = solve_points(points, REFERENCE_RTOL)
     for k in np.flatnonzero(tight.s > 0.0):
         one = points.take(np.array([k]))
-        dense = dense_search(split_scene(one))
+        dense = dense_search(scene_of(one).split_at_breakpoints())
         # The parabolas of the dense search overshoot by 3e-6.
         more = dense > tight.s[k] * (1.0 + 5e-6) + 2.0 * tight.s_error[k]
         if more or dense < tight.s[k] * (1.0 - 1e-4):

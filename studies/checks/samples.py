@@ -15,7 +15,7 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.quantities import quantities_of
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.prescribed import Control
-from swtstudy.quantities import item_of
+from swtstudy.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
 
 SEED = 5
 #: Values of some points at a tolerance, and their errors as far as they are known.
@@ -105,24 +105,26 @@ def in_body(points: Points, rtol: float) -> Values:
 
 def nonlocal_means(points: Points, rtol: float) -> Values:
     """Means of every eighth point over two distances, and their errors."""
-    some = points.take(np.arange(0, len(points), 8))
-    columns = quantities_of(some, [item_of(0.05), item_of(0.2)], solve_points(some, rtol))
-    return _with_errors(columns)
+    return _quantities(points.take(np.arange(0, len(points), 8)), rtol, [item_of(0.05), item_of(0.2)])
 
 
 def work_and_force_ratio(points: Points, rtol: float) -> Values:
     """The dissipated work and its error, and the largest force ratio."""
-    columns = quantities_of(points, ["dissipation", "force_ratio"], solve_points(points, rtol))
-    return _with_errors(columns)
+    return _quantities(points, rtol, ["dissipation", "force_ratio"])
 
 
-def _with_errors(columns: dict[str, np.ndarray]) -> Values:
-    # The error of s_line@depth is s_line_error@depth.
-    errors = {name: name.split("@")[0] + "_error" + name[len(name.split("@")[0]) :] for name in columns}
-    values = [name for name in columns if "_error" not in name]
-    unknown = np.full(len(next(iter(columns.values()))), np.inf)
-    claimed = [columns.get(errors[name], unknown) for name in values]
-    return np.concatenate([columns[name] for name in values]), np.concatenate(claimed)
+def _quantities(points: Points, rtol: float, items: list[str]) -> Values:
+    columns = quantities_of(points, items, solve_points(points, rtol))
+    values, errors = [], []
+    for item in items:
+        for row in [NAMED[item]] if item in NAMED else NONLOCAL.values():
+            found = [columns[name] for name in columns_in(row, row.name, item)]
+            values += found
+            if row.has_error:
+                errors += [columns[name] for name in columns_in(row, error_of(row.name), item)]
+            else:
+                errors += [np.full_like(value, np.inf) for value in found]
+    return np.concatenate(values), np.concatenate(errors)
 
 
 #: By the kind of a sample: where its points come from, and what is looked at.

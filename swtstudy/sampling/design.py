@@ -15,8 +15,6 @@ DESIGNS: tuple[DesignName, ...] = ("sobol", "latin_hypercube", "random", "saltel
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")
-#: Designs of twice the size begin with the points of the design, or contain them.
-EXTENSIBLE = ("sobol", "random", "saltelli")
 
 
 @dataclass(frozen=True)

@@ -20,8 +20,6 @@ from swtstudy.mechanics.points import FloatArray
 
 #: Distances and inclinations at which the change along the arcs is seen.
 SIDE = 4
-#: How much of what another place on the arcs adds counts as a change.
-ADDED = 0.25
 #: Largest radii of the spheres over the centre's distance from the axis up to which so many places, from one
 #: on, are enough on half an arc.
 REACH = (0.35, 0.8, 1.0)

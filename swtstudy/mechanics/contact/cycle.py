@@ -58,13 +58,6 @@ class Cycle:
         every = np.arange(self.begin.shape[1])
         return self.take_intervals(index, np.broadcast_to(every, (len(index), every.size)))
 
-    def select(self, index: NDArray[np.intp], keep: NDArray[np.bool_]) -> Cycle:
-        """The cycles at ``index`` with the intervals to keep, shape (len(index), i), and empty ones."""
-        (interval,) = packed(keep, np.broadcast_to(np.arange(keep.shape[1]), keep.shape))
-        chosen = self.take_intervals(index, interval)
-        empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
-        return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
-
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
         return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)
@@ -83,7 +76,11 @@ class Cycle:
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""
-        return self.select(np.arange(len(self.begin)), self.begin < 0.5 * PERIOD)
+        keep = self.begin < 0.5 * PERIOD
+        (interval,) = packed(keep, np.broadcast_to(np.arange(keep.shape[1]), keep.shape))
+        chosen = self.take_intervals(np.arange(len(keep)), interval)
+        empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
+        return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
 
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
         """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""

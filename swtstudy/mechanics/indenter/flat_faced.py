@@ -55,8 +55,7 @@ class RoundedPunch(FlatFaced):
     """g = ξ (w − b arctan(w/b))."""
 
     def depth(self, radius: FloatArray) -> FloatArray:
-        b, w, angle = self._shape_at(radius)
-        return np.maximum(radius, b) * (w - b * angle)
+        return self._depth(radius, *self._shape_at(radius))
 
     def radius(self, depth: FloatArray) -> FloatArray:
         b, depth = self._face(depth), np.maximum(depth, 0.0)
@@ -75,8 +74,8 @@ class RoundedPunch(FlatFaced):
         return self._weighted_slope(*self._shape_at(radius))
 
     def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        b, w, angle = at = self._shape_at(radius)
-        return np.maximum(radius, b) * (w - b * angle), self._weighted_slope(*at)
+        at = self._shape_at(radius)
+        return self._depth(radius, *at), self._weighted_slope(*at)
 
     def half_load(self, radius: FloatArray) -> FloatArray:
         return self._half_load(*self._shape_at(radius))
@@ -89,6 +88,10 @@ class RoundedPunch(FlatFaced):
         """b, w and arctan(w/b), which takes longest."""
         b, w = self._face(radius), self._rise(radius)
         return b, w, np.arctan2(w, b)
+
+    @staticmethod
+    def _depth(radius: FloatArray, b: FloatArray, w: FloatArray, angle: FloatArray) -> FloatArray:
+        return np.maximum(radius, b) * (w - b * angle)
 
     @staticmethod
     def _weighted_slope(b: FloatArray, w: FloatArray, angle: FloatArray) -> FloatArray:

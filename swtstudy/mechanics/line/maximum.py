@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
@@ -141,7 +140,7 @@ def reach_of_edge(profile: Profile) -> FloatArray:
 
 def _left_at_tip(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     """How much many more instants change swt at the n positions of the maxima, shape (n,)."""
-    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    split = scene.split_at_breakpoints()
     more = replace(resolution, nodes=TIMES_AT_TIP * resolution.nodes)
     place = np.abs(found.position)[:, None], np.sign(found.position), found.double_angle[:, None]
     value, _ = refine(split, *place, more)
@@ -184,7 +183,7 @@ def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     A maximum may be at a cusp, with a steep flank on one side: the better half of the numbers counts.
     """
     r = np.abs(found.position)[:, None]
-    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    split = scene.split_at_breakpoints()
     steps = np.concatenate([NEIGHBOURS, FARTHER])
     near = np.maximum(r + steps * np.spacing(r), scene.profile.flat_radius[:, None])
     angle = np.broadcast_to(found.double_angle[:, None], near.shape)
@@ -211,7 +210,7 @@ def _candidates(scene: Scene, positions: Positions) -> Climb:
 
 def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
     """First look, local search and check."""
-    split = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    split = scene.split_at_breakpoints()
     positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
     climb = _candidates(scene, positions)
     largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)

@@ -26,7 +26,6 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate
-from swtstudy.mechanics.events.passages import split_at_breakpoints
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
@@ -125,7 +124,7 @@ def at_edge(scene: Scene, found: Maximum, accuracy: Accuracy) -> Maximum:
 def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt at 0 < ε ≤ `reach_of_edge`."""
     # The instant at which the front arrives at G = 0 is a breakpoint.
-    scene = replace(scene, cycle=split_at_breakpoints(scene.cycle))
+    scene = scene.split_at_breakpoints()
     n = len(scene)
     rows = np.arange(n)
     found = Maximum.unknown(n, 0.0)

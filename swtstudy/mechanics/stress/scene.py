@@ -11,7 +11,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.control.diagram import diagram
-from swtstudy.mechanics.events.passages import split_at
+from swtstudy.mechanics.events.passages import split_at, split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.load import Load
@@ -79,6 +79,10 @@ class Scene:
         if bulk is None or not bulk.moves.any():
             return replace(self, bulk=bulk)
         return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants()))
+
+    def split_at_breakpoints(self) -> Scene:
+        """The same with the intervals of its cycles cut where a slip front passes a breakpoint."""
+        return replace(self, cycle=split_at_breakpoints(self.cycle))
 
     @property
     def largest_radius(self) -> FloatArray:
