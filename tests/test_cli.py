@@ -325,8 +325,9 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 def test_a_scheduler_that_is_not_there(study, tmp_path):
     pytest.importorskip("distributed")
     code = (
-        "from distributed import Client\nimport swtstudy.cli.run as r\n"
-        "from swtstudy.cli import main\nr.CONNECT_SECONDS = 0.2\n"
+        # The command has the name of its module.
+        "from importlib import import_module\nfrom swtstudy.cli import main\n"
+        "import_module('swtstudy.cli.run').CONNECT_SECONDS = 0.2\n"
         f"main(['run', {str(study)!r}, '--results', {str(tmp_path)!r}, '--scheduler', 'tcp://127.0.0.1:9'])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)

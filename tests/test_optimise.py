@@ -12,8 +12,6 @@ from swtstudy.optimum.objective import Objective
 from swtstudy.optimum.planes import planes_from, probes
 from swtstudy.parameters import PARAMETERS
 
-pytestmark = pytest.mark.xdist_group("optimise")
-
 #: The best amplitude is in a narrow kink, between points of a coarse grid; ψ, μ as far from round as any.
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 

@@ -11,8 +11,6 @@ from swtstudy.figures.bars import draw_sensitivity
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.statements.influence import SAYS, table
 
-pytestmark = pytest.mark.xdist_group("sensitivity")
-
 STUDY = """
 title = "Ishigami"
 [sample]
