@@ -105,6 +105,17 @@ def test_depth_and_weighted_slope_in_one(indenter: oracle.Indenter) -> None:
     np.testing.assert_array_equal(both, (profile.depth(xi), profile.weighted_slope(xi)))
 
 
+@every_indenter
+def test_radius_of_a_load(indenter: oracle.Indenter) -> None:
+    """Also next to a face, where loads are the cube of what they are of."""
+    profile = batch(indenter)
+    largest = float(profile.radius(profile.largest_depth[:, None])[0, 0])
+    b = indenter.flat_radius
+    radius = np.hypot(b, np.sqrt((largest - b) * (largest + b)) * np.geomspace(1e-4, 1.0, 200))[None]
+    found = profile.radius_of_half_load(profile.half_load(radius))
+    np.testing.assert_allclose(np.sqrt((found - b) * (found + b)), np.sqrt((radius - b) * (radius + b)), rtol=1e-6)
+
+
 @every_family
 def test_shapes_that_are_not_refused_are_compact(family: Family) -> None:
     """g′ ≥ 0 in the contact; `compact` and `check` refuse the same ones, and the message names them."""
