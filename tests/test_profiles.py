@@ -113,7 +113,9 @@ def test_radius_of_a_load(indenter: oracle.Indenter) -> None:
     b = indenter.flat_radius
     radius = np.hypot(b, np.sqrt((largest - b) * (largest + b)) * np.geomspace(1e-4, 1.0, 200))[None]
     found = profile.radius_of_half_load(profile.half_load(radius))
-    np.testing.assert_allclose(np.sqrt((found - b) * (found + b)), np.sqrt((radius - b) * (radius + b)), rtol=1e-6)
+    np.testing.assert_allclose(
+        np.sqrt((found - b) * (found + b)), np.sqrt((radius - b) * (radius + b)), rtol=1e-6
+    )
 
 
 @every_family
