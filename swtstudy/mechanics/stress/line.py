@@ -22,7 +22,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
-from swtstudy.mechanics.stress.passing import COORDINATE, EDGES, FRONTS, Passing
+from swtstudy.mechanics.stress.passing import COORDINATE, Passing
 
 #: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
 OUTSIDE = 1.1
@@ -57,7 +57,7 @@ class SurfaceLine:
         #: Shape (n, X, 1): half of the load inside r, were the contact larger.
         self.inside = coordinate.profile.half_load(near)[:, :, None]
         #: When edges and fronts pass r, or a radius outside of the contact that no edge reaches either.
-        self.edges, self.fronts = (Passing.of(each, cycle.load, coordinate, near) for each in (EDGES, FRONTS))
+        self.edges, self.fronts = Passing.of(cycle.load, coordinate, near)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (n, m): do/dG of the distinct pieces, of growths the part that is a line's.

@@ -13,8 +13,6 @@ from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.tip import OF_EDGE, OF_FRONT, SlowerTime, Slowness, told_radius
 
-#: What passes: number in `arrival`, and how the load is slowed down next to a tip.
-EDGES, FRONTS = (0, OF_EDGE), (1, OF_FRONT)
 #: Rounding of a coordinate, over the largest one: 1.3e-15 there and back on a rounded punch, 4e-16 on a wavy
 #: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart,
 #: and from the coordinate to the instant and back there are five roundings. 1e-15: 5e-7 at rtol 1e-6.
@@ -61,17 +59,21 @@ class Passing:
     slower: SlowerTime | None
 
     @classmethod
-    def of(
-        cls, kind: tuple[int, Slowness], load: Load, coordinate: Coordinate, position: FloatArray
-    ) -> Passing:
-        """Of `EDGES` or `FRONTS`."""
-        number, slowness = kind
-        told = told_radius(slowness, coordinate, load.largest_normal, position)
-        at = coordinate.of(told)
-        near = arrival(load, coordinate, told, at)[number]
-        return cls(
-            position, at, near, SlowerTime.of(slowness, coordinate, load.largest_normal, position, told)
-        )
+    def of(cls, load: Load, coordinate: Coordinate, position: FloatArray) -> tuple[Passing, Passing]:
+        """Of edges and fronts."""
+        if not coordinate.profile.tip.any():
+            at = coordinate.of(position)
+            of_edge, of_front = arrival(load, coordinate, position, at)
+            return cls(position, at, of_edge, None), cls(position, at, of_front, None)
+
+        def slowed(number: int, slowness: Slowness) -> Passing:
+            told = told_radius(slowness, coordinate, load.largest_normal, position)
+            at = coordinate.of(told)
+            near = arrival(load, coordinate, told, at)[number]
+            slower = SlowerTime.of(slowness, coordinate, load.largest_normal, position, told)
+            return cls(position, at, near, slower)
+
+        return slowed(0, OF_EDGE), slowed(1, OF_FRONT)
 
     def take(self, index: NDArray[np.intp]) -> Passing:
         """The positions at ``index`` of the first axis."""
