@@ -111,7 +111,7 @@ def _end_with_parent() -> None:
 
 
 def _warm_up() -> None:
-    import swtstudy.mechanics  # noqa: F401
+    import swtstudy.mechanics.solver  # noqa: F401
 
 
 @contextmanager
