@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from typing import Any
 
 # Before NumPy: two processes of tests with two BLAS threads each would fight for two cores.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -12,6 +13,21 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import pytest
 
 from swtstudy.study.definition import Study
+
+#: Tests of these files share what is costly: each of them stays with one process.
+TOGETHER = {
+    f"tests/test_{name}.py"
+    for name in (
+        "force_control",
+        "inspected_forces",
+        "inspection_panels",
+        "optimise",
+        "real_archives",
+        "s_error",
+        "sensitivity",
+        "shown",
+    )
+}
 
 SMALL = """
 title = "A small study"
@@ -46,3 +62,16 @@ def ctrl_c_as_it_was() -> Iterator[None]:
     before = signal.getsignal(signal.SIGINT)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Who runs what in two processes: the groups of pytest-xdist 3.8 are lost with pytest 9.2."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Scheduling(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = nodeid.split("::")[0]
+            return file if file in TOGETHER else nodeid
+
+    return Scheduling(config, log)

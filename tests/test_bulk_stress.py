@@ -125,10 +125,10 @@ def test_where_the_far_field_is_all_there_is_no_point_is_critical(exponent: floa
 
 def test_no_s_is_below_the_far_field() -> None:
     for profile in PROFILE_NAMES:
-        batch = random_bulk(1, random_points(1, 5, profile, largest_term=2))
+        batch = random_bulk(1, random_points(1, 3, profile, largest_term=2))
         high, γ = batch.bulk_stress_mean + batch.bulk_stress_amplitude, batch.walker_exponent
         far = swt(high, batch.bulk_stress_amplitude, batch.poisson_ratio, γ)
-        assert np.all(solve_points(batch).s >= far)
+        assert np.all(solve_points(batch, 1e-3).s >= far)
 
 
 @pytest.mark.parametrize("profile", PROFILE_NAMES)
@@ -309,7 +309,7 @@ def test_points_without_bulk_stress_do_not_change_beside_others() -> None:
 
 @pytest.mark.parametrize("profile", PROFILE_NAMES)
 def test_s_is_continuous_where_the_bulk_stress_ends(profile: str) -> None:
-    batch = random_points(6, 4, profile, largest_term=2)
+    batch = random_points(6, 2, profile, largest_term=2)
     plain = solve_points(batch, 1e-6).s
     for small in (with_bulk(batch, 1e-9), with_bulk(batch, 0.0, 1e-9)):
         np.testing.assert_allclose(solve_points(small, 1e-6).s, plain, rtol=3e-6)

@@ -1,4 +1,5 @@
 import json
+import re
 import subprocess
 import sys
 from io import BytesIO
@@ -17,7 +18,7 @@ from swtstudy.families import FAMILIES
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import MISSING
 from swtstudy.study.schema import study_schema
-from swtstudy.study.template import template
+from swtstudy.study.template import template, template_with_units
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
 
@@ -325,8 +326,9 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 def test_a_scheduler_that_is_not_there(study, tmp_path):
     pytest.importorskip("distributed")
     code = (
-        "from distributed import Client\nimport swtstudy.cli.run as r\n"
-        "from swtstudy.cli import main\nr.CONNECT_SECONDS = 0.2\n"
+        # The command has the name of its module.
+        "from importlib import import_module\nfrom swtstudy.cli import main\n"
+        "import_module('swtstudy.cli.run').CONNECT_SECONDS = 0.2\n"
         f"main(['run', {str(study)!r}, '--results', {str(tmp_path)!r}, '--scheduler', 'tcp://127.0.0.1:9'])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
@@ -422,6 +424,13 @@ def test_every_mention_says_over_what_a_number_is(name, number):
         helps.append(template("mine"))
     for text in helps:
         assert number in " ".join(text.split())
+
+
+def test_the_template_with_units_names_its_units_and_no_others():
+    text = template_with_units("mine")
+    assert {*re.findall(r"(?:length|stress|force|modulus) in (\w+)", text)} == {"mm", "N", "MPa"}
+    assert 'length = "mm"' in text
+    assert 'stress = "MPa"' in text
 
 
 def test_help_imports_nothing_heavy():

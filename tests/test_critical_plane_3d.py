@@ -78,6 +78,7 @@ def test_never_less_than_the_search_in_the_plane_of_sliding():
         ({"stress": np.zeros((0, 6))}, r"the shape \(0, 6\)"),
         ({"stress": "x"}, "stress: found 'x'; allowed: an array of numbers"),
         ({"poisson_ratio": -5}, r"poisson_ratio: found -5; allowed: a number in \(-1, 0.5\]"),
+        ({"poisson_ratio": -1}, r"poisson_ratio: found -1; allowed: a number in \(-1, 0.5\]"),
         ({"poisson_ratio": None}, "poisson_ratio: found None"),
         ({"young_modulus": 0}, "young_modulus: found 0; allowed: a positive number"),
         ({"young_modulus": np.nan}, "young_modulus: found nan"),

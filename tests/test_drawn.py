@@ -230,6 +230,8 @@ def test_contours_have_their_values_and_the_optimum():
     greatest = [[2.0, each] if each < 1.0 else [0.0, each] for each in v]
     greatest.insert(5, [np.nan, np.nan])
     np.testing.assert_array_equal(path_of(axes, "greatest $s$")[1:], greatest)
+    # An optimum may lie on the frame.
+    assert not any(line.get_clip_on() for line in axes.lines)
     filled = axes.collections[0]
     assert filled.levels[0] <= 1.0
     assert filled.levels[-1] >= 1 + 1.45**2

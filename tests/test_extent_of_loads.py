@@ -57,7 +57,9 @@ def test_the_second_half_mirrors_the_first_where_it_says_so(name: str) -> None:
 
 
 def test_a_sum_without_motion_ends_where_it_is() -> None:
-    assert harmonics((0, 0.7, 0.5 * np.pi), (2, 0.0, 0.3)).ends == pytest.approx((0.7, 0.7), rel=1e-15)
+    still = harmonics((0, 0.7, 0.5 * np.pi), (2, 0.0, 0.3))
+    assert still.ends == pytest.approx((0.7, 0.7), rel=1e-15)
+    np.testing.assert_array_equal(still.stretch(np.linspace(0.0, 6.0, 4)), 0)
 
 
 def test_the_inverse_of_a_sum_of_many_harmonics_has_all_digits() -> None:

@@ -8,8 +8,6 @@ import swtstudy
 from swtstudy.figures import inspection_panels as panels
 from swtstudy.figures.panel_marks import limits
 
-pytestmark = pytest.mark.xdist_group("inspection_panels")
-
 #: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
 CATTANEO = {"normal_amplitude": 0, "tangential_amplitude": 0.36, "friction": 0.5}
 MOVING = {"frequency_ratio": "1/2", "phase": 0.4, "normal_amplitude": 0.5}

@@ -76,6 +76,16 @@ def test_conflicts_are_refused(tmp_path, apart, order):
         merge([one, other][::order])
 
 
+@pytest.mark.parametrize(("frictions", "end"), [([0.1], "poisson_ratio=0.3"), ([0.1, 0.2], "; 1 more")])
+def test_other_conflicts_are_counted(tmp_path, frictions, end):
+    one, other = made(tmp_path, "one", frictions, [0]), tmp_path / "other.nc"
+    dataset = open_results(one)
+    dataset["s"] = 2.0 * dataset.s
+    save(dataset, other)
+    with pytest.raises(ConflictError, match=r"friction=0\.1.*" + end + "$"):
+        merge([one, other])
+
+
 @pytest.mark.parametrize("apart", [1 + 1.99e-3, 1 - 1.99e-3])
 def test_values_within_both_errors_are_one(tmp_path, apart):
     one, other = made(tmp_path, "one", [0.1, 0.2], [0, 1]), tmp_path / "other.nc"

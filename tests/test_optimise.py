@@ -12,8 +12,6 @@ from swtstudy.optimum.objective import Objective
 from swtstudy.optimum.planes import planes_from, probes
 from swtstudy.parameters import PARAMETERS
 
-pytestmark = pytest.mark.xdist_group("optimise")
-
 #: The best amplitude is in a narrow kink, between points of a coarse grid; ψ, μ as far from round as any.
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 
@@ -43,7 +41,7 @@ def test_the_best_point_is_a_minimum_of_a_very_fine_grid_around_it(found):
     assert best.s <= grid.s.min() * (1 + 1e-6)
 
 
-@pytest.mark.parametrize("seed", [1, 4])
+@pytest.mark.parametrize("seed", [1, 8])
 def test_no_phase_of_a_dense_grid_is_better_or_worse_in_random_cases(seed):
     rng = np.random.default_rng(seed)
     case = {

@@ -321,6 +321,7 @@ def test_mistakes_are_named(changes, words):
         ({"similar": None}, ["similar: found None"]),
         ({"young_modulus": 5e-324}, ["young_modulus: found 5e-324; allowed: a positive number, or a pair"]),
         ({"young_modulus": 1e308}, ["young_modulus: found 1e+308; allowed: a positive number, or a pair"]),
+        ({"young_modulus": 0}, ["young_modulus: found 0; allowed: a positive number"]),
         ({"radius": 5e-324}, ["radius: found 5e-324; allowed: a positive length, in magnitude from 1e-100"]),
         ({"normal_force": 1e308}, ["normal_force: found 1e+308; allowed: a positive number, in magnitude"]),
         ({"tangential_amplitude": 5e-324}, ["tangential_amplitude: found 5e-324; allowed: a length ≥ 0, in"]),

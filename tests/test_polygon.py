@@ -40,6 +40,15 @@ def sampled(k: int, normal: float = 0.75, tangential: float = 5 / 6, phase: floa
     return np.stack([1.0 + normal * np.sin(t + phase), tangential * np.sin(t)], axis=1)
 
 
+def test_growth_slope_of_a_side_is_its_slope_within_the_bounds_of_stick() -> None:
+    """−du/dδ of each rising side; ±1 where the tangential load is faster, 0 where the depth stands still."""
+    for across, expected in ((0.3, -0.6), (-0.2, 0.4), (0.7, -1.0), (-0.9, 1.0)):
+        load = PolygonLoad.of([np.array([(0.5, 0.0), (1.0, across), (1.5, 0.0)])])
+        assert load.growth_slope(np.array([[0.7]]), np.array([0])).item() == pytest.approx(expected)
+    level = PolygonLoad.of([np.array([(1.0, 0.0), (1.0, 0.5)])])
+    assert level.growth_slope(np.array([[1.0]]), np.array([0])).item() == 0.0
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_memory_diagram_of_a_polygon_is_the_clip_rule(seed: int) -> None:
     rng = np.random.default_rng(seed)

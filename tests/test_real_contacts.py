@@ -36,6 +36,11 @@ def test_arrays_in_python_are_the_study(solved):
     for name in found.data_vars:
         np.testing.assert_allclose(found[name], solved[name], rtol=1e-9, err_msg=name)
     pair = (ALUMINIUM, FatigueConstants(73.1e3, 800.0, -0.113, 0.409, -0.713))
+    symbols = {"contact_radius": "a_0", "peak_pressure": "p_0", "depth": r"\delta_0"}
+    assert {name: found[name].attrs["symbol"] for name in symbols} == symbols
+    sizes = {name: value for name, value in RIG.items() if name != "radius"}
+    deeper = physical(**sizes, radius=[50.0, 60.0], depth=[1e-3, 2e-3], tangential_amplitude=1e-3)
+    assert repr(deeper) == "<PhysicalContacts: 4 = 2 radius × 2 depth>"
     both = physical(**RIG, normal_force=[150.0], tangential_amplitude=1e-3).solve(1e-3, constants=pair)
     assert both.cycles.dims == ("normal_force", "body")
     assert both.cycles[0, 1] < both.cycles[0, 0]

@@ -13,8 +13,6 @@ from scenes import PROFILE_NAMES, points
 
 from swtstudy.mechanics import solve_points
 
-pytestmark = pytest.mark.xdist_group("s_error")
-
 #: Made by studies/checks/reference_values.py.
 with (Path(__file__).parents[1] / "results" / "reference_values.csv").open(encoding="utf-8") as file:
     ROWS = list(csv.DictReader(file))

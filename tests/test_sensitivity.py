@@ -11,8 +11,6 @@ from swtstudy.figures.bars import draw_sensitivity
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.statements.influence import SAYS, table
 
-pytestmark = pytest.mark.xdist_group("sensitivity")
-
 STUDY = """
 title = "Ishigami"
 [sample]
@@ -171,6 +169,11 @@ def test_the_table_has_what_the_paper_says(indices):
     assert f"| {float(of_s.first_order[1]):.3f} |" in line
     assert SAYS["poisson_ratio"] in line
     assert "## critical_x, normal_amplitude = 0.5" in lines
+    # Of a parameter that it does not have it says nothing.
+    other = table(
+        indices.assign_coords(parameter=["friction", "poisson_ratio", "walker_exponent"])
+    ).splitlines()
+    assert next(line for line in other if "walker_exponent" in line).endswith("|  |")
 
 
 def test_the_command_computes_and_writes(tmp_path):

@@ -21,8 +21,6 @@ from swtstudy.archive.write import save
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.work import assess
 
-pytestmark = pytest.mark.xdist_group("shown")
-
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
 SHELL = [page for page in shown.PAGES if any(b.language == "sh" for b in shown.blocks_of(page))]
 TOML = [block for page in shown.PAGES for block in shown.blocks_of(page) if block.language == "toml"]

@@ -175,6 +175,8 @@ def test_a_shape_parameter_that_no_profile_has_is_a_mistake():
     assert list(mistakes_of(MINIMAL + several + "wavelength = 7")) == ["fixed.wavelength"]
     # A misspelt profile may be the one that has it.
     assert list(mistakes_of(MINIMAL + several.replace("punch", "punsh"))) == ["axes.profile[1]"]
+    one = '[fixed]\nprofile = "rounded_punsh"\nflat_radius = 0.5'
+    assert list(mistakes_of(MINIMAL + one)) == ["fixed.profile"]
 
 
 def test_waviness_that_breaks_the_contact_up_is_refused():

@@ -18,7 +18,7 @@ def list_studies() -> None:
     from swtstudy.study.shipped import shipped_folder, shipped_studies
 
     studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
-    width = max(map(len, studies), default=0)
+    width = max(map(len, studies))
     for name, study in studies.items():
         size = study.grid.size
         points = "for swtstudy audit" if size > LARGEST_GRID else f"{size:11d} points"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swtstudy.mechanics.body.half_sphere import HalfSpheres, gauss, interpolation, nested
+from swtstudy.mechanics.body.half_sphere import HalfSpheres, from_every_other, gauss, interpolation, nested
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -15,7 +15,7 @@ from swtstudy.mechanics.stress.scene import Scene
 MOST, LINE_MOST = 1000, 80
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells).
-OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.22, 0.022, 0.2, 3e-4
+OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.15, 0.022, 0.13, 3e-4
 #: How much of what another place on the arcs adds is an error.
 OF_ADDED = 0.06
 #: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
@@ -25,9 +25,11 @@ OF_LARGEST = 2e-5
 TINY = 1e-300
 #: Every so many distances from the circle, and inclinations, of the first places, the outermost among them,
 #: show which part of the cycle matters; and places on lines, over the largest distance.
-SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.6, 2.0)
+SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
 #: How finely swt is searched for.
 FINENESS = Fineness(4, 40)
+#: No places.
+NOWHERE = Places(*np.empty((3, 0)))
 #: Abscissae of the integrals of the interpolation along a line.
 ABSCISSAE = 32
 
@@ -100,9 +102,9 @@ class Around:
         self.local = LocalSwt(scene, abs(x), shown, FINENESS)
         #: swt, and what is missing of it, at the places; NaN where it is not known yet.
         self.grid = np.full((*self.spheres.shape, 2), np.nan)
-        side = self.spheres.side_places()
         # The arcs' rule is exact for what another place would add to the largest sphere.
-        self.side = np.full((side[0].size, 2), np.nan if distance.size > 1 else 0.0)
+        places = self._turned(*self.spheres.side_places()) if distance.size > 1 else NOWHERE
+        self.side_places, self.side = places, np.full((places.radius.size, 2), np.nan)
         self.points = np.full((distance.size, len(into), 2), np.nan)
         self.lines = np.full((layout.on_line, len(into), 2), np.nan)
 
@@ -118,20 +120,20 @@ class Around:
 
     def in_spheres(self) -> tuple[Estimate, FloatArray]:
         """Means over half spheres, and what distances and inclinations have in their errors, (2, k)."""
-        inner, outer = self.spheres.weights(self.distance), self.spheres.side_weights(self.distance)
-        values = self.grid.reshape(-1, 2)
+        inner, values = self.spheres.weights(self.distance), self.grid.reshape(-1, 2)
         change, off = self.spheres.changes(inner, values[:, 0])
         of_axes = OF_CHANGE * change + OF_OFF * off
-        added = (outer @ self.side).T
+        added = np.zeros((2, self.distance.size))
+        if self.side.size:
+            added = (self.spheres.side_weights(self.distance) @ self.side).T
         value, missing = (inner @ values).T + added
         return Estimate.of(value, of_axes.sum(axis=0) + OF_ADDED * np.abs(added[0]), missing), of_axes
 
     def on_lines(self) -> Estimate:
         """Values at ℓ/2, and means over 0 … 2ℓ, along the vectors, shape (2, k, d)."""
-        abscissa = nested(len(self.lines))
-        weights = self._line_weights(abscissa)
+        weights = self._line_weights(len(self.lines))
         line, missing = np.moveaxis(self.lines, -1, 0)
-        off = np.abs(line - interpolation(abscissa[1::2], abscissa) @ line[1::2])
+        off = np.abs(line - from_every_other(len(line)) @ line[1::2])
         of_places = np.stack([np.zeros_like(self.points[..., 0]), OF_LINES * np.abs(weights) @ off])
         of_places += OF_LARGEST * max(self.lines[..., 0].max(), self.points[..., 0].max())
         value, missing = (np.stack([self.points[..., k], weights @ self.lines[..., k]]) for k in range(2))
@@ -165,14 +167,16 @@ class Around:
         lines = np.concatenate([self.points, self.lines])
         kinds = (
             (self.grid, self._turned(*self.spheres.grid())),
-            (self.side, self._turned(*self.spheres.side_places())),
+            (self.side, self.side_places),
             (lines, on_lines),
         )
         unknown = [np.isnan(values[..., 0].ravel()) for values, _ in kinds]
         places = (places.at(which) for which, (_, places) in zip(unknown, kinds, strict=True))
         wanted = Places(*(np.concatenate(parts) for parts in zip(*places, strict=True)))
-        found = np.stack(self.local.swt(wanted), axis=-1)
         ends = np.cumsum([which.sum() for which in unknown])
+        single = np.zeros(ends[-1], dtype=bool)
+        single[ends[1] : ends[1] + np.isnan(self.points[..., 0]).sum()] = True
+        found = np.stack(self.local.swt(wanted, single), axis=-1)
         for which, (values, _), new in zip(unknown, kinds, np.split(found, ends[:-1]), strict=True):
             values.reshape(-1, 2)[which] = new
         self.points, self.lines = np.split(lines, [len(self.points)])
@@ -187,13 +191,13 @@ class Around:
         depth = (away[:, None] * self.into[:, 1]).ravel()
         return Places(np.abs(right), depth, np.where(right < 0.0, np.pi, 0.0))
 
-    def _line_weights(self, abscissa: FloatArray) -> FloatArray:
-        """Weights of values at abscissae in the means over 0 … 2ℓ, shape (k, n)."""
+    def _line_weights(self, count: int) -> FloatArray:
+        """Weights of values at so many abscissae in the means over 0 … 2ℓ, shape (k, count)."""
         node, weight = gauss(ABSCISSAE)
         power = self.layout.line_power
         weight = power * node ** (power - 1) * weight
         scaled = (self.distance[:, None] / self.largest) ** (1.0 / power) * node
-        return np.asarray(weight @ interpolation(abscissa, scaled))
+        return np.asarray(weight @ interpolation(count, scaled))
 
 
 def _spread(values: FloatArray, axis: int) -> FloatArray:

@@ -95,8 +95,8 @@ class HalfSpheres:
         """
         grid = values.reshape(self.shape)
         lacking = (
-            grid - np.tensordot(_from_every_other(self.distances), grid[1::2], 1),
-            grid - np.einsum("ij,kjl->kil", _from_every_other(self.inclinations), grid[:, 1::2]),
+            grid - np.tensordot(from_every_other(self.distances), grid[1::2], 1),
+            grid - np.einsum("ij,kjl->kil", from_every_other(self.inclinations), grid[:, 1::2]),
         )
         change = [np.abs(weights @ missing.ravel()) for missing in lacking]
         off = [np.abs(weights) @ np.abs(missing).ravel() for missing in lacking]
@@ -133,8 +133,8 @@ class HalfSpheres:
         # dV = d dd dφ r dθ, with dd ~ root^(power − 1) d root.
         volume = (of_fine * most * weight * radius * whole)[..., None] * _integrals(along, part)
         scaled = (size[..., 0] / self.largest) ** (1.0 / self.power) * root
-        of_distance = np.swapaxes(interpolation(nested(self.distances), scaled), -1, -2)
-        of_inclination = interpolation(nested(self.inclinations), node).T
+        of_distance = np.swapaxes(interpolation(self.distances, scaled), -1, -2)
+        of_inclination = interpolation(self.inclinations, node).T
         found = of_distance @ volume.reshape(*volume.shape[:2], -1)
         found = of_inclination @ found.reshape(len(size), self.distances, -1, along)
         return np.asarray(found.reshape(len(size), -1) / found.sum(axis=(1, 2, 3))[:, None])
@@ -154,9 +154,9 @@ class HalfSpheres:
 
 
 @lru_cache(maxsize=16)
-def _from_every_other(count: int) -> FloatArray:
+def from_every_other(count: int) -> FloatArray:
     """Matrix from the values at every other node to those at all."""
-    return interpolation(nested(count)[1::2], nested(count))
+    return interpolation(count // 2, nested(count))
 
 
 def _abscissae(count: int) -> int:
@@ -207,8 +207,14 @@ def nested(count: int) -> FloatArray:
     return node
 
 
-def interpolation(node: FloatArray, at: FloatArray) -> FloatArray:
-    """Matrices from values at k nodes to those of their polynomial at other places, all in [0, 1]."""
-    series = (np.polynomial.legendre.legvander(2.0 * x - 1.0, len(node) - 1) for x in (at, node))
-    of_places, of_nodes = series
-    return np.asarray(of_places @ np.linalg.inv(of_nodes))
+def interpolation(count: int, at: FloatArray) -> FloatArray:
+    """Matrices from values at ``count`` nested nodes to those of their polynomial elsewhere in [0, 1]."""
+    series = np.polynomial.legendre.legvander(2.0 * at - 1.0, count - 1)
+    return np.asarray(series @ _to_series(count))
+
+
+@lru_cache(maxsize=16)
+def _to_series(count: int) -> FloatArray:
+    """Matrix from values at nested nodes to the coefficients of their Legendre series."""
+    of_nodes = np.polynomial.legendre.legvander(2.0 * nested(count) - 1.0, count - 1)
+    return np.asarray(np.linalg.inv(of_nodes), dtype=np.float64)

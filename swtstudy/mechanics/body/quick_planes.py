@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
 from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by, normal_weights
@@ -21,8 +22,14 @@ PLANES = 128
 BESIDE = 6
 #: Planes this high in some histories, over the highest, are tried in others like them. 0: no change.
 NEAR = 0.7
-#: Highest planes from which to climb. Four: one of 2,600 histories was more than 1e-3 low; two: 17 were.
+#: Planes from which to climb: those higher than the ones beside them before other high ones. Two: a plane
+#: 2° from another one's summit was missed, swt 7e-3 low.
 CANDIDATES = 4
+#: Summits this high, over the highest, are rivals: with more instants they may be the highest. 0.7: no change
+#: at 1,080 places; none: three were 4e-3 to 2e-2 low.
+RIVALS = 0.9
+#: Cosine of the angle, 2°, between summits that are one. 6°: 1.03 times as much is missing.
+ALIKE = 0.9995
 #: Last step of a climb, rad: its square is the error. 1e-9: twice the steps.
 LAST_STEP = 3e-3
 #: Histories in the coarse search at a time.
@@ -37,38 +44,48 @@ class CoarsePlanes:
     ----------
     normal
         Shape (k, 3).
+    beside
+        Shape (k, b): numbers of the planes beside each.
     """
 
     normal: FloatArray
+    beside: NDArray[np.intp]
 
     @staticmethod
     def everywhere() -> CoarsePlanes:
         """Those of all orientations."""
-        return CoarsePlanes(hemisphere(PLANES))
+        return CoarsePlanes(hemisphere(PLANES), _beside())
 
-    def swt(self, stress: FloatArray, ν: float, γ: float) -> FloatArray:
+    def some(self, which: NDArray[np.bool_]) -> CoarsePlanes:
+        """Some of the planes."""
+        number = np.where(which, np.cumsum(which) - 1, -1)
+        beside = number[self.beside[which]]
+        own = np.arange(len(beside))[:, None]
+        return CoarsePlanes(self.normal[which], np.where(beside < 0, own, beside))
+
+    def swt(self, stress: FloatArray, ν: float, γ: float) -> NDArray[np.float32]:
         """swt of histories, (m, T, 6), on the planes, shape (m, k)."""
         single = self.normal.astype(np.float32)
-        swt = np.empty((len(stress), len(single)))
+        swt = np.empty((len(stress), len(single)), dtype=np.float32)
         for first in range(0, len(stress), BLOCK):
             part = slice(first, first + BLOCK)
             swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, γ)
         return swt
 
 
-def planes_like(stress: FloatArray, ν: float, γ: float) -> tuple[CoarsePlanes, FloatArray]:
-    """Those near to the highest in some of the histories, and those beside them; the highest, (m, 3)."""
+def planes_like(stress: FloatArray, ν: float, γ: float) -> CoarsePlanes:
+    """Those near to the highest in some of the histories, and those beside them."""
     every = CoarsePlanes.everywhere()
     swt = every.swt(stress, ν, γ)
     high = (swt >= NEAR * swt.max(axis=1, keepdims=True)).any(axis=0)
-    high[_beside()[high]] = True
-    return CoarsePlanes(every.normal[high]), every.normal[swt.argmax(axis=1)]
+    high[every.beside[high]] = True
+    return every.some(high)
 
 
-def highest_planes(
-    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, walker_exponent: float
-) -> tuple[FloatArray, FloatArray]:
-    """Largest swt over the planes, and its planes.
+def rival_planes(
+    stress: FloatArray, planes: CoarsePlanes, ν: float, γ: float
+) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """Planes on which swt has its summits, if not much lower than the highest of their history.
 
     Parameters
     ----------
@@ -76,31 +93,37 @@ def highest_planes(
         Shape (m, T, 6), in E* √(δ0/R).
     planes
         From which to climb.
-    poisson_ratio, walker_exponent
-        ν and γ.
+    ν, γ
+        Poisson's ratio and Walker's exponent.
 
     Returns
     -------
-    swt, normal
-        Shape (m,), over E* δ0/R, and (m, 3).
+    history, swt, normal
+        Shape (n,), ascending, (n,) over E* δ0/R, and (n, 3): at least one plane of each history.
     """
-    coarse = planes.swt(stress, poisson_ratio, walker_exponent)
-    highest = np.argpartition(-coarse, CANDIDATES, axis=1)[:, :CANDIDATES]
-    swt, normal = _climb(stress, poisson_ratio, planes.normal[highest], walker_exponent)
-    best = np.arange(len(stress)), swt.argmax(axis=1)
-    swt, normal = swt[best], normal[best]
+    coarse = planes.swt(stress, ν, γ)
+    peaked = coarse >= coarse[:, planes.beside].max(axis=-1)
+    first = np.where(peaked & (coarse > RIVALS * coarse.max(axis=1, keepdims=True)), -2.0 * coarse, -coarse)
+    highest = np.argpartition(first, CANDIDATES, axis=1)[:, :CANDIDATES]
+    swt, normal = _climb(stress, ν, planes.normal[highest], γ)
     # Tension may be confined to few planes.
-    none = np.flatnonzero(swt <= 0.0)
+    none = np.flatnonzero(swt.max(axis=1) <= 0.0)
     if none.size:
-        found = swt_of_history(stress[none], poisson_ratio, 1.0 - poisson_ratio**2, walker_exponent)
-        swt[none], normal[none] = found
-    return swt, normal
+        swt[none, 0], normal[none, 0] = swt_of_history(stress[none], ν, 1.0 - ν**2, γ)
+    order = np.argsort(-swt, axis=1)
+    swt, normal = gather(swt, order), normal[np.arange(len(swt))[:, None], order]
+    rival = swt > RIVALS * swt[:, :1]
+    for late in range(1, CANDIDATES):
+        alike = np.abs((normal[:, :late] * normal[:, late, None]).sum(axis=-1)) > ALIKE
+        rival[:, late] &= ~(alike & rival[:, :late]).any(axis=1)
+    rival[:, 0] = True
+    return np.nonzero(rival)[0], swt[rival], normal[rival]
 
 
 def highest_coarse_planes(
     stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, walker_exponent: float
 ) -> FloatArray:
-    """Normals, (m, 3), some degrees off those of `highest_planes`."""
+    """Normals, (m, 3), some degrees off those of `rival_planes`."""
     return planes.normal[planes.swt(stress, poisson_ratio, walker_exponent).argmax(axis=1)]
 
 

@@ -17,14 +17,14 @@ SAME_INSTANT = 1e-9
 
 
 class Peaks(NamedTuple):
-    """The highest peaks of curves over the periodic cycle, shape (m, peaks).
+    """The highest peaks of curves over the periodic cycle.
 
     Attributes
     ----------
     instant, value
-        Shape (m, peaks, 3): before, at and after each peak.
+        Shape (…, m, peaks, 3): before, at and after each peak.
     peaked
-        Whether it is a peak.
+        Shape (…, m, peaks): whether it is a peak.
     """
 
     instant: FloatArray
@@ -33,34 +33,32 @@ class Peaks(NamedTuple):
 
     @classmethod
     def of(cls, instant: FloatArray, curve: FloatArray, count: int) -> Peaks:
-        """Those of curves at ascending instants, shape (m, T). Instants that meet are one."""
+        """Those of curves, (…, m, T), at ascending instants, (m, T). Instants that meet are one."""
         around, at = _neighbours(instant)
-        row = np.arange(len(instant))[:, None]
-        before, after = curve[row, at[0]], curve[row, at[2]]
+        before, after = (gather(curve, np.broadcast_to(at[k], curve.shape)) for k in (0, 2))
         peaked = (curve >= before) & (curve >= after) & (around[0] < around[1])
-        highest = np.argpartition(np.where(peaked, -curve, np.inf), count, axis=1)[:, :count]
-        three, values = (
-            np.stack([v[row, highest] for v in parts], axis=-1) for parts in (around, (before, curve, after))
-        )
-        return cls(three, values, peaked[row, highest])
+        highest = np.argpartition(np.where(peaked, -curve, np.inf), count, axis=-1)[..., :count]
+        three = np.stack([gather(np.broadcast_to(v, curve.shape), highest) for v in around], axis=-1)
+        values = np.stack([gather(v, highest) for v in (before, curve, after)], axis=-1)
+        return cls(three, values, gather(peaked, highest))
 
     @property
     def beside(self) -> FloatArray:
-        """The middle of both gaps, and where a parabola has its maximum, shape (m, 3 · peaks)."""
+        """The middle of both gaps, and where a parabola has its maximum, shape (…, m, 3 · peaks)."""
         top, _ = parabola_maximum(self.instant.reshape(-1, 3), self.value.reshape(-1, 3))
         left, right = (0.5 * (self.instant[..., k] + self.instant[..., k + 1]) for k in range(2))
-        return np.mod(np.concatenate([left, top.reshape(left.shape), right], axis=1), PERIOD)
+        return np.mod(np.concatenate([left, top.reshape(left.shape), right], axis=-1), PERIOD)
 
     def hidden(self, beside: FloatArray) -> FloatArray:
-        """How far values at the instants beside are off the parabolas, if that tops all peaks, (m,)."""
-        left, _, right = np.split(beside, 3, axis=1)
+        """How far values at the instants beside are off the parabolas, if that tops all peaks, (…, m)."""
+        left, _, right = np.split(beside, 3, axis=-1)
         width, rise = np.diff(self.instant), np.diff(self.value)
         slope = rise / np.maximum(width, SAME_INSTANT)
         bend = (slope[..., 1] - slope[..., 0]) / np.maximum(width.sum(axis=-1), SAME_INSTANT)
         middle = 0.5 * (self.value[..., 1:] + self.value[..., :-1]) - 0.25 * bend[..., None] * width**2
         off = np.abs(middle - np.stack([left, right], axis=-1)).max(axis=-1)
-        top = np.where(self.peaked, self.value[..., 1], -np.inf).max(axis=1, keepdims=True)
-        return np.where(self.peaked, np.maximum(off + self.value[..., 1] - top, 0.0), 0.0).max(axis=1)
+        top = np.where(self.peaked, self.value[..., 1], -np.inf).max(axis=-1, keepdims=True)
+        return np.where(self.peaked, np.maximum(off + self.value[..., 1] - top, 0.0), 0.0).max(axis=-1)
 
 
 def _neighbours(instant: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:

@@ -13,19 +13,25 @@ from swtstudy.mechanics.points import FloatArray
 #: Twice: s changes by 1e-10.
 STEP = 0.01
 SMALLEST_RANGE = 64.0
-#: Gauss nodes of the integrals, and so many more per rad: errors of 2e-13 up to 66, 1e-12 up to 400. Half of
-#: the second: 2e-9, and no digit right at 400.
+#: Beyond, as far from the contact, no table: one takes 6 kB per rad.
+LARGEST_RANGE = 1024.0
+#: Gauss nodes of the integrals, and so many more per rad: errors of 2e-13 up to 66. Half of the second: 2e-9.
 NODES, NODES_PER_RADIAN = 24, 0.5
-#: Values of the integrand that are made at a time.
-PART = 1_000_000
+#: Terms of the expansions for large z, which are good to 1e-15 from 64 on. Integrals would take as
+#: long as z², and far from the contact z goes into the thousands.
+TERMS = 10
 
 
 def struve_functions(z: FloatArray) -> tuple[FloatArray, FloatArray]:
     """H₀(z) and H₁(z) for z ≥ 0."""
-    largest = float(np.max(z, initial=SMALLEST_RANGE))
-    cell = (z * (1.0 / STEP)).astype(np.intp)
-    rest = z - cell * STEP
-    zeroth, first = (_cubic(c, cell, rest) for c in _table(2.0 ** np.ceil(np.log2(largest))))
+    reach = 2.0 ** np.ceil(np.log2(np.max(z, initial=SMALLEST_RANGE)))
+    near = np.minimum(z, LARGEST_RANGE)
+    cell = (near * (1.0 / STEP)).astype(np.intp)
+    rest = near - cell * STEP
+    zeroth, first = (_cubic(c, cell, rest) for c in _table(min(reach, LARGEST_RANGE)))
+    if reach > LARGEST_RANGE:
+        far = z > LARGEST_RANGE
+        zeroth[far], first[far] = struve_expansions(z[far])
     return zeroth, first
 
 
@@ -42,7 +48,8 @@ def _cubic(coefficients: FloatArray, cell: NDArray[np.intp], rest: FloatArray) -
 def _table(reach: float) -> FloatArray:
     """Coefficients of cubics for H₀ and H₁, shape (2, 4, cells)."""
     z = np.arange(0.0, reach + 2.0 * STEP, STEP)
-    zeroth, first = struve_integrals(z)
+    near, far = np.split(z, [np.searchsorted(z, SMALLEST_RANGE)])
+    zeroth, first = np.concatenate([struve_integrals(near), struve_expansions(far)], axis=1)
     # H₀′ = 2/π − H₁ and H₁′ = H₀ − H₁/z make them Hermite polynomials.
     slopes = 2.0 / np.pi - first, zeroth - np.divide(first, z, out=np.zeros_like(z), where=z > 0.0)
     return np.stack([_hermite(value, slope) for value, slope in ((zeroth, slopes[0]), (first, slopes[1]))])
@@ -66,7 +73,22 @@ def struve_integrals(z: FloatArray) -> FloatArray:
     θ, half = 0.25 * np.pi * (1.0 + node), 0.5 * weight
     # H₀ = (2/π) ∫ sin(z cos θ) dθ and H₁ = (2z/π) ∫ sin(z cos θ) sin²θ dθ from 0 to π/2.
     weights = np.stack([half, half * np.sin(θ) ** 2])
-    parts = np.array_split(z, -(-z.size * count // PART) or 1)
-    waves = (np.sin(part[:, None] * np.cos(θ)) for part in parts)
-    zeroth, first = np.concatenate([np.einsum("mk,ck->cm", wave, weights) for wave in waves], axis=1)
+    wave = np.sin(z[:, None] * np.cos(θ))
+    zeroth, first = np.einsum("mk,ck->cm", wave, weights)
     return np.stack([zeroth, z * first])
+
+
+def struve_expansions(z: FloatArray) -> FloatArray:
+    """H₀(z) and H₁(z) for large z of shape (m,), shape (2, m): Y, and H − Y (DLMF 10.17.4 and 11.6.1)."""
+    k = np.arange(1, TERMS)
+    found = []
+    for order in (0, 1):
+        # a₀ + a₁ (i/z) + a₂ (i/z)² + …
+        hankel = np.cumprod(np.append(1.0, (4.0 * order**2 - (2.0 * k - 1.0) ** 2) / (8.0 * k)))
+        wave = np.exp(1j * (z - 0.5 * np.pi * order - 0.25 * np.pi)) * np.polyval(hankel[::-1], 1j / z)
+        rest = np.cumprod(np.append(1.0, (2.0 * k - 1.0) * (1.0 - 2.0 * k + 2.0 * order)))
+        found.append(
+            np.sqrt(2.0 / (np.pi * z)) * wave.imag
+            + (2.0 / np.pi) * z ** (order - 1.0) * np.polyval(rest[::-1], 1.0 / z**2)
+        )
+    return np.stack(found)
