@@ -47,10 +47,11 @@ class LocalPool:
         return self._executor is not None
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if kind is not None and self._executor is not None:
+        executor = self._executor
+        if kind is not None and executor is not None:
             # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
-            kill_workers(self._executor)
-            self._executor.shutdown(wait=False, cancel_futures=True)
+            kill_workers(executor)
+            executor.shutdown(wait=False, cancel_futures=True)
         self.close()
 
     def close(self) -> None:
