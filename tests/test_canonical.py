@@ -212,14 +212,14 @@ def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monke
     assert sum(map(len, blocks)) == len(table)
 
 
-def test_blocks_of_long_cycles_are_cut_first(monkeypatch):
-    # 1/4, then 2, one block of which lacks ten points, then 1: the table has 1, 1/4, 2.
+def test_blocks_of_long_cycles_are_cut_first_and_of_these_the_largest(monkeypatch):
+    # 1/4, then 2, the first block of which lacks ten points, then 1: the table has 1, 1/4, 2.
     monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 256)
     points = unique_points(grid_of(friction=[i / 200 for i in range(1, 101)], frequency_ratio=[1, "1/4", 2]))
     wanted = np.ones(len(points.table), dtype=bool)
     wanted[np.flatnonzero(weights(points.table) == 3)[:10]] = False
     cut = list(chunks(points, wanted, lambda: 1))
-    assert [int(weights(chunk.table).sum()) for chunk in cut] == [250, 250, 120, 150, 100, 100]
+    assert [int(weights(chunk.table).sum()) for chunk in cut] == [250, 250, 150, 120, 100, 100]
 
 
 def test_a_load_that_is_larger_than_a_block_is_cut(monkeypatch):

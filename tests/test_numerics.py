@@ -98,6 +98,23 @@ def test_running_integrals() -> None:
     np.testing.assert_allclose(chebyshev.evaluate(line, y[:, None])[:, 0], y + 1.0, atol=1e-15)
 
 
+@pytest.mark.parametrize("limits", [3, 2 * chebyshev.BLOCK // 5])
+def test_running_integrals_of_many_functions(limits: int) -> None:
+    """Two components of five functions up to many limits, in blocks, to the bit as one at a time."""
+    rng = np.random.default_rng(limits)
+    values, y = rng.uniform(size=(2, 5, 9)), rng.uniform(-1.0, 1.0, size=(5, 1, limits))
+    y[2, 0, :2] = -1.0, 1.0
+    series, integrals = chebyshev.running_integral(values), chebyshev.RunningIntegrals(values)
+    expected = np.stack([chebyshev.evaluate(series[:, :, m, None], y[m, 0]) for m in range(5)], axis=1)
+    found = integrals.up_to(y)
+    assert found.shape == (2, 5, 1, limits)
+    np.testing.assert_array_equal(found[:, :, 0], expected)
+    np.testing.assert_array_equal(integrals.component(1).up_to(y)[0], found[1])
+    column = np.repeat(np.arange(5), limits)[::-1]
+    single = integrals.single(y.ravel()[::-1], column)
+    np.testing.assert_array_equal(single[:, ::-1], found.reshape(2, -1))
+
+
 def test_places_are_dense_at_both_ends() -> None:
     found = between(np.array(2.0), np.array(6.0), np.pi * np.array([0.0, 1 / 3, 0.5, 1.0]))
     np.testing.assert_allclose(found, [2.0, 3.0, 4.0, 6.0])

@@ -12,6 +12,7 @@ from unittest import mock
 import numpy as np
 import pytest
 import stand_in
+import xarray as xr
 
 import swtstudy
 from swtstudy import Study, StudyError, run
@@ -379,7 +380,7 @@ def printed(*lines):
 def test_the_solver_starts_without_scipy():
     # More than half of a worker's start; the profiles and fields that need it import it.
     found = printed(
-        "import sys, swtstudy.runner.chunk, swtstudy.mechanics",
+        "import sys, swtstudy.runner.chunk, swtstudy.mechanics.solver",
         "print([name for name in sys.modules if name.startswith('scipy')])",
     )
     assert found == "[]"
@@ -389,7 +390,7 @@ def test_workers_start_before_this_process_has_imported_what_archives_need(tmp_p
     found = printed(
         "import sys; from swtstudy import Study; from swtstudy.runner import run, workers",
         "def start(count):",
-        "    print('xarray' in sys.modules)",
+        "    print('xarray' in sys.modules, 'swtstudy.mechanics.solver' in sys.modules)",
         "    raise OSError('enough')",
         "workers.start_workers = start",
         "study = Study.from_text('title = \"a\"\\n[axes]\\nphase = {start = 0, stop = 3, num = 2000}\\n')",
@@ -397,5 +398,22 @@ def test_workers_start_before_this_process_has_imported_what_archives_need(tmp_p
         f"    run.run(study, {str(tmp_path / 'a.nc')!r})",
         "except OSError as error: print(error)",
     )
-    assert found.splitlines()[0] == "False"
+    assert found.splitlines()[0] == "False False"
     assert "enough" in found.splitlines()[1]
+
+
+def test_writing_an_archive_imports_no_cluster(tmp_path):
+    found = printed(
+        "import sys; from pathlib import Path; import xarray as xr; from swtstudy.archive.write import save",
+        f"save(xr.Dataset({{'a': ('x', [0.5])}}), Path({str(tmp_path / 'a.nc')!r}))",
+        "print('distributed' in sys.modules)",
+    )
+    assert found == "False"
+    assert float(xr.open_dataset(tmp_path / "a.nc").a[0]) == 0.5
+
+
+def test_workers_are_gone_after_the_block():
+    with LocalPool(1) as pool:
+        worker = pool.submit(os.getpid).result()
+    with pytest.raises(ProcessLookupError):
+        os.kill(worker, 0)

@@ -7,6 +7,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import xarray as xr
 
 from swtstudy.archive.check_sums import has_its_own, write_check_sums
@@ -34,5 +35,7 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
         if variable.ndim:
             encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
     with replacing(path, beside) as temporary:
-        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        # Not by to_netcdf: that imports all of distributed where it is installed.
+        with netCDF4.Dataset(temporary, "w", format="NETCDF4") as file:
+            dataset.dump_to_store(xr.backends.NetCDF4DataStore(file), encoding=encoding)
         write_check_sums(temporary, dataset)

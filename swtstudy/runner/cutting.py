@@ -46,11 +46,14 @@ def chunks(
 
 
 def _long_cycles_first(table: FloatArray, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
-    """The wanted rows of each block that has some, long cycles first: the last blocks let no worker wait."""
+    """The wanted rows of each block that has some, long cycles first, and of these the largest blocks.
+
+    So the last blocks let no worker wait, nor do the first ones, which are solved beside one another.
+    """
     begin, found = 0, []
     for end in block_ends(table).tolist():
         rows = begin + np.flatnonzero(wanted[begin:end])
         begin = end
         if len(rows):
             found.append(rows)
-    return sorted(found, key=lambda rows: -int(weight[rows].max()))
+    return sorted(found, key=lambda rows: (-int(weight[rows].max()), -len(rows)))

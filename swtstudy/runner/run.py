@@ -137,6 +137,8 @@ def run_several(
             finally:
                 _wait(writing, before)
             before = job
+        # Workers exit while the last archive is written.
+        background.submit(local.close)
         if before is not None:
             _finish(before, finished)
 

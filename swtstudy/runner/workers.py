@@ -47,13 +47,18 @@ class LocalPool:
         return self._executor is not None
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if self._executor is None:
-            return
-        if kind is not None:
+        executor = self._executor
+        if kind is not None and executor is not None:
             # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
-            kill_workers(self._executor)
-        # Not waited for: workers exit while the archive is being written.
-        self._executor.shutdown(wait=False, cancel_futures=True)
+            kill_workers(executor)
+            executor.shutdown(wait=False, cancel_futures=True)
+        self.close()
+
+    def close(self) -> None:
+        """Let the processes exit, and wait: an interpreter that exits meanwhile may print an error."""
+        executor, self._executor = self._executor, None
+        if executor is not None:
+            executor.shutdown(cancel_futures=True)
 
     def start(self) -> LocalPool:
         """Start the processes, which import what they need while this one goes on."""
@@ -111,7 +116,7 @@ def _end_with_parent() -> None:
 
 
 def _warm_up() -> None:
-    import swtstudy.mechanics  # noqa: F401
+    import swtstudy.mechanics.solver  # noqa: F401
 
 
 @contextmanager

@@ -39,7 +39,7 @@ class InnerTable:
         weight = self.span * profile.weighted_slope(np.sqrt(radius2)) / position[..., None]
         weight = np.where(self.gap[..., None] > 0.0, weight, 0.0)
         values = np.stack([weight, weight * radius2 / position[..., None] ** 2])
-        self.series = chebyshev.running_integral(values)
+        self.integrals = chebyshev.RunningIntegrals(values)
 
     def __call__(self, radius: FloatArray) -> FloatArray:
         gap, flat = align(self.gap, radius), align(self.flat, radius)
@@ -49,8 +49,7 @@ class InnerTable:
             y = angle * (4.0 / np.pi) - 1.0
         else:
             y = np.minimum(angle * (2.0 / align(self.span[..., 0], radius)), 2.0) - 1.0
-        series = self.series.reshape(self.series.shape + (1,) * (radius.ndim - 2))
-        return chebyshev.evaluate(series, y)
+        return self.integrals.up_to(y)
 
 
 class OuterTable:
@@ -92,7 +91,8 @@ class OuterTable:
         if not self.has_face:
             m = m / radius
         values = 0.5 * self.span[..., None] * np.stack([m, m * v / (radius + v)])
-        self.series = chebyshev.running_integral(values)
+        self.integrals = chebyshev.RunningIntegrals(values)
+        self.of_pressure = self.integrals.component(0)
 
     def _abscissa(self, radius: FloatArray, low2: FloatArray, scale: FloatArray) -> FloatArray:
         rise = np.sqrt(np.maximum(radius * radius - low2, 0.0))
@@ -100,16 +100,16 @@ class OuterTable:
 
     def __call__(self, radius: FloatArray) -> FloatArray:
         """Π and W up to the radii (n, X, …), shape (2, n, X, …)."""
-        return self._up_to(radius, self.series)
+        return self._up_to(radius, self.integrals)
 
     def pressure(self, radius: FloatArray) -> FloatArray:
         """Π alone."""
-        return self._up_to(radius, self.series[:, 0])
+        return self._up_to(radius, self.of_pressure)[0]
 
-    def _up_to(self, radius: FloatArray, series: FloatArray) -> FloatArray:
+    def _up_to(self, radius: FloatArray, integrals: chebyshev.RunningIntegrals) -> FloatArray:
         low2, scale, span = (align(v, radius) for v in (self.low2, self.scale, self.span))
         y = np.minimum(2.0 * self._abscissa(radius, low2, scale) / span, 2.0) - 1.0
-        return chebyshev.evaluate(series.reshape(series.shape + (1,) * (radius.ndim - 2)), y)
+        return integrals.up_to(y)
 
 
 class TablePrimitives(Primitives):

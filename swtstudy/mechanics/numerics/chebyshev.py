@@ -6,6 +6,7 @@ short recurrence each, whatever the integrand cost.
 
 from __future__ import annotations
 
+from copy import copy
 from functools import lru_cache
 
 import numpy as np
@@ -13,6 +14,10 @@ from numpy.polynomial.chebyshev import chebint, chebvander
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
+
+#: Upper limits that are evaluated together, for the processor's cache. Half: 1.2 times the time; twice: as
+#: fast; all at once: 1.5 times.
+BLOCK = 8_000
 
 
 @lru_cache(maxsize=16)
@@ -36,7 +41,7 @@ def _integration_matrix(count: int) -> FloatArray:
 
 def series(values: FloatArray) -> FloatArray:
     """Series of functions given by their values at `nodes`, shape (…, count): (count, …)."""
-    return np.einsum("...i,ij->j...", values, _series_matrix(values.shape[-1]))
+    return _combined(values, _series_matrix(values.shape[-1]))
 
 
 def running_integral(values: FloatArray) -> FloatArray:
@@ -51,8 +56,15 @@ def running_integral(values: FloatArray) -> FloatArray:
     -------
     Shape (count + 1, …), coefficients of T_0, T_1, …
     """
+    return _combined(values, _integration_matrix(values.shape[-1]))
+
+
+def _combined(values: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Values (…, count) times the matrix (count, k), shape (k, …), whose first axis is the slowest."""
+    functions = np.ascontiguousarray(values.reshape(-1, len(matrix)).T)
     # Not a matrix product: its rounding depends on the batch's size, and so would every tie that it decides.
-    return np.einsum("...i,ij->j...", values, _integration_matrix(values.shape[-1]))
+    combined = np.einsum("im,ij->jm", functions, matrix)
+    return combined.reshape(len(combined), *values.shape[:-1])
 
 
 def evaluate(series: FloatArray, y: FloatArray, column: NDArray[np.intp] | None = None) -> FloatArray:
@@ -84,3 +96,49 @@ def evaluate(series: FloatArray, y: FloatArray, column: NDArray[np.intp] | None 
     spare -= latest
     spare += coefficient(0)
     return spare
+
+
+class RunningIntegrals:
+    """The running integrals of m functions with c components each, up to any limits.
+
+    Parameters
+    ----------
+    values
+        Shape (c, …, count): the functions at `nodes`.
+    """
+
+    def __init__(self, values: FloatArray) -> None:
+        #: Shape (count + 1, c, m).
+        self._series = running_integral(values.reshape(len(values), -1, values.shape[-1]))
+
+    @property
+    def components(self) -> int:
+        """c."""
+        return self._series.shape[1]
+
+    def component(self, number: int) -> RunningIntegrals:
+        """One of the components alone."""
+        taken = copy(self)
+        taken._series = self._series[:, [number]]
+        return taken
+
+    def up_to(self, y: FloatArray) -> FloatArray:
+        """The integrals of each function from −1 to as many limits y, shape (m, …): (c, m, …)."""
+        _, c, m = self._series.shape
+        limits = y.reshape(m, -1)
+        result = np.empty((c, *limits.shape))
+        size = -(-BLOCK // limits.shape[1])
+        for begin in range(0, m, size):
+            some = slice(begin, begin + size)
+            # Functions last: there are many, and their coefficients are in a row.
+            found = evaluate(self._series[:, :, None, some], np.ascontiguousarray(limits[some].T))
+            result[:, some] = found.swapaxes(1, 2)
+        return result.reshape(c, *y.shape)
+
+    def single(self, y: FloatArray, column: NDArray[np.intp]) -> FloatArray:
+        """The integrals of the functions number ``column`` from −1 to one limit y each, (c, len(y))."""
+        result = np.empty((self.components, y.size))
+        for begin in range(0, y.size, BLOCK):
+            some = slice(begin, begin + BLOCK)
+            result[:, some] = evaluate(self._series, y[some], column[some])
+        return result

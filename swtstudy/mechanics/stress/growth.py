@@ -28,7 +28,7 @@ NODES_PER_OSCILLATION = 1.6
 #: the fifth s was off by 2e-7 at most at 8.5 digits and shares of 2e-4 to 0.01, without them by up to 9e-6.
 SLOW, NODES_PER_DIGIT = 0.02, 24
 
-#: Densities at abscissae of some ranges, see `_RunningIntegrals`.
+#: Densities at abscissae of some ranges, see `_OverRanges`.
 Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
 
 
@@ -71,10 +71,10 @@ class GrowthIntegrals:
             first = cycle.load.growth_slope(np.zeros_like(growths.begin), growths.branch)
             self.at_tip = np.where(at_tip, first, 0.0)
         r, b = self.position, self.flat
-        self.inner = _RunningIntegrals(
+        self.inner = _OverRanges(
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
         )
-        self.outer = _RunningIntegrals(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
+        self.outer = _OverRanges(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
 
     def take(self, index: NDArray[np.intp]) -> GrowthIntegrals:
         """Those of the cycles at ``index``, repetitions allowed."""
@@ -132,7 +132,7 @@ class GrowthIntegrals:
         return np.concatenate([self.inner.up_to(at, angle), self.outer.up_to(at, root)])
 
 
-class _RunningIntegrals:
+class _OverRanges:
     """Running integrals over ranges, most of which are empty.
 
     Parameters
@@ -149,39 +149,41 @@ class _RunningIntegrals:
         self.low, self.span = low, high - low
         real, shape = self.span > 0.0, (-1,) + (1,) * (low.ndim - 1)
         self.column = np.zeros(self.span.shape, dtype=np.intp)
-        #: Which ranges have the same number of nodes, of shape S, and their series (count + 1, c, m).
+        #: Which ranges have the same number of nodes, of shape S, and the integrals over these.
         self.groups = []
         for nodes in np.unique(count):
             same = np.broadcast_to((count == nodes).reshape(shape), real.shape)
             at = np.nonzero(real & same)
             self.column[at] = np.arange(len(at[0]))
-            self.groups.append((same.ravel(), self._series(at, density, int(nodes))))
+            self.groups.append((same.ravel(), self._integrals(at, density, int(nodes))))
 
-    def take(self, index: NDArray[np.intp]) -> _RunningIntegrals:
+    def take(self, index: NDArray[np.intp]) -> _OverRanges:
         """Those at ``index`` of the first axis."""
         taken, shape = copy(self), self.span.shape
         taken.low, taken.span, taken.column = self.low[index], self.span[index], self.column[index]
-        taken.groups = [(same.reshape(shape)[index].ravel(), series) for same, series in self.groups]
+        taken.groups = [(same.reshape(shape)[index].ravel(), integrals) for same, integrals in self.groups]
         return taken
 
-    def _series(self, at: tuple[NDArray[np.intp], ...], density: Density, count: int) -> FloatArray:
+    def _integrals(
+        self, at: tuple[NDArray[np.intp], ...], density: Density, count: int
+    ) -> chebyshev.RunningIntegrals:
         low, span = self.low[at][:, None], self.span[at][:, None]
         y = np.sin(0.25 * np.pi * (1.0 + chebyshev.nodes(count)))
         # The sin² map.
         rate = 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
-        return chebyshev.running_integral(density(at, low + span * (y * y)) * (rate * span))
+        return chebyshev.RunningIntegrals(density(at, low + span * (y * y)) * (rate * span))
 
     def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
         """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
-        result = np.zeros((self.groups[0][1].shape[1], len(at)))
+        result = np.zeros((self.groups[0][1].components, len(at)))
         real = self.span.take(at) > 0.0
-        for same, series in self.groups:
+        for same, integrals in self.groups:
             some = np.flatnonzero(real & same.take(at) if len(self.groups) > 1 else real)
             if some.size:
                 these = at[some]
                 part = np.clip((abscissa[some] - self.low.take(these)) / self.span.take(these), 0.0, 1.0)
                 y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
-                result[:, some] = chebyshev.evaluate(series, y, self.column.take(these))
+                result[:, some] = integrals.single(y, self.column.take(these))
         return result
 
 
