@@ -18,6 +18,8 @@ from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.runner.engine import LOST_WORKER, WorkerError
 
 distributed = pytest.importorskip("distributed")
+from swtstudy.runner.cluster import ClusterPool  # noqa: E402
+
 # Its own warnings about a killed worker are none of ours.
 pytestmark = pytest.mark.filterwarnings("default")
 
@@ -38,6 +40,9 @@ def client(tmp_path):
 def test_a_cluster_that_loses_a_worker_gives_what_one_process_gives(client, tmp_path):
     study = Study.from_text(WIDE)
     expected = run(study, tmp_path / "here.nc", solver=stand_in.smooth, workers=1)
+    with ClusterPool(client) as pool:
+        # What was submitted before is computed again.
+        assert pool.submit(os.urandom, 8).result() != pool.submit(os.urandom, 8).result()
     victim = next(iter(client.run(os.getpid).values()))
     killed = []
 
