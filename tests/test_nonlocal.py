@@ -367,6 +367,19 @@ def test_kinks_on_lines_are_seen():
     np.testing.assert_array_equal(own.lines[1::2, 0, 0], 1.0 + np.abs(share - 0.3))
 
 
+def test_what_arcs_add_asks_for_no_places_elsewhere():
+    """More distances and inclinations leave it; where these are what is too much, there are more."""
+    distance = np.array([0.1, 0.05])
+    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
+    share = nested(own.layout.distances)[:, None, None]
+    own.grid[..., 0], own.grid[..., 1], own.side[:] = 1.0 + 1e-3 * np.abs(share - 0.3), 0.0, 0.0
+    own.side[::2, 0] = 1.0
+    found, of_axes = own.in_spheres()
+    assert found.of_places[1] > found.allowed(1e-3)[1] > 10.0 * of_axes[:, 1].sum() > 0.0
+    assert not own._refine_spheres(found, of_axes, 1e-3)
+    assert own._refine_spheres(found, 1e3 * of_axes, 1e-3)
+
+
 def test_means_over_lines_are_those_of_the_interpolation():
     """Also of one that changes its sign at every place."""
     distance = np.array([0.1, 0.06])

@@ -146,8 +146,10 @@ class Around:
 
     def _refine_spheres(self, found: Estimate, of_axes: FloatArray, rtol: float) -> bool:
         """Whether there are more places in the spheres now."""
-        allowed = found.allowed(rtol)
-        blame = (of_axes / allowed)[:, found.of_places > allowed].max(axis=1, initial=0.0)
+        allowed, both = found.allowed(rtol), of_axes.sum(axis=0)
+        # More places leave what other places on the arcs add.
+        allowed = np.maximum(allowed - (found.of_places - both), 0.5 * allowed)
+        blame = (of_axes / allowed)[:, both > allowed].max(axis=1, initial=0.0)
         before = self.spheres
         worse = int(blame.argmax())
         # The other one only if it alone would be too much.
