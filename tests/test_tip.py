@@ -12,10 +12,12 @@ from scenes import points
 from scipy.integrate import cumulative_trapezoid, quad
 
 from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.contact.memory import Growths
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
 
@@ -145,3 +147,29 @@ def test_no_maximum_on_the_way_to_a_tip_is_passed_over(point, x: float, double_a
     swt, _ = refine(scene, *place, Resolution(8, 4, 8.0))
     assert found.s[0] >= swt[0, 0] - found.s_error[0]
     assert found.s_error[0] <= 1e-3 * found.s[0]
+
+
+def test_a_contact_that_is_nearly_lost_keeps_its_least_radius() -> None:
+    """At the tip the pressure of the least depth, which is none that the load is slowed down for."""
+    n, r, least = 1.02, 1e-100, 1e-8
+    scene = scene_of(points("power_law", 0.3, 2.0, 1.0 - least, 0.5, 0.3, exponent=n))
+    instant = float(np.mod(-0.5 * np.pi - 0.3, 2.0 * np.pi))
+    interval = int(np.searchsorted(scene.cycle.end[0], instant))
+    one = Nodes(np.array([[interval]]), np.array([[instant]]), np.zeros((1, 1, 1), dtype=np.intp))
+    found = SurfaceLine(scene.cycle, scene.coordinate, np.array([[r]]), 9.0).history(one).pressure[0, 0, 0]
+    t = np.linspace(0.0, np.arccosh(least ** (1.0 / n) / r), 200001)
+    expected = n / np.pi * np.trapezoid((r * np.cosh(t)) ** (n - 1.0), t)
+    assert float(found) == pytest.approx(expected, rel=1e-6)
+
+
+def test_growth_from_next_to_a_tip_on_has_nodes_enough() -> None:
+    """Contact nearly lost and little tangential motion: the slope turns within much less than the ground."""
+    scene = scene_of(points("power_law", 0.3, 0.5, 1.0 - 1e-6, 1e-3, 0.7, exponent=1.02))
+    r = np.array([[1e-5, 1e-9, 1e-40]])
+    few, many = (GrowthIntegrals(scene.cycle, scene.coordinate, r, digits) for digits in (6.5, 30.0))
+    growths = Growths.of(scene.cycle.memory)
+    number = int(growths.begin[0].argmin())
+    stop = float(scene.profile.radius(growths.end[:, number])[0])
+    where = np.zeros(3, dtype=np.intp), np.arange(3), np.full(3, number), np.full(3, stop)
+    full = SurfaceLine(scene.cycle, scene.coordinate, r, 6.5).primitives.pressure(np.full((1, 3, 1), stop))
+    np.testing.assert_allclose(few.up_to(*where)[2], many.up_to(*where)[2], rtol=0.0, atol=1e-4 * full.max())

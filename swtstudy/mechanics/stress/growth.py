@@ -26,6 +26,7 @@ NODES_PER_OSCILLATION = 1.6
 #: Where the tangential load moves slower than this share of the normal one, the slope turns from ±1 to that
 #: share within the square of it, beside an end of the growth. With so many nodes more for each digit beyond
 #: the fifth s was off by 2e-7 at most at 8.5 digits and shares of 2e-4 to 0.01, without them by up to 9e-6.
+#: Next to a tip, where contact is nearly lost, from the first digit on: else 1e-3 is left.
 SLOW, NODES_PER_DIGIT = 0.02, 24
 
 #: Densities at abscissae of some ranges, see `_OverRanges`.
@@ -52,7 +53,8 @@ class GrowthIntegrals:
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
         amplitude = 0.5 * (cycle.load.largest_normal - cycle.load.least_normal)
         slow = tangential * (cycle.load.motion - amplitude) < SLOW * normal * amplitude
-        nodes = count + slow * math.ceil(NODES_PER_DIGIT * max(digits - 5.0, 0.0))
+        more = np.where(coordinate.profile.tip, digits, max(digits - 5.0, 0.0))
+        nodes = count + slow * np.ceil(NODES_PER_DIGIT * more).astype(np.intp)
         growths = Growths.of(cycle.memory)
         self.count = growths.begin.shape[1]
         if not self.count:

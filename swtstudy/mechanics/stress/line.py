@@ -57,7 +57,7 @@ class SurfaceLine:
         #: Shape (n, X, 1): half of the load inside r, were the contact larger.
         self.inside = coordinate.profile.half_load(near)[:, :, None]
         #: When edges and fronts pass r, or a radius outside of the contact that no edge reaches either.
-        self.edges, self.fronts = Passing.of(cycle.load, coordinate, near)
+        self.edges, self.fronts = Passing.of(cycle, coordinate, near)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (n, m): do/dG of the distinct pieces, of growths the part that is a line's.

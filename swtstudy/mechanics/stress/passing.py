@@ -7,11 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.tip import OF_EDGE, OF_FRONT, SlowerTime, Slowness, told_radius
+from swtstudy.mechanics.stress.tip import (
+    OF_EDGE,
+    OF_FRONT,
+    SlowerTime,
+    Slowness,
+    reach_of_edges,
+    reach_of_fronts,
+    told_radius,
+)
 
 #: Rounding of a coordinate, over the largest one: 1.3e-15 there and back on a rounded punch, 4e-16 on a wavy
 #: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart,
@@ -59,21 +68,21 @@ class Passing:
     slower: SlowerTime | None
 
     @classmethod
-    def of(cls, load: Load, coordinate: Coordinate, position: FloatArray) -> tuple[Passing, Passing]:
+    def of(cls, cycle: Cycle, coordinate: Coordinate, position: FloatArray) -> tuple[Passing, Passing]:
         """Of edges and fronts."""
         if not coordinate.profile.tip.any():
             at = coordinate.of(position)
-            of_edge, of_front = arrival(load, coordinate, position, at)
+            of_edge, of_front = arrival(cycle.load, coordinate, position, at)
             return cls(position, at, of_edge, None), cls(position, at, of_front, None)
 
-        def slowed(number: int, slowness: Slowness) -> Passing:
-            told = told_radius(slowness, coordinate, load.largest_normal, position)
+        def slowed(number: int, slowness: Slowness, over: FloatArray) -> Passing:
+            told = told_radius(slowness, coordinate, over, position)
             at = coordinate.of(told)
-            near = arrival(load, coordinate, told, at)[number]
-            slower = SlowerTime.of(slowness, coordinate, load.largest_normal, position, told)
-            return cls(position, at, near, slower)
+            near = arrival(cycle.load, coordinate, told, at)[number]
+            return cls(position, at, near, SlowerTime.of(slowness, coordinate, over, position, told))
 
-        return slowed(0, OF_EDGE), slowed(1, OF_FRONT)
+        of_edge, of_front = reach_of_edges(cycle.load), reach_of_fronts(cycle)
+        return slowed(0, OF_EDGE, of_edge), slowed(1, OF_FRONT, of_front)
 
     def take(self, index: NDArray[np.intp]) -> Passing:
         """The positions at ``index`` of the first axis."""

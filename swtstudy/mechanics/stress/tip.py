@@ -13,7 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
+from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
 
 
@@ -24,9 +26,9 @@ class Slowness:
     Attributes
     ----------
     least
-        Least coordinate that instants tell well enough, over the largest one.
+        Least coordinate that instants tell well enough, over the largest one or less.
     until
-        Coordinate up to which the load is slower, over the largest one.
+        Coordinate up to which the load is slower, over the same.
     beside
         Radii up to so many times the least one are to the position as they are to that: there the stress is
         not yet a line in the logarithm.
@@ -42,6 +44,26 @@ class Slowness:
 OF_EDGE = Slowness(1e-7, 1e-5, 10.0)
 #: Of slip fronts, while the edge moves on at its own time. As that of edges: 1.4e-4 of s.
 OF_FRONT = Slowness(1e-10, 1e-7, 30.0)
+
+
+#: Where the edge is next to the tip, too, while a front is, less of the largest coordinate counts: so many
+#: times the least edge or the tangential amplitude, whichever is more, but at least this share. All of it:
+#: 2e-1 at 2 of 60 points with tangential amplitudes of 1e-4 to 0.1.
+OF_LEAST_EDGE, OF_AMPLITUDE, LEAST_REACH = 1e5, 1e2, 1e-3
+
+
+def reach_of_edges(load: Load) -> FloatArray:
+    """What the coordinates of `OF_EDGE` are over, shape (n,): 0 unless edges come to the tip."""
+    return np.where(load.least_normal <= 0.0, load.largest_normal, 0.0)
+
+
+def reach_of_fronts(cycle: Cycle) -> FloatArray:
+    """What the coordinates of `OF_FRONT` are over, shape (n,): 0 unless fronts come to the tip."""
+    load = cycle.load
+    amplitude = load.motion - 0.5 * (load.largest_normal - load.least_normal)
+    edge = np.maximum(OF_LEAST_EDGE * load.least_normal, OF_AMPLITUDE * amplitude)
+    edge = np.clip(edge, LEAST_REACH * load.largest_normal, load.largest_normal)
+    return np.where(cycle.gross_slip, edge, 0.0)
 
 
 @dataclass(frozen=True)
@@ -62,13 +84,13 @@ class SlowerTime:
 
     @classmethod
     def of(
-        cls, slowness: Slowness, coordinate: Coordinate, largest: FloatArray, r: FloatArray, told: FloatArray
+        cls, slowness: Slowness, coordinate: Coordinate, over: FloatArray, r: FloatArray, told: FloatArray
     ) -> SlowerTime | None:
         """Of positions r, shape (n, X), None where none needs it; for the rest see `told_radius`."""
         if not np.any(r < told):
             return None
-        far = np.broadcast_to(coordinate.radius((slowness.until * largest)[:, None]), r.shape)
-        return cls(np.log(told / r), np.log(slowness.beside * told), np.log(far))
+        far = np.broadcast_to(coordinate.radius((slowness.until * over)[:, None]), r.shape)
+        return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, 1e-300)))
 
     def take(self, index: NDArray[np.intp]) -> SlowerTime:
         """Those at ``index`` of the first axis."""
@@ -84,16 +106,20 @@ class SlowerTime:
         radius[at] = slower if own is None else np.where(own[at], some, slower)
 
 
-def told_radius(slowness: Slowness, coordinate: Coordinate, largest: FloatArray, r: FloatArray) -> FloatArray:
+def told_radius(slowness: Slowness, coordinate: Coordinate, over: FloatArray, r: FloatArray) -> FloatArray:
     """Positions r, shape (n, X), next to a tip the least radius that instants tell.
 
     Parameters
     ----------
-    largest
-        Shape (n,): the largest normal load.
+    over
+        Shape (n,): see `reach_of_edges` and `reach_of_fronts`.
     """
-    tip = coordinate.profile.tip
-    if not tip.any():
+    least = coordinate.radius((slowness.least * over)[:, None])
+    return np.asarray(np.where(coordinate.profile.tip[:, None], np.maximum(r, least), r))
+
+
+def told_by_fronts(cycle: Cycle, coordinate: Coordinate, r: FloatArray) -> FloatArray:
+    """The positions r, shape (n, X), at which instants tell that fronts pass, see `told_radius`."""
+    if not coordinate.profile.tip.any():
         return r
-    least = coordinate.radius((slowness.least * largest)[:, None])
-    return np.asarray(np.where(tip[:, None], np.maximum(r, least), r))
+    return told_radius(OF_FRONT, coordinate, reach_of_fronts(cycle), r)
