@@ -305,6 +305,25 @@ def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(kno
     np.testing.assert_allclose(nonlocal_of(batch, distance)[1].point[0, 0], expected, rtol=5e-5)
 
 
+def test_rivals_show_which_gaps_between_instants_matter_nearby():
+    """Where planes take turns straight down; of the field with 20 instants on each stretch, four looks."""
+    batch = points(
+        poisson_ratio=0.45,
+        friction=0.369,
+        normal_amplitude=0.321,
+        p=1,
+        q=3,
+        tangential_amplitude=0.085,
+        phase=3.153,
+    )
+    batch, distance = replace(batch, profile=worn()), 0.059
+    x = float(solve_points(batch, 1e-6).critical_x[0])
+    own = around.Around(scene_of(batch), x, np.array([[0.0, 1.0]]), np.array([distance]))
+    places = own._of_lines(distance * np.array([0.1, 0.2, 0.3]))
+    found, _ = own.local.swt(places, np.zeros(3, dtype=bool))
+    np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-4)
+
+
 def test_instants_that_meet_hide_no_peak():
     """A peak at two instants that are one has the gaps on either side divided."""
     instant = np.array([[0.0, 1.0, 2.0, 2.0, 3.0, 4.0]])
@@ -346,6 +365,19 @@ def test_kinks_on_lines_are_seen():
     assert own._refine_lines(found, 3e-4)
     assert np.isnan(own.lines[::2]).all()
     np.testing.assert_array_equal(own.lines[1::2, 0, 0], 1.0 + np.abs(share - 0.3))
+
+
+def test_means_over_lines_are_those_of_the_interpolation():
+    """Also of one that changes its sign at every place."""
+    distance = np.array([0.1, 0.06])
+    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
+    count, power = 79, own.layout.line_power
+    wave = np.polynomial.Chebyshev([0.0] * (count - 1) + [1.0], domain=[0.0, 1.0])
+    node, weight = np.polynomial.legendre.leggauss(400)
+    share = 0.5 + 0.5 * node
+    for size, found in zip(distance, own._line_weights(count) @ wave(nested(count)), strict=True):
+        values = wave((size / 0.1) ** (1.0 / power) * share)
+        assert found == pytest.approx(0.5 * weight @ (power * share ** (power - 1) * values), abs=1e-9)
 
 
 def test_tension_between_the_coarse_planes_is_found() -> None:
