@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import platform
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import definitions_text
+from swtstudy.archive.versions import versions
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
@@ -23,21 +22,7 @@ from swtstudy.records.solutions import solution_at
 from swtstudy.study.definition import Study
 from swtstudy.version import __version__
 
-#: Packages whose versions can affect the numbers or the file.
-_PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
-
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
-
-
-def versions() -> str:
-    """Versions of Python, of this package and of those that affect its numbers and files."""
-    found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
-    for name in _PACKAGES:
-        try:
-            found.append(f"{name} {version(name)}")
-        except PackageNotFoundError:
-            continue
-    return ", ".join(found)
 
 
 def build(study: Study, points: UniquePoints, records: Records, history: str, seconds: float) -> xr.Dataset:

@@ -161,8 +161,8 @@ def _compute(
     work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
 ) -> Records:
     """The records, with the missing points computed."""
-    from swtstudy.archive.archive import versions
     from swtstudy.archive.parts import PartsWriter, parts_folder
+    from swtstudy.archive.versions import versions
 
     if not work.todo:
         return work.records

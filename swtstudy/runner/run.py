@@ -133,7 +133,10 @@ def run_several(
             held.callback(job.__exit__)
             writing = None if before is None else background.submit(_finish, before, finished)
             try:
-                job.compute(_pool(job, local, client), solver)
+                pool = _pool(job, local, client)
+                if before is None:
+                    background.submit(_prepare_archives)
+                job.compute(pool, solver)
             finally:
                 _wait(writing, before)
             before = job
@@ -141,6 +144,13 @@ def run_several(
         background.submit(local.close)
         if before is not None:
             _finish(before, finished)
+
+
+def _prepare_archives() -> None:
+    """Import what archives need while the workers compute, after what hands them their work."""
+    import dask.local  # noqa: F401
+
+    import swtstudy.archive.archive  # noqa: F401
 
 
 def _finish(job: Job, finished: Finished) -> None:

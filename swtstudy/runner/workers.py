@@ -116,6 +116,9 @@ def _end_with_parent() -> None:
 
 
 def _warm_up() -> None:
+    # Tasks arrive as dask's.
+    import dask.local  # noqa: F401
+
     import swtstudy.mechanics.solver  # noqa: F401
 
 
