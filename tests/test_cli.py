@@ -426,6 +426,14 @@ def test_every_mention_says_over_what_a_number_is(name, number):
         assert number in " ".join(text.split())
 
 
+def test_the_template_says_of_each_parameter_what_is_allowed():
+    text = template("mine")
+    assert "# Poisson ratio, ν: a number in [0, 0.5]\n# poisson_ratio = 0.3\n" in text
+    assert (
+        ": a number in [0, 100]; along an axis of friction it stays, so that uA itself moves with μ\n" in text
+    )
+
+
 def test_the_template_with_units_names_its_units_and_no_others():
     text = template_with_units("mine")
     assert {*re.findall(r"(?:length|stress|force|modulus) in (\w+)", text)} == {"mm", "N", "MPa"}

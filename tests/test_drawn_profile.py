@@ -17,6 +17,9 @@ def test_curves(indenter: oracle.Indenter) -> None:
     assert height[at] == pytest.approx(f - 1.0, abs=1e-5)
     np.testing.assert_array_equal(height, height[::-1])
     depth, pressure = (line.get_data() for line in springs.lines if len(line.get_xdata()) > 2)
+    # Both coordinates begin where the surfaces meet.
+    arrows = [each for each in sketch.texts if each.get_text() == "" and each.xy[0] * each.xy[1] == 0.0]
+    assert [each.xyann for each in arrows[:2]] == [(0.0, 0.0), (0.0, 0.0)]
     k = 900
     assert depth[1][k] == pytest.approx(indenter.depth(float(depth[0][k])), abs=1e-9)
     edge = springs.lines[1].get_xdata()[0]

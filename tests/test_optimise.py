@@ -172,6 +172,10 @@ def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
         ({"over": {"phase": (0, 1)}, "minimise": "regime"}, "minimise: found 'regime'"),
         ({"over": {"phase": (0, 1)}, "rtol": 1}, "rtol: found 1"),
         ({"over": {"phase": (0, 1)}, "seed": -1}, "seed: found -1"),
+        (
+            {"over": {"phase": (0, 1)}, "seed": 2**32},
+            "seed: found 4294967296; allowed: a whole number from 0",
+        ),
     ],
 )
 def test_bad_input_is_named(given, words):

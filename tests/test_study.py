@@ -66,9 +66,10 @@ def test_a_range_with_rational_ends_has_the_nearest_floats():
 
 
 def test_ratios_are_exact():
-    axis = 'frequency_ratio = ["1/4", 0.5, 1, "1.5", 2.0, 0.3333333333333333]'
+    axis = 'frequency_ratio = ["1/4", 0.5, 1, "1.5", 2.0, 0.3333333333333333, 64, "1/64"]'
     study = Study.from_text(MINIMAL + "[axes]\n" + axis)
-    expected = (Fraction(1, 4), Fraction(1, 2), Fraction(1), Fraction(3, 2), Fraction(2), Fraction(1, 3))
+    ratios = (1, 4), (1, 2), (1, 1), (3, 2), (2, 1), (1, 3), (64, 1), (1, 64)
+    expected = tuple(Fraction(*each) for each in ratios)
     assert study.grid.axes["frequency_ratio"] == expected
 
 

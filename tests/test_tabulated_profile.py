@@ -131,6 +131,19 @@ def test_s_converges_to_that_of_the_closed_form(name: str, coarse: float, fine: 
         np.testing.assert_allclose(found.critical_x, expected.critical_x, atol=1e-3)
 
 
+def test_without_a_face_the_heights_begin_at_the_axis() -> None:
+    """However flat they are there."""
+    r = np.linspace(0.0, 1.0, 20)
+    assert spline(r, r**4, 0.0).x[0] == 0.0
+    assert spline(np.append(-0.1, r) + 0.1, np.append(0.0, r**4), 0.0).x[0] > 0.1
+
+
+@pytest.mark.parametrize("name", ["", " ", 3])
+def test_a_table_without_a_name_is_refused(name: object) -> None:
+    with pytest.raises(StudyError, match=f"^name: found {name!r}; allowed: a text that is not empty"):
+        TabulatedProfile(name, R, R**2)  # type: ignore[arg-type]
+
+
 def test_s_over_a_blend_is_that_of_the_field() -> None:
     batch = points(worn(), phase=[0.3, 2.0], friction=[0.3, 0.6])
     found = solve_points(batch, 1e-6)

@@ -21,6 +21,7 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
 KINDS = {"wavy": "wavy", "struve": "wavy", "surface_maximum": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
+KINDS |= {"stress.tip": "tip"}
 KINDS |= {"harmonic_sum": "loop", "_path": "loop", "polygon": "loop", ".control.": "force", "bulk": "bulk"}
 KINDS |= {
     "nonlocal": "means",
@@ -67,6 +68,8 @@ OTHERS = {
     "round.WALKING": ("v / 2",),
     "singular_edge.FINER": ("v[:1]", "v[1:]"),
     "stretches.PER_INTERVAL": (),
+    "tip.OF_EDGE": ("Slowness(1e-9, 1e-7, 10.0)", "Slowness(1e-5, 1e-3, 10.0)"),
+    "tip.OF_FRONT": ("Slowness(1e-12, 1e-9, 30.0)", "Slowness(1e-7, 1e-5, 10.0)"),
     "value.STARTS": ("v[:1]", "v / 2", "2 * v"),
     "wavy_paraboloid.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),

@@ -16,7 +16,8 @@ from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Growth of the contact's coordinate below which there is none: turning instants come in pairs that differ
-#: by rounding. 1e-14 or 1e-10: no change at 128 points.
+#: by rounding. 1e-14 or 1e-10: no change at 128 points. A coordinate below this is 0: next to a tip the
+#: ground within what rounding leaves of it would count.
 NO_GROWTH = 1e-12
 
 
@@ -90,7 +91,7 @@ def _course(load: Load) -> _Course:
     middle = 0.5 * (instant[:, 1:] + instant[:, :-1])
     tangential_rate, normal_rate = load.tangential_rate(middle), load.normal_rate(middle)
     forward, backward = tangential_rate > normal_rate, tangential_rate < -normal_rate
-    edge = np.maximum(load.normal(instant), 0.0)
+    edge = _or_none(load.normal(instant))
     grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > NO_GROWTH)
     growth = np.full(grows.shape, GROWTH)
     if load.grows_in_lines:
@@ -98,6 +99,10 @@ def _course(load: Load) -> _Course:
     tangential, branch = load.tangential(instant), load.branch(middle)
     times = GrowthTimes.of(load, edge, branch, grows & (growth == GROWTH))
     return _Course(instant, edge, tangential, forward, backward, grows, branch, growth, times)
+
+
+def _or_none(coordinate: FloatArray) -> FloatArray:
+    return np.where(coordinate > NO_GROWTH, coordinate, 0.0)
 
 
 def _grow(stack: Memory, course: _Course, i: int) -> None:
@@ -120,6 +125,7 @@ def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
         values[:, 0] for values in (states.edge, states.tangential, states.front, states.sign)
     )
     none = np.zeros(len(load)), row[:, 0], row[:, 0]
+    front = _or_none(front)
     _push(stack, front < edge, Memory(front, tangential + sign * (front - edge), sign, *none))
 
 

@@ -17,6 +17,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: shrinks from round to round. Twice the first: 1e-4 at 1 of 128 points; half: 3e-7.
 #: Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
+#: Up to this share of the largest radius positions are next to a tip.
+TIP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,13 @@ class Climb:
     def start(cls, scene: Scene, look: FirstLook, r: FloatArray) -> Climb:
         """From the first look at positions r of a scene, shape (n, X)."""
         point, side, column = look.candidates(r)
-        angle, x_sign = look.closer(scene, point, side, column), np.where(side == 0, 1.0, -1.0)
+        angle = look.closer(scene, point, side, column)
+        # Next to a tip shear alone makes two planes that the first look cannot tell apart.
+        again = np.flatnonzero(scene.profile.tip[point] & (r[point, column] < TIP * r.max(axis=1)[point]))
+        if again.size:
+            point, side, column = (np.append(values, values[again]) for values in (point, side, column))
+            angle = np.append(angle, -angle[again])
+        x_sign = np.where(side == 0, 1.0, -1.0)
         centre, top, seen, remaining = np.zeros((4, len(point)))
         width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
         settled = np.zeros(len(point), dtype=bool)

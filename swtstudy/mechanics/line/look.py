@@ -76,7 +76,7 @@ class Look:
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
         """Look at r = ``position``, shape (n, X)."""
         line = SurfaceLine(scene.cycle, scene.coordinate, position, digits, scene.bulk)
-        parts = stretches(scene.cycle, scene.coordinate.of(line.touched))
+        parts = stretches(scene.cycle, line.edges.at, line.fronts.at)
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
 

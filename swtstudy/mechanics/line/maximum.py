@@ -16,8 +16,9 @@ from swtstudy.mechanics.line.positions import Positions, positions_of_first_look
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.line import arrival
+from swtstudy.mechanics.stress.passing import arrival
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.stress.tip import OF_FRONT, told_radius
 
 #: Planes that the first look tries. Half or twice: no change at 128 points, 5 % faster or slower.
 SCAN_PLANES = 16
@@ -151,6 +152,7 @@ def _noise(scene: Scene, r: FloatArray) -> FloatArray:
     """How far off a stress at r, shape (n, 1), may be by the rounding of what arrives there, shape (n,)."""
     profile, coordinate = scene.profile, scene.coordinate
     r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
+    r = told_radius(OF_FRONT, coordinate, scene.cycle.load.largest_normal, r)
     at, step = coordinate.of(r), np.maximum(SLOPE_STEP * (r - b), LEAST_SLOPE_STEP * np.spacing(r))
     # How far from r an edge is left, in radius: what it leaves is the pressure by that ring.
     width = arrival(scene.cycle.load, coordinate, r, at)[1] * step / (coordinate.of(r + step) - at)
@@ -167,6 +169,7 @@ def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
 def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
     """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
     load, r = scene.cycle.load, np.abs(found.position)[:, None]
+    r = told_radius(OF_FRONT, scene.coordinate, load.largest_normal, r)
     normal = 0.5 * (load.largest_normal - load.least_normal)
     distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
     # A motion within rounding is none.

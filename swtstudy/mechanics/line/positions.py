@@ -38,6 +38,8 @@ OUTSIDE_STEPS = 5
 BESIDE_FACE = 0.999
 #: A stretch between cusps shorter than this share of the range is none. 1e-14: no change; 1e-10: 2e-10.
 NO_LENGTH = 1e-12
+#: Stretches whose ends are more than this apart, as a ratio, are shared by the logarithm: they lead to a tip.
+FAR_APART = 1e4
 #: Angles α nearer than this to 0 or π are an end of the stretch. 1e-11 or 1e-7: no change at 128 points.
 END = 1e-9
 
@@ -140,13 +142,23 @@ def spread_positions(
         return np.stack([gather(values, before), gather(values, stretch)], axis=-1)
 
     return Positions(
-        between(gather(parts.low, stretch), gather(parts.high, stretch), alpha),
+        _places(gather(parts.low, stretch), gather(parts.high, stretch), alpha),
         count,
         both_sides(parts.low),
         both_sides(parts.high),
         np.stack([left, alpha], axis=-1),
         both_sides(np.pi / parts.steps),
     )
+
+
+def _places(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
+    """Radii between ``low`` (α = 0) and ``high`` (α = π)."""
+    places = between(low, high, alpha)
+    far = np.broadcast_to(high > FAR_APART * low, alpha.shape)
+    if far.any():
+        low, high, alpha = (values[far] for values in np.broadcast_arrays(low, high, alpha))
+        places[far] = np.exp(between(np.log(low), np.log(high), alpha))
+    return places
 
 
 @dataclass(frozen=True)
@@ -279,4 +291,4 @@ class PositionBrackets:
             return np.where(right, values[:, 1:], values[:, :1])
 
         alpha = np.clip(of_side(self.alpha) + c * of_side(self.step), 0.0, np.pi)
-        return between(of_side(self.low), of_side(self.high), alpha)
+        return _places(of_side(self.low), of_side(self.high), alpha)

@@ -2,7 +2,8 @@
 
 Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
 for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
-integral is exact to rounding.
+integral is exact to rounding. At a tip g′ stays finite, and next to it the outer kernel is smooth in the
+logarithm of v alone: there the slope at touch-down is left to the primitives, as that of a line.
 """
 
 from __future__ import annotations
@@ -63,6 +64,12 @@ class GrowthIntegrals:
         self.flat = coordinate.profile.flat_radius[:, None, None]
         low, high = (coordinate.radius(g)[:, None, :] for g in (growths.begin, growths.end))
         self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
+        #: Shape (n, k): what is left out of dτ/dG, its value at the tip.
+        self.at_tip = np.zeros(growths.begin.shape)
+        at_tip = coordinate.profile.tip[:, None] & (growths.begin == 0.0)
+        if at_tip.any():
+            first = cycle.load.growth_slope(np.zeros_like(growths.begin), growths.branch)
+            self.at_tip = np.where(at_tip, first, 0.0)
         r, b = self.position, self.flat
         self.inner = _RunningIntegrals(
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
@@ -78,6 +85,7 @@ class GrowthIntegrals:
                 self.position[index],
                 self.flat[index],
             )
+            taken.at_tip = self.at_tip[index]
             taken.inner, taken.outer = self.inner.take(index), self.outer.take(index)
         return taken
 
@@ -97,10 +105,11 @@ class GrowthIntegrals:
         return (self._weighted_growth(at, radius) / (radius * gap))[None]
 
     def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
-        """m dτ/dG at the radii of the springs, shape (m, nodes)."""
+        """m dτ/dG at the radii of the springs, but for what is left out, shape (m, nodes)."""
         row, _, growth = at
         coordinate, slope = self.coordinate.take(row).with_weighted_slope(radius)
-        return slope * self.cycle.load.take(row).growth_slope(coordinate, self.branch[row, growth, None])
+        grown = self.cycle.load.take(row).growth_slope(coordinate, self.branch[row, growth, None])
+        return slope * (grown - self.at_tip[row, growth, None])
 
     def up_to(
         self,
@@ -109,7 +118,7 @@ class GrowthIntegrals:
         index: NDArray[np.intp],
         radius: FloatArray,
     ) -> FloatArray:
-        """Integrals T1, T3, Π over single growths up to ``radius``, shape (3, m).
+        """Integrals T1, T3, Π over single growths, without `at_tip`, up to ``radius``, shape (3, m).
 
         Parameters
         ----------

@@ -17,39 +17,15 @@ from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
-from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
+from swtstudy.mechanics.stress.passing import COORDINATE, Passing
 
-#: Rounding of a coordinate, over the largest one: 1.3e-15 there and back on a rounded punch, 4e-16 on a wavy
-#: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart,
-#: and from the coordinate to the instant and back there are five roundings. 1e-15: 5e-7 at rtol 1e-6.
-COORDINATE, INSTANT = 2e-15, 2.5e-15
 #: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
 OUTSIDE = 1.1
-
-
-def arrival(
-    load: Load, coordinate: Coordinate, position: FloatArray, at: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """How far from ``at``, the coordinate of r, shape (n, X), rounding leaves that of what arrives there.
-
-    The stress shows the square root of this distance.
-
-    Returns
-    -------
-    edge, front
-        Shape (n, X): of a contact edge and of a slip front, which move at most at some rate.
-    """
-    normal, tangential = load.oscillations
-    amplitude = 0.5 * (load.largest_normal - load.least_normal)
-    of_edge = COORDINATE * load.largest_normal + INSTANT * normal * amplitude
-    of_front = of_edge + INSTANT * tangential * (load.motion - amplitude)
-    next_to_r = coordinate.of(position + np.spacing(position)) - at
-    return of_edge[:, None] + next_to_r, of_front[:, None] + next_to_r
 
 
 class SurfaceLine:
@@ -77,16 +53,15 @@ class SurfaceLine:
     ) -> None:
         self.cycle, self.coordinate, self.position, self.digits = cycle, coordinate, position, digits
         self.primitives, self.bulk = coordinate.profile.primitives(position, digits), bulk
-        #: r, or a radius outside of the contact that no edge reaches either.
-        self.touched = position if bulk is None else self._near_contact()
-        at = coordinate.of(self.touched)
-        #: The coordinate of r, and how near to it a contact edge, and a slip front, has arrived, (n, X, 1).
-        self.at = at[:, :, None]
-        self.edge_near, self.front_near = (
-            distance[:, :, None] for distance in arrival(cycle.load, coordinate, self.touched, at)
-        )
+        near = position if bulk is None else self._near_contact()
+        #: Shape (n, X, 1): half of the load inside r, were the contact larger.
+        self.inside = coordinate.profile.half_load(near)[:, :, None]
+        #: When edges and fronts pass r, or a radius outside of the contact that no edge reaches either.
+        self.edges, self.fronts = Passing.of(cycle.load, coordinate, near)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
+        #: Shape (n, m): do/dG of the distinct pieces, of growths the part that is a line's.
+        self.slope = self._line_slope()
         #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
         self.base = self._base()
 
@@ -100,12 +75,26 @@ class SurfaceLine:
         taken = copy(self)
         taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
         taken.position, taken.base = self.position[index], self.base[:, index]
-        taken.touched, taken.bulk = self.touched[index], self.bulk and self.bulk.take(index)
+        taken.inside, taken.bulk = self.inside[index], self.bulk and self.bulk.take(index)
+        taken.edges, taken.fronts = self.edges.take(index), self.fronts.take(index)
         taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
-        taken.at = self.at[index]
-        taken.edge_near, taken.front_near = self.edge_near[index], self.front_near[index]
+        taken.slope = self.slope[index]
         taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
         return taken
+
+    def _line_slope(self) -> FloatArray:
+        pieces = self.pieces
+        grown = pieces.slope == GROWTH
+        slope = np.where(grown, 0.0, pieces.slope)
+        row, piece = np.nonzero(grown)
+        if row.size:
+            slope[row, piece] = -self.growth.at_tip[row, self._growth_of(row, piece)]
+        return slope
+
+    def _growth_of(self, row: NDArray[np.intp], piece: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Numbers of the growths that left distinct pieces, shape (m,)."""
+        index = self.growth.index.reshape(len(self.position), -1)
+        return np.asarray(index[row, self.pieces.first[row, piece]])
 
     def _base(self) -> FloatArray:
         """Integrals over all pieces inside of each distinct piece, and slope · A at its start."""
@@ -115,7 +104,7 @@ class SurfaceLine:
         at_start = np.empty((3, n, columns, pieces.start.shape[1]))
         for component, values in zip(at_start, self._full_slip(radius[:, None]), strict=True):
             component[...] = gather(values, number[:, None])
-        slope = _line_slope(pieces.slope)
+        slope = self.slope
         base = slope[:, None] * at_start
         if pieces.level.max(initial=0) == 0:
             return base
@@ -131,7 +120,7 @@ class SurfaceLine:
         return inside + base
 
     def _put_growths(self, part: FloatArray, start: FloatArray) -> None:
-        """Put the integrals over growths right beneath pieces among those of the lines.
+        """Add the integrals over growths right beneath pieces to those of the lines.
 
         Parameters
         ----------
@@ -143,12 +132,12 @@ class SurfaceLine:
         pieces, columns = self.pieces, self.position.shape[1]
         grown = (gather(pieces.slope, pieces.below) == GROWTH) & (pieces.level > 0)
         row, piece = np.nonzero(grown)
-        index = self.growth.index.reshape(len(start), -1)[row, pieces.first[row, pieces.below[row, piece]]]
+        index = self._growth_of(row, pieces.below[row, piece])
         many = np.broadcast_arrays(
             row[:, None], np.arange(columns), index[:, None], start[row, piece][:, None]
         )
         found = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
-        part[:, row, :, piece] = np.moveaxis(found, 0, 1)
+        part[:, row, :, piece] += np.moveaxis(found, 0, 1)
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
         """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
@@ -157,38 +146,40 @@ class SurfaceLine:
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
-        profile, edge_radius = self.coordinate.profile, self.coordinate.radius(states.edge)
-        edge = self._spread_radius(nodes, edge_radius, states.edge, self.edge_near)
+        edge, front, load = self._radii(nodes, states)
         r = self.position[:, :, None]
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
-        tangential = self._tangential(nodes, states, (*inner, outer[0]))
+        tangential = self._tangential(nodes, states, front, (*inner, outer[0]))
         # What the springs inside r carry, and what those outside press on the inside.
-        load = nodes.spread(profile.half_load(edge_radius))
-        inside = np.minimum(load, profile.half_load(self.touched)[:, :, None])
+        inside = np.minimum(load, self.inside)
         blocks = outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential
         history = History(*blocks)
         return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
 
-    def _spread_radius(
-        self, nodes: Nodes, radius: FloatArray, coordinate: FloatArray, near: FloatArray
-    ) -> FloatArray:
-        """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
-        spread, distance = nodes.spread(radius), nodes.spread(coordinate)
-        distance -= self.at
-        np.abs(distance, out=distance)
-        np.copyto(spread, self.position[:, :, None], where=distance <= near)
-        return spread
+    def _radii(self, nodes: Nodes, states: SlipStates) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Radii of edges and fronts, and half of the loads, at the instants, each (n, X, T)."""
+        profile, radius = self.coordinate.profile, self.coordinate.radius(states.edge)
+        of_front = nodes, self.coordinate.radius(states.front), states.front
+        if self.edges.slower is None:
+            edge = self.edges.spread(nodes, radius, states.edge)
+            return edge, self.fronts.spread(*of_front), nodes.spread(profile.half_load(radius))
+        # But for rounding the front is at the edge while all sticks, and nowhere while nothing does.
+        rounding = COORDINATE * self.cycle.load.largest_normal[:, None]
+        sticks, slides = states.front >= states.edge - rounding, states.front <= rounding
+        edge = self.edges.spread(nodes, radius, states.edge, ~(sticks | slides))
+        front = self.fronts.spread(*of_front)
+        np.copyto(front, edge, where=nodes.spread(sticks))
+        return edge, front, profile.half_load(edge)
 
-    def _tangential(self, nodes: Nodes, states: SlipStates, at_edge: tuple[FloatArray, ...]) -> FloatArray:
+    def _tangential(
+        self, nodes: Nodes, states: SlipStates, front: FloatArray, at_edge: tuple[FloatArray, ...]
+    ) -> FloatArray:
         """T1, T3 and the traction, each over π, from the full-slip integrals up to the edge, (3, n, X, T)."""
         pieces, (n, columns) = self.pieces, self.position.shape
         place = nodes.interval * pieces.index.shape[-1] + states.piece
         piece = gather(pieces.index.reshape(n, -1), place)
-        slope = gather(pieces.slope, piece)
-        front_radius = self.coordinate.radius(states.front)
-        front = self._spread_radius(nodes, front_radius, states.front, self.front_near)
         at_piece, sign = nodes.spread(piece), nodes.spread(states.sign)
-        bend = sign - nodes.spread(_line_slope(slope))
+        bend = sign - nodes.spread(gather(self.slope, piece))
         rows, count = np.arange(n)[:, None, None], self.base.shape[-1]
         of_base = (rows * columns + np.arange(columns)[:, None]) * count + at_piece
         total = self._full_slip(front)
@@ -196,18 +187,13 @@ class SurfaceLine:
             result *= bend
             result += base.ravel().take(of_base)
             result -= sign * edge_part
-        grown = slope == GROWTH
+        grown = gather(pieces.slope, piece) == GROWTH
         if np.any(grown):
             # The part of a growth inside of the front, where the front cuts it.
             row, column, _ = where = np.nonzero(nodes.spread(grown))
-            index = self.growth.index.reshape(n, -1)[row, pieces.first[row, at_piece[where]]]
+            index = self._growth_of(row, at_piece[where])
             parts = self.growth.up_to(row, column, index, front[where])
             for component, part in zip(total, parts, strict=True):
                 component[where] += part
         total /= np.pi
         return total
-
-
-def _line_slope(slope: FloatArray) -> FloatArray:
-    """do/dG of lines, 0 for growths."""
-    return np.where(slope == GROWTH, 0.0, slope)

@@ -1,0 +1,99 @@
+"""Next to a tip: radii that are too small for instants to tell.
+
+There stresses change with the logarithm of the radius, so that positions are looked at down to radii which
+contact edges and slip fronts pass within less time than an instant can hold. Nothing depends on the speed at
+which the load runs: it may be slowed down meanwhile. While an edge or a front is next to the tip, another
+radius stands for its own, and that of the position for the least one that instants tell.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.control.coordinate import Coordinate
+from swtstudy.mechanics.points import FloatArray
+
+
+@dataclass(frozen=True)
+class Slowness:
+    """How the load is slowed down.
+
+    Attributes
+    ----------
+    least
+        Least coordinate that instants tell well enough, over the largest one.
+    until
+        Coordinate up to which the load is slower, over the largest one.
+    beside
+        Radii up to so many times the least one are to the position as they are to that: there the stress is
+        not yet a line in the logarithm.
+    """
+
+    least: float
+    until: float
+    beside: float
+
+
+#: Of contact edges where nothing or all of the contact sticks: the springs inside of each are what they would
+#: be at another time. 1e-9 and 1e-7 left 3e-3 of s to rounding at μ < 1.
+OF_EDGE = Slowness(1e-7, 1e-5, 10.0)
+#: Of slip fronts, while the edge moves on at its own time. As that of edges: 1.4e-4 of s.
+OF_FRONT = Slowness(1e-10, 1e-7, 30.0)
+
+
+@dataclass(frozen=True)
+class SlowerTime:
+    """Slower time for n × X positions, some of which are next to a tip.
+
+    Attributes
+    ----------
+    shift
+        Shape (n, X): logarithm of the least radius that instants tell over the position, 0 where that is it.
+    near, far
+        Shape (n, X): logarithms of the radii between which the load gets back to its own speed.
+    """
+
+    shift: FloatArray
+    near: FloatArray
+    far: FloatArray
+
+    @classmethod
+    def of(
+        cls, slowness: Slowness, coordinate: Coordinate, largest: FloatArray, r: FloatArray, told: FloatArray
+    ) -> SlowerTime | None:
+        """Of positions r, shape (n, X), None where none needs it; for the rest see `told_radius`."""
+        if not np.any(r < told):
+            return None
+        far = np.broadcast_to(coordinate.radius((slowness.until * largest)[:, None]), r.shape)
+        return cls(np.log(told / r), np.log(slowness.beside * told), np.log(far))
+
+    def take(self, index: NDArray[np.intp]) -> SlowerTime:
+        """Those at ``index`` of the first axis."""
+        return SlowerTime(*(values[index] for values in vars(self).values()))
+
+    def put(self, radius: FloatArray, own: NDArray[np.bool_] | None = None) -> None:
+        """Put what stands for radii, shape (n, X, T), in place, but for those at their ``own`` time."""
+        at = np.nonzero(self.shift > 0.0)
+        shift, near, far = (values[at][:, None] for values in vars(self).values())
+        some = radius[at]
+        share = (far - np.log(np.maximum(some, 1e-300))) / (far - near)
+        slower = some * np.exp(-shift * np.clip(share, 0.0, 1.0))
+        radius[at] = slower if own is None else np.where(own[at], some, slower)
+
+
+def told_radius(slowness: Slowness, coordinate: Coordinate, largest: FloatArray, r: FloatArray) -> FloatArray:
+    """Positions r, shape (n, X), next to a tip the least radius that instants tell.
+
+    Parameters
+    ----------
+    largest
+        Shape (n,): the largest normal load.
+    """
+    tip = coordinate.profile.tip
+    if not tip.any():
+        return r
+    least = coordinate.radius((slowness.least * largest)[:, None])
+    return np.asarray(np.where(tip[:, None], np.maximum(r, least), r))
