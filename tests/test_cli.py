@@ -450,6 +450,16 @@ def test_help_imports_nothing_heavy():
     assert not modules & {"numpy", "scipy", "xarray", "pydantic", "dask", "matplotlib", "netCDF4"}
 
 
+def test_a_command_exits_without_looking_through_all_objects():
+    code = (
+        "import atexit, gc; from swtstudy.cli import main\n"
+        "atexit.register(lambda: print(gc.get_freeze_count() > 1000))\n"
+        "main(['list'])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "True"
+
+
 def test_python_m(tmp_path):
     done = subprocess.run([sys.executable, "-m", "swtstudy", "--version"], capture_output=True, text=True)
     assert swtstudy.__version__ in done.stdout
