@@ -323,6 +323,22 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
     assert "the same command continues" in result.stderr
 
 
+def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
+    import stand_in
+
+    from swtstudy import mechanics
+    from swtstudy.runner.workers import LocalPool
+
+    def again(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
+    monkeypatch.setattr(LocalPool, "__exit__", again)
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 130
+    assert "0 of 8 distinct points are saved" in result.stderr
+
+
 def test_a_scheduler_that_is_not_there(study, tmp_path):
     pytest.importorskip("distributed")
     code = (
