@@ -293,8 +293,6 @@ def test_merge_leaves_gaps_only_when_told(tmp_path):
 def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
     from functools import partial
 
-    import stand_in
-
     from swtstudy import mechanics
 
     study.write_text(
@@ -312,8 +310,6 @@ def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
 
 
 def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
-    import stand_in
-
     from swtstudy import mechanics
 
     monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
@@ -324,8 +320,6 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    import stand_in
-
     from swtstudy import mechanics
     from swtstudy.runner.workers import LocalPool
 
@@ -610,8 +604,6 @@ def test_run_says_what_it_needs(tmp_path, monkeypatch):
 
 def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
     from functools import partial
-
-    import stand_in
 
     from swtstudy import mechanics
 

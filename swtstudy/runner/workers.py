@@ -47,18 +47,16 @@ class LocalPool:
         return self._executor is not None
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        executor = self._executor
-        if kind is not None and executor is not None:
+        if kind is not None and self._executor is not None:
             # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
-            kill_workers(executor)
-            executor.shutdown(wait=False, cancel_futures=True)
-        self.close()
+            kill_workers(self._executor)
+        self.close(wait=kind is None)
 
-    def close(self) -> None:
+    def close(self, wait: bool = True) -> None:
         """Let the processes exit, and wait: an interpreter that exits meanwhile may print an error."""
         executor, self._executor = self._executor, None
         if executor is not None:
-            executor.shutdown(cancel_futures=True)
+            executor.shutdown(wait, cancel_futures=True)
 
     def start(self) -> LocalPool:
         """Start the processes, which import what they need while this one goes on."""

@@ -209,7 +209,7 @@ def _beside_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
 
 def _polynomial_maximum(values: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Maximum of the polynomials through the values (m, k) of a first round, near ``c`` of shape (m,)."""
-    # Not a matrix product, see `chebyshev.running_integral`.
+    # Not a matrix product, as in `chebyshev`.
     series = np.einsum("pk,mk->pm", POWERS, values)
     c = polynomial_maximum(series, c, c - FIRST_WIDTH, c + FIRST_WIDTH)
     return c, np.polynomial.polynomial.polyval(c, series, tensor=False)
