@@ -42,6 +42,7 @@ def test_ends_and_motion_are_those_of_the_cycle(load: Load) -> None:
     np.testing.assert_allclose(load.largest_normal, normal.max(axis=1), atol=1e-5)
     motion = 0.5 * (np.ptp(normal, axis=1) + np.ptp(tangential, axis=1))
     np.testing.assert_allclose(load.motion, motion, atol=1e-5)
+    np.testing.assert_allclose(load.normal_motion, 0.5 * np.ptp(normal, axis=1), atol=1e-5)
     assert load.moves_tangentially.all()
 
 

@@ -80,8 +80,7 @@ class MappedLoad(Load):
 
     @property
     def motion(self) -> FloatArray:
-        range_ = 0.5 * (self.largest_normal - self.least_normal)
-        return np.asarray(range_ + self.given.tangential_amplitude)
+        return np.asarray(self.normal_motion + self.given.tangential_amplitude)
 
     @property
     def moves_tangentially(self) -> NDArray[np.bool_]:

@@ -170,7 +170,7 @@ def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
     """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
     load, r = scene.cycle.load, np.abs(found.position)[:, None]
     r = told_by_fronts(scene.cycle, scene.coordinate, r)
-    normal = 0.5 * (load.largest_normal - load.least_normal)
+    normal = load.normal_motion
     distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
     # A motion within rounding is none.
     shares = [

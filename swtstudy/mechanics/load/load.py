@@ -71,6 +71,11 @@ class Load(ABC):
         """Shape (n,): amplitude of normal and tangential load together, 0 for a load at rest."""
 
     @property
+    def normal_motion(self) -> FloatArray:
+        """Shape (n,): amplitude of the normal load alone."""
+        return 0.5 * (self.largest_normal - self.least_normal)
+
+    @property
     @abstractmethod
     def moves_tangentially(self) -> NDArray[np.bool_]:
         """Shape (n,): whether the tangential load changes at all."""

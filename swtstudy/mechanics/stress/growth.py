@@ -51,7 +51,7 @@ class GrowthIntegrals:
         normal, tangential = cycle.load.oscillations
         smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * (tangential / normal)
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
-        amplitude = 0.5 * (cycle.load.largest_normal - cycle.load.least_normal)
+        amplitude = cycle.load.normal_motion
         slow = tangential * (cycle.load.motion - amplitude) < SLOW * normal * amplitude
         more = np.where(coordinate.profile.tip, digits, max(digits - 5.0, 0.0))
         nodes = count + slow * np.ceil(NODES_PER_DIGIT * more).astype(np.intp)

@@ -41,7 +41,7 @@ def arrival(
         Shape (n, X): of a contact edge and of a slip front, which move at most at some rate.
     """
     normal, tangential = load.oscillations
-    amplitude = 0.5 * (load.largest_normal - load.least_normal)
+    amplitude = load.normal_motion
     of_edge = COORDINATE * load.largest_normal + INSTANT * normal * amplitude
     of_front = of_edge + INSTANT * tangential * (load.motion - amplitude)
     next_to_r = coordinate.of(position + np.spacing(position)) - at

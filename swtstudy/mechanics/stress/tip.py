@@ -60,7 +60,7 @@ def reach_of_edges(load: Load) -> FloatArray:
 def reach_of_fronts(cycle: Cycle) -> FloatArray:
     """What the coordinates of `OF_FRONT` are over, shape (n,): 0 unless fronts come to the tip."""
     load = cycle.load
-    amplitude = load.motion - 0.5 * (load.largest_normal - load.least_normal)
+    amplitude = load.motion - load.normal_motion
     edge = np.maximum(OF_LEAST_EDGE * load.least_normal, OF_AMPLITUDE * amplitude)
     edge = np.clip(edge, LEAST_REACH * load.largest_normal, load.largest_normal)
     return np.where(cycle.gross_slip, edge, 0.0)
