@@ -24,7 +24,7 @@ from swtstudy.mechanics.body.body import TimeNodes
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.events.nodes import Nodes
-from swtstudy.mechanics.line.first_look import FirstLook, first_look
+from swtstudy.mechanics.line.first_look import Seen, first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.history import History, stresses
@@ -103,7 +103,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     shown: Variables = {
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(line.swt[0, 0], line.swt[0, -1]), named("SWT parameter", "swt")),
+        "s_local": ("x", _both_sides(line.swt[0, :, 0], line.swt[0, :, -1]), named("SWT parameter", "swt")),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
@@ -124,13 +124,13 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
 
 
-def _shown(solved: xr.Dataset, line: FirstLook, radius: FloatArray) -> tuple[float, float]:
+def _shown(solved: xr.Dataset, line: Seen, radius: FloatArray) -> tuple[float, float]:
     """Position and 2θ of the stress cycle shown: the critical ones, or those of the largest sample."""
     x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
     if np.isfinite(x):
         return x, double_angle
-    side, column = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
-    double_angle = float(line.double_angle[0, side, column])
+    column, side = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
+    double_angle = float(line.double_angle[0, column, side])
     return float((radius, -radius)[side][column]), (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
 

@@ -1,4 +1,4 @@
-"""Climbs to the maxima of swt along the surface line, many at once: where they stand."""
+"""Climbs to the maxima of swt along the surface line, many at once: where they start and where they stand."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.first_look import FirstLook
-from swtstudy.mechanics.line.look import LEVEL
-from swtstudy.mechanics.line.positions import PositionBrackets, Positions
+from swtstudy.mechanics.line.first_look import SHARE, Seen, candidates
+from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
+from swtstudy.mechanics.line.positions import Positions
+from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.planes.through_y import PlaneHistory, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -17,8 +20,9 @@ from swtstudy.mechanics.stress.scene import Scene
 #: shrinks from round to round. Twice the first: 1e-4 at 1 of 128 points; half: 3e-7.
 #: Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
-#: Up to this share of the largest radius positions are next to a tip.
-TIP = 1e-3
+#: Planes on which swt is looked at where climbs may start, and where more are tried beside the summits, 2θ
+#: in rad: those for other instants may be close by (tests/test_narrow_maxima.py); nearer, two are one.
+PLANES, BESIDE, SAME_PLANE = 48, np.array([0.0, -0.25, -0.05, 0.05, 0.25]), 0.01
 
 
 @dataclass(frozen=True)
@@ -27,12 +31,12 @@ class Climb:
 
     Attributes
     ----------
-    point, side, column
-        Number of the point, sign of x, and column of the position around which is searched.
+    point, side, place
+        Number of the point, sign of x, and number of the position around which is searched.
     angle
         2θ of the best plane so far, rad.
     centre, width
-        Where the next round looks, in the c of `PositionBrackets`.
+        Where the next round looks, in the c of `Positions.around`.
     top, seen
         Estimated maximum of swt, and the largest value so far.
     remaining
@@ -45,7 +49,7 @@ class Climb:
 
     point: NDArray[np.intp]
     side: FloatArray
-    column: NDArray[np.intp]
+    place: NDArray[np.intp]
     angle: FloatArray
     centre: FloatArray
     width: FloatArray
@@ -56,20 +60,20 @@ class Climb:
     settled: NDArray[np.bool_]
 
     @classmethod
-    def start(cls, scene: Scene, look: FirstLook, r: FloatArray) -> Climb:
-        """From the first look at positions r of a scene, shape (n, X)."""
-        point, side, column = look.candidates(r)
-        angle = look.closer(scene, point, side, column)
-        # Next to a tip shear alone makes two planes that the first look cannot tell apart.
-        again = np.flatnonzero(scene.profile.tip[point] & (r[point, column] < TIP * r.max(axis=1)[point]))
-        if again.size:
-            point, side, column = (np.append(values, values[again]) for values in (point, side, column))
-            angle = np.append(angle, -angle[again])
-        x_sign = np.where(side == 0, 1.0, -1.0)
-        centre, top, seen, remaining = np.zeros((4, len(point)))
-        width, rounds = np.full(len(point), FIRST_WIDTH), np.zeros(len(point), dtype=np.intp)
-        settled = np.zeros(len(point), dtype=bool)
-        return cls(point, x_sign, column, angle, centre, width, top, seen, remaining, rounds, settled)
+    def start(cls, scene: Scene, positions: Positions, seen: Seen, resolution: Resolution) -> Climb:
+        """From a first look at positions of n points, on each plane on which swt may be largest."""
+        place, side = candidates(positions, seen)
+        own, x_sign = scene.take(positions.point[place]), np.where(side == 0, 1.0, -1.0)
+        look = Look.at(own, positions.r[place][:, None], resolution.nodes, resolution.digits)
+        planes = own.planes(look.history, x_sign[:, None, None]).take(np.arange(place.size), 0 * place)
+        row, angle, swt = _summits(planes, look.inside[:, 0])
+        point = positions.point[place[row]]
+        largest = np.zeros(len(scene))
+        np.maximum.at(largest, point, swt)
+        high = swt >= (1.0 - SHARE) * largest[point]
+        row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
+        heights = zero, zero + FIRST_WIDTH, zero, zero, zero
+        return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)
 
     def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Climb:
         """The local maxima at ``index``."""
@@ -86,8 +90,8 @@ class Climb:
 
         On another plane the position itself may be higher than the other one has seen.
         """
-        order = np.lexsort((moved, self.column, self.side, self.point))
-        key = np.stack([self.point, self.side, self.column])[:, order]
+        order = np.lexsort((moved, self.place, self.side, self.point))
+        key = np.stack([self.point, self.side, self.place])[:, order]
         same = np.zeros(len(order), dtype=bool)
         same[1:] = (key[:, 1:] == key[:, :-1]).all(axis=0)
         first = np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))
@@ -117,6 +121,44 @@ class Climb:
             rounds=twins.rounds + 1,
         )
 
-    def brackets(self, positions: Positions) -> PositionBrackets:
-        """Where the positions around which is searched lie."""
-        return PositionBrackets.around(positions, self.point, self.column)
+
+def _summits(
+    planes: PlaneHistory, inside: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """Planes on which swt has its local maxima at m places, as far as they may be the largest.
+
+    Parameters
+    ----------
+    planes
+        At m places and T instants.
+    inside
+        Shape (m, T), see `Look.inside`.
+
+    Returns
+    -------
+    row, double_angle, swt
+        Shape (k,): numbers of the places, ascending, 2θ of the planes in rad and swt there.
+    """
+
+    def height(some: PlaneHistory, angle: FloatArray, within: NDArray[np.bool_]) -> FloatArray:
+        tops = (lifted(curve, within).max(axis=-1) for curve in curves(*some.on_plane(angle)))
+        return of_maxima(*tops, walker=some.walker)
+
+    angles = 2.0 * np.pi / PLANES * np.arange(PLANES)
+    table = np.array([height(planes, np.full(len(inside), angle), inside) for angle in angles])
+    peak = (table >= np.roll(table, 1, axis=0)) & (table > np.roll(table, -1, axis=0))
+    peak &= table >= (1.0 - 2.0 * SHARE) * table.max(axis=0)
+    # A place without tension keeps one.
+    peak[table.argmax(axis=0), np.arange(len(inside))] = True
+    row, plane = np.nonzero(peak.T)
+    reached = climb_over_planes(planes.take(row), angles[plane] + BESIDE[:, None], ANGLE_ROUNDS).ravel()
+    row = np.tile(row, len(BESIDE))
+    swt = height(planes.take(row), reached, inside[row])
+    order = np.lexsort((-swt, row))
+    row, reached, swt = row[order], reached[order], swt[order]
+    # Of starts that lead to one summit the highest counts.
+    known = np.zeros(row.size, dtype=bool)
+    for back in range(1, int(np.bincount(row).max(initial=1))):
+        apart = np.angle(np.exp(1j * (reached[back:] - reached[:-back])))
+        known[back:] |= (row[back:] == row[:-back]) & (np.abs(apart) < SAME_PLANE)
+    return row[~known], reached[~known], swt[~known]

@@ -1,4 +1,9 @@
-"""A first look at swt along the surface line: at few event-aligned instants, on few planes."""
+"""A first look along the surface line: where swt may be largest, from positions that resolve it.
+
+Between two cusps swt(r) is smooth but for square roots at the ends and convex kinks, so that its maxima are
+smooth or at the ends. Each piece gets nested cosine-spaced positions, doubled until the finer ones are as the
+coarser ones predict, or until what is left unseen cannot be the largest.
+"""
 
 from __future__ import annotations
 
@@ -8,172 +13,161 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, Resolution, reach
+from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Local maxima below this share of the largest are not followed: so far the few planes and instants are off.
-#: 0.95: no change at 128 points, nor at those of tests/test_narrow_maxima.py, less than 10 % faster.
-CANDIDATE_SHARE = 0.85
-#: Change of 2θ to the next position by which another plane has taken over, rad, and the share of the largest
-#: swt from which that is followed. Never: 6e-3 and 4e-4 at two points of tests/test_narrow_maxima.py.
-JUMP, HIDDEN_SHARE = 0.15, 0.97
-#: Two local maxima whose heights differ by less, relative, are both followed. 0: no change at 128 points, nor
-#: at those of tests/test_narrow_maxima.py.
-TWIN = 0.01
-#: Positions nearer than this share of their range lie side by side. 0: no change at 128 points.
-SIDE_BY_SIDE = 1e-4
-#: Planes that are tried where the first look finds a local maximum. Half or twice: rounding, at 128 points.
-CLOSER_PLANES = 72
+#: Share of the largest swt that positions may leave unseen, and so may instants and planes. Twice or half: no
+#: maximum more or less is overlooked (`studies/checks/overlooked.py`).
+SHARE = 0.05
+#: Steps with which a piece begins, the fewest that say whether they are enough; and steps at most.
+STEPS, MOST_STEPS = 4, 256
+#: Planes that are tried, and instants, which leave such a share unseen.
+PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
+#: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
+#: what is looked at stays in the processor's cache.
+LOOK_SIZE = 32_000
 
 
 @dataclass(frozen=True)
-class FirstLook:
-    """swt at n × X positions on both sides of the contact, to the accuracy of a first look.
+class Seen:
+    """swt at positions of the line to the accuracy of a first look, (…, 2), or (…, 1) where sides are alike.
 
     Attributes
     ----------
-    swt, double_angle, highest
-        Shape (n, 2, X): at x = +r and x = −r, or (n, 1, X) where both are alike; 2θ in rad; and how high swt
-        may really be between the instants.
-    history
-        What was seen there; where both sides are alike, the second half is the mirror image of the first.
+    swt, double_angle
+        At x = +r and x = −r, and 2θ of the best planes in rad.
+    highest
+        How high swt on these planes may really be between the instants.
     """
 
     swt: FloatArray
     double_angle: FloatArray
     highest: FloatArray
-    history: History
 
-    def candidates(self, r: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """The `local_maxima`, and where swt may be highest between instants, unless beside one of these."""
-        peaks = local_maxima(self.swt, self.double_angle, r)
-        n, sides, columns = self.swt.shape
-        chosen = np.zeros((n, sides, columns + 2), dtype=bool)
-        for step in range(3):
-            chosen[peaks[0], peaks[1], peaks[2] + step] = True
-        side, column = np.divmod(self.highest.reshape(n, -1).argmax(axis=1), columns)
-        more = np.flatnonzero(~chosen[np.arange(n), side, column + 1])
-        besides = more, side[more], column[more]
-        point, side, column = (np.concatenate(both) for both in zip(peaks, besides, strict=True))
-        return point, side, column
+    def take(self, *index: NDArray[np.intp] | NDArray[np.bool_]) -> Seen:
+        """What is seen at some of the positions."""
+        return Seen(*(values[index] for values in vars(self).values()))
 
-    def closer(
-        self, scene: Scene, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
-    ) -> FloatArray:
-        """2θ of the best planes at single positions, rad, shape (m,), from a closer look on more planes.
-
-        Parameters
-        ----------
-        scene
-            The n points.
-        point, side, column
-            Shape (m,): index of the positions.
-        """
-        x_sign = np.where(side == 0, 1.0, -1.0)[:, None, None]
-        planes = scene.take(point).planes(self.history.take(point[:, None], column[:, None]), x_sign)
-        return coarse_swt(planes, CLOSER_PLANES)[1][:, 0]
+    @classmethod
+    def joined(cls, several: list[Seen]) -> Seen:
+        """What is seen in several looks."""
+        columns = zip(*(vars(one).values() for one in several), strict=True)
+        return cls(*(np.concatenate(values) for values in columns))
 
 
-def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> FirstLook:
-    """Look at swt on both sides of the contact.
-
-    Parameters
-    ----------
-    scene
-        n points.
-    position
-        Shape (n, X): r = |x|.
-    resolution
-        Its zooms are not used.
-    planes
-        Number of planes that are tried.
-    """
+def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> Seen:
+    """Look at positions r = |x|, shape (n, X), on both sides of n contacts, on so many planes."""
     # Half of the period is enough where the other half is its mirror image.
     mirrored = scene.mirrored_half
     cycle = scene.cycle.first_half() if mirrored else scene.cycle
     look = Look.at(replace(scene, cycle=cycle), position, resolution.nodes, resolution.digits)
-    history = look.history
+    history, inside = look.history, look.inside
     if mirrored:
         # The same instants with the tangential load reversed.
         history = history.joined(history.with_tangential_sign(-1.0))
-    inside = np.concatenate([look.inside] * (2 if mirrored else 1), axis=-1)
-    sides = [
-        _seen(scene.planes(history, side), inside, planes) for side in ((1.0,) if mirrored else (1.0, -1.0))
-    ]
-    swt, angle, highest = (np.stack(both, axis=1) for both in zip(*sides, strict=True))
-    return FirstLook(swt, angle, highest, history)
+        inside = np.concatenate([inside, inside], axis=-1)
+    signs = (1.0,) if mirrored else (1.0, -1.0)
+    sides = [_seen(scene.planes(history, sign), inside, planes) for sign in signs]
+    return Seen(*(np.stack(both, axis=-1) for both in zip(*sides, strict=True)))
 
 
 def _seen(
     planes: PlaneHistory, inside: NDArray[np.bool_], count: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """swt, 2θ and how high swt may really be on these of ``count`` planes, each (n, X)."""
+    """What `Seen` holds of one side, each (n, X)."""
     swt, angle = coarse_swt(planes, count)
     highest = swt.copy()
-    at = np.nonzero(swt >= CANDIDATE_SHARE * swt.max(axis=1, keepdims=True))
-    of_swt = curves(*planes.take(*at).on_plane(angle[at]))
-    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
+    at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))
+    some = planes.take(*at)
+    of_swt = curves(*some.on_plane(angle[at]))
+    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt), walker=some.walker)
     return swt, angle, highest
 
 
-def local_maxima(
-    swt: FloatArray, double_angle: FloatArray, r: FloatArray
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Point, side and column of the local maxima that may hold the largest swt.
+def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
+    """Positions that resolve swt in all pieces as far as it may be largest there, and what is seen."""
+    steps, going = STEPS, np.arange(len(pieces.point))
+    # The last piece of a point has its end, too; the others end where the next one begins.
+    count = steps + pieces.is_last
+    piece = np.repeat(going, count)
+    share = (np.arange(piece.size) - np.repeat(np.cumsum(count) - count, count)) / steps
+    found = [(piece, share, look_at(scene, pieces, piece, share))]
+    values = found[0][2].swt[np.flatnonzero(share == 0.0)[:, None] + np.arange(steps + 1)]
+    largest = np.zeros(len(scene))
+    while True:
+        highest = values.max(axis=(1, 2))
+        np.maximum.at(largest, pieces.point[going], highest)
+        unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
+        top = largest[pieces.point[going]]
+        open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
+        going, values = going[open_], values[open_]
+        if not going.size or steps == MOST_STEPS:
+            break
+        piece, share = np.repeat(going, steps), np.tile((np.arange(steps) + 0.5) / steps, going.size)
+        found.append((piece, share, look_at(scene, pieces, piece, share)))
+        finer = np.empty((going.size, 2 * steps + 1, values.shape[-1]))
+        finer[:, ::2], finer[:, 1::2] = values, found[-1][2].swt.reshape(going.size, steps, -1)
+        values, steps = finer, 2 * steps
+    piece, share = (np.concatenate([part[k] for part in found]) for k in range(2))
+    order = np.lexsort((share, piece))
+    seen = Seen.joined([part[2] for part in found]).take(order)
+    return Positions.of(pieces, piece[order], np.pi * share[order]), seen
 
-    Parameters
-    ----------
-    swt, double_angle
-        Shape (n, 1 or 2, X), on one or both sides; 2θ of the best planes, rad.
-    r
-        Shape (n, X): the positions, ascending; shorter rows repeat their first one.
+
+def _predicted(values: FloatArray) -> FloatArray:
+    """Values midway between evenly spaced ones, (m, k, sides), by the nearest four, or three, of them."""
+    if values.shape[1] == 3:
+        weights = np.array([[3.0, 6.0, -1.0], [-1.0, 6.0, 3.0]]) / 8.0
+        return np.asarray(np.einsum("ij,mjs->mis", weights, values))
+    inner = 9.0 * (values[:, 1:-2] + values[:, 2:-1]) - values[:, :-3] - values[:, 3:]
+    at_end = np.array([5.0, 15.0, -5.0, 1.0])
+    first, last = (np.einsum("j,mjs->ms", at_end, v)[:, None] for v in (values[:, :4], values[:, :-5:-1]))
+    return np.concatenate([first, inner, last], axis=1) / 16.0
+
+
+def look_at(scene: Scene, pieces: Pieces, piece: NDArray[np.intp], share: FloatArray) -> Seen:
+    """Look at shares of the angle of pieces, (m,) each, the pieces in ascending order."""
+    point, r = pieces.point[piece], pieces.radius(piece, np.pi * share)
+    count = np.bincount(point, minlength=len(scene))
+    start = np.cumsum(count) - count
+    found = Seen(*np.empty((3, point.size, 1 if scene.mirrored_half else 2)))
+    # Points with as many positions together: rows are as long as the longest.
+    left = np.argsort(-count, kind="stable")[: np.count_nonzero(count)]
+    while left.size:
+        column = np.arange(count[left[0]])
+        size = max(LOOK_SIZE // (column.size * scene.cycle.begin.shape[1]), 1)
+        rows, left = left[:size], left[size:]
+        own = count[rows][:, None]
+        index, real = start[rows][:, None] + np.minimum(column, own - 1), column < own
+        look = first_look(scene.take(rows), r[index], RESOLUTION, PLANES)
+        for values, seen in zip(vars(found).values(), vars(look).values(), strict=True):
+            values[index[real]] = seen[real]
+    return found
+
+
+def candidates(positions: Positions, seen: Seen) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Numbers and sides of the positions around which swt may be largest, shape (k,) each.
+
+    These are the local maxima of what is seen, as far as positions, instants and planes may each leave a
+    share of it unseen, and those of what may be between the instants, as far as it may be the largest.
     """
-    largest = swt.max(axis=(1, 2), keepdims=True)
-    over_left, over_right = _over_neighbours(swt, r)
-    peak = over_left & over_right & (swt >= CANDIDATE_SHARE * largest)
-    peak |= _hidden(swt, double_angle, over_left, over_right, HIDDEN_SHARE * largest)
-    # A point without tension anywhere keeps one bracket all the same.
-    peak[:, 0, 0] |= largest[:, 0, 0] <= 0.0
-    point, side, column = np.nonzero(peak)
-    return point, side, column
+    point = positions.point
+    largest = np.zeros(point.max(initial=-1) + 1)
+    np.maximum.at(largest, point, seen.swt.max(axis=1))
+    top = largest[point][:, None]
+    chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * top)
+    chosen |= _peaks(point, seen.highest) & (seen.highest >= top)
+    place, side = np.nonzero(chosen)
+    return place, side
 
 
-def _over_neighbours(swt: FloatArray, r: FloatArray) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Whether swt is higher than at the left neighbour, and whether it is no lower than at the right one.
-
-    Of two cusps side by side that make a maximum together, each has its own neighbour on the other side.
-    """
-    ends = ((0, 0), (0, 0))
-    left, right = swt[..., :-1], swt[..., 1:]
-    over_right = np.pad(left >= right, (*ends, (0, 1)), constant_values=True)
-    over_left = np.pad(right > left, (*ends, (1, 0)), constant_values=True)
-    gap = np.diff(r)
-    together = ((gap > 0.0) & (gap < SIDE_BY_SIDE * (r.max(axis=1) - r[:, 0])[:, None]))[:, None]
-    together = together & (np.minimum(right, left) >= (1.0 - TWIN) * np.maximum(right, left))
-    over_right[..., :-1] |= together & over_right[..., 1:]
-    over_left[..., 1:] |= together & over_left[..., :-1]
-    return over_left, over_right
-
-
-def plane_jumps(double_angle: FloatArray) -> NDArray[np.bool_]:
-    """Whether another plane takes over between neighbouring positions (…, X), shape (…, X − 1)."""
-    return np.asarray(np.abs(np.angle(np.exp(1j * np.diff(double_angle)))) > JUMP)
-
-
-def _hidden(
-    swt: FloatArray,
-    double_angle: FloatArray,
-    over_left: NDArray[np.bool_],
-    over_right: NDArray[np.bool_],
-    least: FloatArray,
-) -> NDArray[np.bool_]:
-    """Where another plane takes over, its maximum may hide beside the flank of the former one's."""
-    turn = plane_jumps(double_angle)
-    turn &= np.minimum(swt[..., 1:], swt[..., :-1]) >= least
-    hidden = np.zeros(swt.shape, dtype=bool)
-    hidden[..., 1:] |= turn & over_right[..., 1:]
-    hidden[..., :-1] |= turn & over_left[..., :-1]
-    return hidden
+def _peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
+    """Local maxima of values, (m, sides), at the positions of points, (m,); of equal ones the first."""
+    same = (np.diff(point) == 0)[:, None]
+    peak = np.ones(values.shape, dtype=bool)
+    peak[:-1] &= ~same | (values[:-1] >= values[1:])
+    peak[1:] &= ~same | (values[1:] > values[:-1])
+    return peak

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
-from swtstudy.mechanics.line.first_look import first_look
+from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.line.positions import Positions, positions_of_first_look
+from swtstudy.mechanics.line.positions import Pieces, Positions, cusps
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
@@ -20,19 +20,13 @@ from swtstudy.mechanics.stress.passing import arrival
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import told_by_fronts
 
-#: Planes that the first look tries. Half or twice: no change at 128 points, 5 % faster or slower.
-SCAN_PLANES = 16
-#: One step in place of two: 3e-7 at rtol 1e-5, 5 % faster; a digit less: 3e-8, no faster.
-SCAN_RESOLUTION = Resolution(nodes=2, zooms=0, digits=3.5)
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
 #: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/test_narrow_maxima.py); 0.9 throughout: no gain.
 SHARES = 0.97, 0.995, 0.999
 #: Rounds of the climbs at most. Half or twice: no change at 128 points.
 LARGEST_ROUND_COUNT = 16
-#: Points times positions times intervals of the cycle that a first look takes at a time, and local maxima
-#: times squared intervals that a round does: memory is bounded, and what is looked at stays in the
-#: processor's cache. All at once: 80 MB more at 100 points with ω2/ω1 = 1/4; a quarter: 40 % slower.
-LOOK_SIZE, PART_SIZE = 32_000, 100_000
+#: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
+PART_SIZE = 100_000
 #: Least error that is claimed, as a share of the tolerance. Half: none of 128 points misses s_error.
 LEAST_SHARE = 0.25
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
@@ -97,12 +91,17 @@ class Maximum:
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     """Largest swt on the surface line of each of the n points of the scene.
 
-    Points that miss the tolerance are searched once more with twice the instants and more rounds.
+    Points that miss the tolerance are climbed to once more with twice the instants and more rounds.
     """
-    found = _search(scene, accuracy)
+    split = scene.split_at_breakpoints()
+    ends = cusps(split.cycle, scene.coordinate, scene.bulk is not None)
+    positions, seen = resolved(scene, Pieces.between(ends, scene.profile.feature_length))
+    start = Climb.start(split, positions, seen, accuracy.search)
+    found = _climbed(split, positions, start, accuracy)
     doubtful = np.flatnonzero(found.error > accuracy.tolerance * found.swt)
     if doubtful.size:
-        again = _search(scene.take(doubtful), accuracy.finer())
+        some = start.take(np.isin(start.point, doubtful))
+        again = _climbed(split, positions, some, accuracy.finer())
         # What was found is there: the larger value stands, and the smaller error.
         better = (again.error < found.error[doubtful]) & (
             again.swt >= found.swt[doubtful] - found.error[doubtful]
@@ -200,22 +199,8 @@ def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
     return spread
 
 
-def _candidates(scene: Scene, positions: Positions) -> Climb:
-    """Climbs from the first look, which takes some points at a time."""
-    size = max(LOOK_SIZE // (positions.r.shape[1] * scene.cycle.begin.shape[1]), 1)
-    climbs = []
-    for rows in np.array_split(np.arange(len(scene)), -(-len(scene) // size)):
-        some, r = scene.take(rows), positions.r[rows]
-        climb = Climb.start(some, first_look(some, r, SCAN_RESOLUTION, SCAN_PLANES), r)
-        climbs.append(replace(climb, point=rows[climb.point]))
-    return Climb.joined(climbs)
-
-
-def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
-    """First look, local search and check."""
-    split = scene.split_at_breakpoints()
-    positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
-    climb = _candidates(scene, positions)
+def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
+    """The maxima of the points to which climbs belong, in their order, looked at once more at the top."""
     largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)
     for turn in range(LARGEST_ROUND_COUNT):
         going = np.flatnonzero(~climb.settled)
@@ -224,13 +209,13 @@ def _search(scene: Scene, accuracy: Accuracy) -> Maximum:
         parts = np.array_split(going, -(-going.size // largest_part))
         rounds = [climb_round(split, positions, climb.take(part), accuracy) for part in parts]
         moved = Climb.joined([climb.take(climb.settled), *(same for same, _ in rounds)])
-        before = np.concatenate([climb.column[climb.settled], climb.column[going]])
+        before = np.concatenate([climb.place[climb.settled], climb.place[going]])
         others = [other for _, other in rounds]
-        climb = Climb.joined([moved.without_followers(moved.column != before), *others])
+        climb = Climb.joined([moved.without_followers(moved.place != before), *others])
         climb = climb.leading(climb.top, SHARES[min(turn, len(SHARES) - 1)])
     # What is still on its way counts for what was seen of it.
     climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])
-    r = climb.brackets(positions).radius(climb.centre[:, None])
+    r = positions.take(climb.place).around(climb.centre[:, None])
     value, angle = refine(split.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
     order = np.lexsort((-value[:, 0], climb.point))
     best = order[np.unique(climb.point[order], return_index=True)[1]]

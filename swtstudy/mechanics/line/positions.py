@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
 
@@ -42,29 +42,6 @@ NO_LENGTH = 1e-12
 FAR_APART = 1e4
 #: Angles α nearer than this to 0 or π are an end of the stretch. 1e-11 or 1e-7: no change at 128 points.
 END = 1e-9
-
-
-@dataclass(frozen=True)
-class Positions:
-    """Positions r of a first look, ascending, and how they lie in the smooth stretches.
-
-    Attributes
-    ----------
-    r
-        Shape (n, X); shorter rows repeat their first position.
-    count
-        Shape (n,): number of positions of each row.
-    low, high, alpha, step
-        Shape (n, X, 2), for the left and the right side of each position: the ends of the stretch, the
-        angle α of the position in it, and the change of α to the next position.
-    """
-
-    r: FloatArray
-    count: NDArray[np.intp]
-    low: FloatArray
-    high: FloatArray
-    alpha: FloatArray
-    step: FloatArray
 
 
 def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> FloatArray:
@@ -111,44 +88,108 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 
-def spread_positions(
-    ends: FloatArray,
-    spread: FloatArray,
-    flat_radius: FloatArray,
-    within: tuple[FloatArray, FloatArray] | None = None,
-) -> Positions:
-    """Cosine-spaced positions between the cusps, about ``spread`` of them and two for each cusp at most.
+@dataclass(frozen=True)
+class Pieces:
+    """The P smooth pieces of the line between the cusps of n points, point by point, ascending.
 
-    Parameters
+    Attributes
     ----------
-    ends
-        Shape (n, k), see `cusps`.
-    spread
-        Shape (n,): number of positions over the whole range, were there no cusps.
-    flat_radius
-        Shape (n,): b. Beside a face depth is like w = √(r² − b²): by that, too, the positions are shared.
-    within
-        Shape (n, 1): ends of the range that is meant, if not the whole; stretches outside of it have
-        `OUTSIDE_STEPS`.
+    point
+        Shape (P,): whose they are.
+    low, high
+        Shape (P,): their ends in a_H; each begins where the last one of its point ends.
     """
-    parts = _StretchesOfRange.of(ends, spread, flat_radius, within)
-    stretch, place, count = parts.places()
-    step = gather(np.pi / parts.steps, stretch)
-    alpha = place * step
-    before = parts.before(stretch, place)
-    left = np.where(before == stretch, alpha, np.pi)
 
-    def both_sides(values: FloatArray) -> FloatArray:
-        return np.stack([gather(values, before), gather(values, stretch)], axis=-1)
+    point: NDArray[np.intp]
+    low: FloatArray
+    high: FloatArray
 
-    return Positions(
-        _places(gather(parts.low, stretch), gather(parts.high, stretch), alpha),
-        count,
-        both_sides(parts.low),
-        both_sides(parts.high),
-        np.stack([left, alpha], axis=-1),
-        both_sides(np.pi / parts.steps),
-    )
+    @classmethod
+    def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
+        """Those between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
+        low, high = ends[:, :-1], ends[:, 1:]
+        # Next to a sharp tip pieces are short, but not as they lie there.
+        real = high - low > np.minimum(NO_LENGTH * (ends[:, -1:] - ends[:, :1]), 0.5 * high)
+        point, number = np.nonzero(real)
+        last = np.append(np.diff(point) > 0, True)
+        # However short a piece is left out, the next one begins there: a thin slip zone has its s at the end.
+        begin = low[point, number]
+        end = np.where(last, ends[point, -1], np.roll(begin, -1))
+        waves = np.ceil((end - begin) / feature_length[point]).clip(1.0).astype(np.intp)
+        wave = np.arange(waves.sum()) - np.repeat(np.cumsum(waves) - waves, waves)
+        point, begin, end, waves = (np.repeat(v, waves) for v in (point, begin, end, waves))
+        length = (end - begin) / waves
+        return cls(
+            point, begin + wave * length, np.where(wave == waves - 1, end, begin + (wave + 1) * length)
+        )
+
+    @property
+    def is_last(self) -> NDArray[np.bool_]:
+        """Shape (P,): which are the last of their points."""
+        return np.append(np.diff(self.point) > 0, True)
+
+    def radius(self, piece: NDArray[np.intp], alpha: FloatArray) -> FloatArray:
+        """Positions r at the angles α of pieces, both of shape (m,)."""
+        return _places(self.low[piece], self.high[piece], alpha)
+
+
+@dataclass(frozen=True)
+class Positions:
+    """m positions on the line of n points, one point's after the other's, ascending.
+
+    Attributes
+    ----------
+    point
+        Shape (m,): whose they are.
+    r
+        Shape (m,): |x| in a_H.
+    low, high, alpha, step
+        Shape (m, 2), for the left and the right side of each position: the ends of the piece, the angle α of
+        the position in it, and the change of α to the next position.
+    """
+
+    point: NDArray[np.intp]
+    r: FloatArray
+    low: FloatArray
+    high: FloatArray
+    alpha: FloatArray
+    step: FloatArray
+
+    @classmethod
+    def of(cls, pieces: Pieces, piece: NDArray[np.intp], alpha: FloatArray) -> Positions:
+        """Those at angles of pieces, in their order; each piece but the last of a point lacks its end."""
+        point = pieces.point[piece]
+        first = np.append(True, np.diff(point) > 0)
+        last = np.append(first[1:], True)
+        begins = (alpha == 0.0) & ~first
+        before = np.where(begins, piece - 1, piece)
+        left = np.where(begins, np.pi, alpha)
+        right = np.append(np.where(begins[1:], np.pi, alpha[1:]), 0.0) - alpha
+        sides = np.stack([before, piece], axis=-1)
+        step = np.stack([np.where(first, 0.0, np.roll(right, 1)), np.where(last, 0.0, right)], axis=-1)
+        r = pieces.radius(piece, alpha)
+        return cls(point, r, pieces.low[sides], pieces.high[sides], np.stack([left, alpha], axis=-1), step)
+
+    def take(self, index: NDArray[np.intp]) -> Positions:
+        """The positions at ``index``, repetitions allowed."""
+        return Positions(*(values[index] for values in vars(self).values()))
+
+    @property
+    def is_corner(self) -> NDArray[np.bool_]:
+        """Shape (m,): whether a piece ends there, so that swt may have a cusp."""
+        return np.asarray(
+            (self.alpha[:, 0] == np.pi) | (self.alpha[:, 1] == 0.0) | (self.alpha[:, 1] == np.pi)
+        )
+
+    def around(self, c: FloatArray) -> FloatArray:
+        """r beside the positions, shape (m, k), at c from −1, the left neighbour, to 1, the right one."""
+        right = c > 0.0
+
+        def of_side(values: FloatArray) -> FloatArray:
+            return np.where(right, values[:, 1:], values[:, :1])
+
+        alpha = np.clip(of_side(self.alpha) + c * of_side(self.step), 0.0, np.pi)
+        return _places(of_side(self.low), of_side(self.high), alpha)
 
 
 def _places(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
@@ -159,136 +200,3 @@ def _places(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
         low, high, alpha = (values[far] for values in np.broadcast_arrays(low, high, alpha))
         places[far] = np.exp(between(np.log(low), np.log(high), alpha))
     return places
-
-
-@dataclass(frozen=True)
-class _StretchesOfRange:
-    """The m stretches between the cusps, arrays of shape (n, m).
-
-    Attributes
-    ----------
-    low, high
-        Their ends.
-    steps
-        Numbers of steps between the positions of each.
-    real
-        Which have a length.
-    last
-        Shape (n,): the last of these.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    steps: NDArray[np.intp]
-    real: NDArray[np.bool_]
-    last: NDArray[np.intp]
-
-    @classmethod
-    def of(
-        cls,
-        ends: FloatArray,
-        spread: FloatArray,
-        flat: FloatArray,
-        within: tuple[FloatArray, FloatArray] | None,
-    ) -> _StretchesOfRange:
-        """See `spread_positions`."""
-        low, high = ends[:, :-1], ends[:, 1:].copy()
-        first, last = within or (ends[:, :1], ends[:, -1:])
-        length, total = high - low, last - first
-
-        def rise(radius: FloatArray) -> FloatArray:
-            return np.sqrt(np.maximum((radius - flat[:, None]) * (radius + flat[:, None]), 0.0))
-
-        share = np.maximum(length / total, np.diff(rise(ends)) / (rise(last) - rise(first)))
-        steps = np.clip(np.ceil(share * spread[:, None]), 1, None).astype(np.intp)
-        if within:
-            steps[(low >= last) | (high <= first)] = OUTSIDE_STEPS
-        # Next to a sharp tip stretches are short, but not as they lie there.
-        real = length > np.minimum(NO_LENGTH * total, 0.5 * high)
-        outermost = real.shape[1] - 1 - real[:, ::-1].argmax(axis=1)
-        # However short a stretch is left out behind it: a thin slip zone has its s at the end of the range.
-        high[np.arange(len(ends)), outermost] = ends[:, -1]
-        return cls(low, high, steps, real, outermost)
-
-    def places(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-        """Stretch of each position and its place in it, shape (n, X), and the number of positions, (n,).
-
-        Each stretch with a length has the positions at its steps; only the last one has its end, too.
-        """
-        n, m = self.low.shape
-        number = np.arange(int(self.steps.max()) + 1)
-        keep = self.real[:, :, None] & (number < self.steps[:, :, None])
-        keep[np.arange(n), self.last, self.steps[np.arange(n), self.last]] = True
-        kept = keep.reshape(n, -1)
-        stretch, place = (
-            np.broadcast_to(values, keep.shape).reshape(n, -1) for values in (np.arange(m)[:, None], number)
-        )
-        return *packed(kept, stretch, place), kept.sum(axis=1)
-
-    def before(self, stretch: NDArray[np.intp], place: NDArray[np.intp]) -> NDArray[np.intp]:
-        """The stretch to the left of each position: its own but at its begin."""
-        number = np.arange(self.low.shape[1])
-        previous = np.maximum.accumulate(np.where(self.real, number, -1), axis=1)
-        left = np.where(place > 0, stretch, gather(previous, np.maximum(stretch - 1, 0)))
-        return np.where((place == 0) & (stretch == 0) | (left < 0), stretch, left)
-
-
-def positions_of_first_look(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Positions:
-    """Positions of the first look at each of the n points; for ``everywhere`` see `cusps`."""
-    ends = cusps(cycle, coordinate, everywhere)
-    low, high = ends[:, :1], ends[:, -1:]
-    if everywhere:
-        low = np.maximum(low, coordinate.profile.flat_radius[:, None])
-        high = ends[:, -2 - BEYOND.size, None]
-    waves = (high - low)[:, 0] / coordinate.profile.feature_length
-    normal, tangential = cycle.load.oscillations
-    oscillations = max(tangential / normal - 1.0, 0.0)
-    spread = SPREAD + SPREAD_PER_WAVE * waves + SPREAD_PER_OSCILLATION * oscillations
-    flat = coordinate.profile.flat_radius
-    return spread_positions(ends, spread, flat, (low, high) if everywhere else None)
-
-
-@dataclass(frozen=True)
-class PositionBrackets:
-    """m brackets around positions, walked by c from −1 (left neighbour) to 1 (right neighbour).
-
-    Attributes
-    ----------
-    low, high, alpha, step
-        Shape (m, 2), as in `Positions`.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    alpha: FloatArray
-    step: FloatArray
-
-    @classmethod
-    def around(
-        cls, positions: Positions, row: NDArray[np.intp], column: NDArray[np.intp]
-    ) -> PositionBrackets:
-        """Brackets around the positions in ``column`` of ``row``, each of shape (m,)."""
-        at = row, column
-        return cls(positions.low[at], positions.high[at], positions.alpha[at], positions.step[at])
-
-    def take(self, index: NDArray[np.intp]) -> PositionBrackets:
-        """The brackets at ``index``."""
-        return PositionBrackets(*(values[index] for values in vars(self).values()))
-
-    @property
-    def is_corner(self) -> NDArray[np.bool_]:
-        """Shape (m,): whether a stretch ends at c = 0, so that swt may have a cusp there."""
-        at_end = (self.alpha[:, 0] <= END) | (self.alpha[:, 1] >= np.pi - END)
-        return np.asarray(
-            at_end | (self.low[:, 0] != self.low[:, 1]) | (self.alpha[:, 0] != self.alpha[:, 1])
-        )
-
-    def radius(self, c: FloatArray) -> FloatArray:
-        """Positions r at c, shape (m, k)."""
-        right = c > 0.0
-
-        def of_side(values: FloatArray) -> FloatArray:
-            return np.where(right, values[:, 1:], values[:, :1])
-
-        alpha = np.clip(of_side(self.alpha) + c * of_side(self.step), 0.0, np.pi)
-        return _places(of_side(self.low), of_side(self.high), alpha)

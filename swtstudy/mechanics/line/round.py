@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
-from swtstudy.mechanics.line.first_look import TWIN, plane_jumps
-from swtstudy.mechanics.line.positions import PositionBrackets, Positions
+from swtstudy.mechanics.line.first_look import SHARE
+from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.peaks import polynomial_maximum, powers_from_values, vertex_near
@@ -54,7 +54,7 @@ class _Seen:
     """
 
     scene: Scene
-    brackets: PositionBrackets
+    brackets: Positions
     c: FloatArray
     values: FloatArray
     angles: FloatArray
@@ -111,7 +111,7 @@ def climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accu
 
 
 def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> _Seen:
-    brackets = climb.brackets(positions)
+    brackets = positions.take(climb.place)
     centre = climb.centre[:, None]
     c = np.clip(centre + climb.width[:, None] * OFFSETS, -1.0, 1.0)
     # A corner's other side is another function.
@@ -119,7 +119,7 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     c = np.where(centre < 0.0, np.minimum(c, 0.0), c)
     start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
     chosen = scene.take(climb.point)
-    values, angles = refine(chosen, brackets.radius(c), climb.side, start, accuracy.search)
+    values, angles = refine(chosen, brackets.around(c), climb.side, start, accuracy.search)
     # Equal values, as beyond the last position, count for the centre.
     best = (values * (1.0 - TIE * np.abs(c - centre))).argmax(axis=1)
     return _Seen(chosen, brackets, c, values, angles, best)
@@ -139,7 +139,7 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     remaining[smooth] = POLYNOMIAL_SHARE * np.abs(top[smooth] - parabola)
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
     # Values on different planes are no polynomial.
-    clear &= ~plane_jumps(seen.angles).any(axis=1)
+    clear &= (np.abs(np.angle(np.exp(1j * np.diff(seen.angles)))) <= 0.15).all(axis=1)
     return _Vertex(centre, top, remaining, clear)
 
 
@@ -150,15 +150,16 @@ def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tol
     # A maximum next to a corner shows only once the search is narrow.
     stays = seen.brackets.is_corner & (seen.place == 0.0) & (flat | (climb.rounds < LEAST_ROUND_COUNT))
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
-    neighbour = climb.column + seen.place.astype(np.intp)
-    beyond = (np.abs(seen.place) == 1.0) & (neighbour >= 0) & (neighbour < positions.count[climb.point])
+    neighbour = np.clip(climb.place + seen.place.astype(np.intp), 0, positions.r.size - 1)
+    beyond = (np.abs(seen.place) == 1.0) & (neighbour != climb.place)
+    beyond &= positions.point[neighbour] == climb.point
     outermost = seen.is_outermost & (seen.place != climb.centre)
     narrower = climb.width * np.where(outermost, WALKING, SHRINKING)
     small = np.maximum(vertex.remaining, rise) <= SETTLED * tolerance * vertex.top
     enough = climb.rounds + 1 >= LEAST_ROUND_COUNT
     return replace(
         climb,
-        column=np.where(beyond, neighbour, climb.column),
+        place=np.where(beyond, neighbour, climb.place),
         centre=np.where(beyond | stays, 0.0, vertex.centre),
         width=np.where(beyond, FIRST_WIDTH, narrower),
         angle=pick(seen.angles, seen.best),
@@ -176,7 +177,7 @@ def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
     values, best = seen.values[new], seen.best[new]
     padded = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
     peak = (1.0 - tolerance) * values > np.maximum(padded[:, 2:], padded[:, :-2])
-    high = values >= (1.0 - TWIN) * pick(values, best)[:, None]
+    high = values >= (1.0 - SHARE) * pick(values, best)[:, None]
     row, column = np.nonzero(peak & high & (np.arange(values.shape[1]) != best[:, None]))
     at = new[row], column
     return climb.twins(at[0], seen.c[at], seen.values[at], seen.angles[at])
@@ -201,7 +202,7 @@ def _beside_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
     some = climb.take(row)
     if not row.size:
         return some
-    r = seen.brackets.take(row).radius(place[:, None])
+    r = seen.brackets.take(row).around(place[:, None])
     value, angle = refine(seen.scene.take(row), r, some.side, some.angle[:, None], accuracy.search)
     higher = np.flatnonzero(value[:, 0] > largest)
     return some.twins(higher, place[higher], value[higher, 0], angle[higher, 0])

@@ -1,0 +1,200 @@
+"""Is a maximum overlooked? s of random points, small motions among them, against a dense look at the line.
+
+``python studies/checks/overlooked.py``, from the project's folder, writes results/overlooked.md: by scene,
+how many points are lower than the dense look by more than s_error, and by how much the worst. ``--points 1000``
+draws fewer of each 10,000, ``--quick`` next to none, to see that it runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from accuracy import SHAPES
+from nonlocal_means import worn
+
+from swtstudy.audit.dense import dense_look
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.indenter import check_shape
+from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.prescribed import Control
+
+Array = NDArray[np.float64]
+RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")]
+#: The dense look: steps of each piece, and planes.
+STEPS, PLANES = 64, 32
+#: Points that are drawn, and solved, together.
+CHUNK = 50
+RTOLS = 1e-4, 1e-6
+#: Relative accuracy of the dense look's own closest grids.
+DENSE = 1e-7
+
+
+def law(rng: np.random.Generator, profile: str = "paraboloid") -> Points:
+    """Displacements: both amplitudes logarithmic, over 0.01–0.9 and 0.001–1."""
+    ratio = [RATIOS[k] for k in rng.integers(len(RATIOS), size=CHUNK)]
+    depth = 10.0 ** rng.uniform(-2.0, np.log10(0.9), CHUNK)
+    shape = {name: rng.uniform(*ends, CHUNK) for name, ends in SHAPES.get(profile, {}).items()}
+    for k in range(CHUNK) if shape else ():
+        while check_shape(profile, {name: v[k] for name, v in shape.items()}, 1.0 + depth[k]) is not None:
+            for name, ends in SHAPES[profile].items():
+                shape[name][k] = rng.uniform(*ends)
+    return Points(
+        profile,
+        rng.uniform(0.0, 0.5, CHUNK),
+        rng.uniform(0.05, 1.0, CHUNK),
+        depth,
+        np.array([each.numerator for each in ratio]),
+        np.array([each.denominator for each in ratio]),
+        10.0 ** rng.uniform(-3.0, 0.0, CHUNK),
+        rng.uniform(0.0, 2.0 * np.pi, CHUNK),
+        shape,
+    )
+
+
+def forces(rng: np.random.Generator) -> Points:
+    """The same law for forces; where friction does not bear them there is no s."""
+    return replace(law(rng), control=Control(True, True))
+
+
+def mixed(rng: np.random.Generator) -> Points:
+    """One force and one displacement."""
+    first = bool(rng.integers(2))
+    return replace(law(rng), control=Control(first, not first))
+
+
+def table(rng: np.random.Generator) -> Points:
+    """A worn paraboloid."""
+    return replace(law(rng), profile=worn())
+
+
+def loops(rng: np.random.Generator) -> Points:
+    """Polygons of 4 to 200 vertices: drawn ones of few, sampled sums of sines of many."""
+    count = int(np.round(4.0 * 50.0 ** rng.uniform()))
+    if count < 12:
+        path = LoadPath("drawn", list(map(tuple, rng.uniform(-1.0, 1.0, (count, 2)))))
+    else:
+        turn, (a, b) = 2.0 * np.pi * np.arange(count) / count, rng.uniform(0.0, 6.0, 2)
+        minor = rng.uniform(0.0, 0.4) * np.sin(rng.integers(2, 4) * turn + b)
+        path = LoadPath("sampled", list(zip(np.sin(turn + a), np.sin(turn) + minor, strict=True)))
+    return replace(law(rng), path=path)
+
+
+def bulk_stress(rng: np.random.Generator, scale: float = 1.0) -> Points:
+    """With bulk stresses from next to nothing up to the contact's own, in tension on the mean or pressing."""
+    some = {
+        "amplitude": scale * 10.0 ** rng.uniform(-4.0, -0.5, CHUNK),
+        "mean": scale * rng.uniform(-0.1, 0.2, CHUNK),
+        "phase": rng.uniform(0.0, 2.0 * np.pi, CHUNK),
+    }
+    return replace(law(rng), **{f"bulk_stress_{name}": values for name, values in some.items()})
+
+
+def next_to_no_bulk_stress(rng: np.random.Generator) -> Points:
+    """The other way through the solver, without its short cuts."""
+    return bulk_stress(rng, 1e-12)
+
+
+def walker(rng: np.random.Generator) -> Points:
+    """Walker's exponents."""
+    return replace(law(rng), walker_exponent=rng.uniform(0.1, 0.9, CHUNK))
+
+
+#: By scene: how it is drawn, and how many points of 10,000.
+SCENES = {
+    "displacements": (law, 10_000),
+    "forces": (forces, 10_000),
+    "mixed control": (mixed, 1_000),
+    **{
+        name.replace("_", " "): (lambda rng, name=name: law(rng, name), 1_500)
+        for name in ("rounded_punch", "truncated_paraboloid", "wavy_paraboloid", "power_law")
+    },
+    "a table": (table, 500),
+    "loops of 4 to 200 vertices": (loops, 1_000),
+    "bulk stress": (bulk_stress, 1_000),
+    "next to no bulk stress": (next_to_no_bulk_stress, 500),
+    "Walker's exponent": (walker, 1_000),
+}
+
+
+def shortfall(task: tuple[str, int, int]) -> tuple[str, Array, list[str]]:
+    """By how much s is below the dense look, relative, and s_error, at each tolerance, shape (k, 2, rtols).
+
+    Also the points at which that is more than s_error.
+    """
+    name, seed, chunk = task
+    points = SCENES[name][0](np.random.default_rng([seed, list(SCENES).index(name), chunk]))
+    solved = [solve_points(points, rtol) for rtol in RTOLS]
+    rows, words = [], []
+    with np.errstate(all="ignore"):
+        for k in np.flatnonzero(np.isfinite(solved[0].s) & (solved[0].s > 0.0)):
+            one = points.take(np.array([k]))
+            dense, x = dense_look(scene_of(one), STEPS, PLANES)
+            row = np.array([[1.0 - each.s[k] / dense, each.s_error[k] / dense] for each in solved]).T
+            rows.append(row)
+            if (row[0] > row[1] + DENSE).any():
+                words.append(f"{name}, {dense:.10g} at {x:.6g}, s {[float(s.s[k]) for s in solved]}: {one}")
+    return name, np.array(rows).reshape(-1, 2, len(RTOLS)), words
+
+
+def lines(found: dict[str, Array]) -> Iterator[str]:
+    """The report."""
+    yield "# Is a maximum overlooked?"
+    yield ""
+    yield (
+        f"s of random points against a dense look at the line: {STEPS} cosine-spaced steps of each piece "
+        f"between two cusps, {PLANES} planes, twice the instants, then the highest places on closer grids. "
+        "`python studies/checks/overlooked.py`"
+    )
+    yield ""
+    heads = [f"{what} at rtol {rtol:g}" for rtol in RTOLS for what in ("low by more than s_error", "lowest")]
+    yield f"| scene | points | {' | '.join(heads)} |"
+    yield "|" + "---|" * (2 + len(heads))
+    for name, rows in found.items():
+        cells = [name, f"{len(rows)}"]
+        for low, error in np.moveaxis(rows, 0, -1).swapaxes(0, 1):
+            bad = low > error + DENSE
+            cells += [f"{bad.sum()}", f"{max(low.max(initial=0.0), 0.0):.1e}"]
+        yield f"| {' | '.join(cells)} |"
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
+    arguments.add_argument("--points", type=int, default=10_000, help="points in the place of 10,000")
+    arguments.add_argument("--seeds", type=int, nargs="+", default=[1, 2], help="half of the points each")
+    arguments.add_argument("--scenes", nargs="+", default=list(SCENES), choices=list(SCENES))
+    arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
+    given = arguments.parse_args()
+    if given.quick:
+        global CHUNK
+        CHUNK, given.points, given.scenes = 1, 1, given.scenes[:1]
+    tasks = [
+        (name, seed, chunk)
+        for name in given.scenes
+        for seed in given.seeds
+        for chunk in range(max(SCENES[name][1] * given.points // (10_000 * CHUNK * len(given.seeds)), 1))
+    ]
+    found: dict[str, list[Array]] = {name: [] for name in given.scenes}
+    with ProcessPoolExecutor(1 if given.quick else 2) as pool:
+        for name, rows, words in map(shortfall, tasks) if given.quick else pool.map(shortfall, tasks):
+            found[name].append(rows)
+            print("\n".join(words), end="\n" if words else "", flush=True)
+    text = "\n".join(lines({name: np.concatenate(rows) for name, rows in found.items()})) + "\n"
+    (given.results / "overlooked.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

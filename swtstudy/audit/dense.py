@@ -1,0 +1,98 @@
+"""A dense look at the surface line: plain loops over positions, planes and instants in place of the search.
+
+It shares with the search the stress and the places of the cusps, and nothing else: every position is looked
+at on every plane, at all instants, and the highest ones again on closer grids. What it finds is there: s must
+not be less.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from swtstudy.mechanics.line.look import Look
+from swtstudy.mechanics.line.positions import cusps
+from swtstudy.mechanics.planes.criterion import curves, of_maxima
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
+
+#: Steps of each smooth part of the cycle, at first and in the closer looks: twice and six times the search's.
+INSTANTS, CLOSER_INSTANTS = 4, 12
+#: Digits of tables and series.
+DIGITS = 9.0
+#: Local maxima that are looked at closer: so many, and this share of the highest. Each time on so many places
+#: and planes, between the neighbours of the best ones.
+KEPT, HIGH, ROUNDS, CLOSER = 8, 0.9, 4, 17
+#: Pieces shorter than this share of the range are none.
+NO_LENGTH = 1e-13
+#: Positions times instants that are held at a time.
+BLOCK = 300_000
+
+
+def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float, float]:
+    """Largest swt on the surface line, and signed x/a_H there, of a batch of one point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    steps
+        Cosine-spaced steps of each piece between two cusps.
+    planes
+        Planes through y, evenly spaced.
+    """
+    scene = scene.split_at_breakpoints()
+    ends = np.unique(cusps(scene.cycle, scene.coordinate, scene.bulk is not None)[0])
+    ends = ends[np.append(np.diff(ends) > NO_LENGTH * np.ptp(ends), True)]
+    share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps))
+    r = np.append(ends[:-1, None] + np.diff(ends)[:, None] * share, ends[-1])
+    turn = 2.0 * np.pi / planes
+    angles = np.asarray(turn * np.arange(planes))
+    best, position = 0.0, np.nan
+    found = []
+    for side in (1.0, -1.0):
+        swt, plane = _highest(scene, r, side, angles, INSTANTS)
+        framed = np.pad(swt, 1, constant_values=-1.0)
+        peak = (swt > framed[:-2]) & (swt >= framed[2:])
+        found += [(swt[k], side, k, plane[k]) for k in np.flatnonzero(peak)]
+    found.sort(reverse=True)
+    for height, side, k, plane in found[:KEPT]:
+        if height >= HIGH * found[0][0]:
+            closer = _closer(scene, r[max(k - 1, 0) : k + 2], r[k], side, plane, turn)
+            best, position = max((best, position), closer)
+    return best, position
+
+
+def _highest(
+    scene: Scene, r: FloatArray, side: float, angles: FloatArray, count: int
+) -> tuple[FloatArray, FloatArray]:
+    """Largest swt at each r over the planes at 2θ, and 2θ of that plane, both (X,)."""
+    swt, best = np.zeros(r.size), np.zeros(r.size)
+    size = max(BLOCK // (3 * count * scene.cycle.begin.shape[1]), 1)
+    for part in (slice(first, first + size) for first in range(0, r.size, size)):
+        history = scene.planes(Look.at(scene, r[None, part], count, DIGITS).history, side)
+        for angle in angles:
+            of_swt = curves(*history.on_plane(np.full((1, r[part].size), angle)))
+            value = of_maxima(*(curve.max(axis=-1) for curve in of_swt), walker=history.walker)[0]
+            best[part] = np.where(value > swt[part], angle, best[part])
+            swt[part] = np.maximum(value, swt[part])
+    return swt, best
+
+
+def _closer(
+    scene: Scene, around: FloatArray, centre: float, side: float, plane: float, turn: float
+) -> tuple[float, float]:
+    """The largest swt between neighbours, and signed x there, on ever closer grids of places and planes."""
+    best, position = 0.0, np.nan
+    low, high = around[0], around[-1]
+    for _ in range(ROUNDS):
+        half = CLOSER // 2 + 1
+        places = np.unique(np.append(np.linspace(low, centre, half), np.linspace(centre, high, half)))
+        swt, planes = _highest(
+            scene, places, side, plane + turn * np.linspace(-1.0, 1.0, CLOSER), CLOSER_INSTANTS
+        )
+        k = int(swt.argmax())
+        if swt[k] > best:
+            best, position = float(swt[k]), float(side * places[k])
+        low, centre, high = places[max(k - 1, 0)], places[k], places[min(k + 1, places.size - 1)]
+        plane, turn = planes[k], 0.25 * turn
+    return best, position
