@@ -11,26 +11,25 @@ from scenes import random_points
 
 from swtstudy.mechanics.events.nodes import _places
 from swtstudy.mechanics.events.stretches import meet
-from swtstudy.mechanics.line.first_look import local_maxima
+from swtstudy.mechanics.line import first_look
+from swtstudy.mechanics.line.first_look import Seen, _predicted, candidates, resolved
 from swtstudy.mechanics.line.look import Look, _falling
+from swtstudy.mechanics.line.positions import Pieces
 from swtstudy.mechanics.line.samples import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
-R = np.arange(1.0, 11.0)
 
-
-def peaks(swt, angle=None, r=R):
-    """Columns of the maxima of one curve on one side."""
-    values = np.array(swt, dtype=float)[None, None]
-    turned = np.zeros_like(values) if angle is None else np.array(angle, dtype=float)[None, None]
-    point, side, column = local_maxima(values, turned, r[None])
-    assert not point.any()
+def peaks(swt, highest=None):
+    """Numbers of the candidates among values on one side, of one point."""
+    values = np.array(swt, dtype=float)[:, None]
+    most = values if highest is None else np.array(highest, dtype=float)[:, None]
+    place, side = candidates(SimpleNamespace(point=np.zeros(len(values), int)), Seen(values, values, most))
     assert not side.any()
-    return column.tolist()
+    return place.tolist()
 
 
 @pytest.mark.parametrize(
-    ("swt", "columns"),
+    ("swt", "places"),
     [
         ([1, 2, 3, 4, 5, 4, 3, 2, 1, 0], [4]),
         ([5, 4, 3, 2, 1, 1, 2, 3, 4, 5], [0, 9]),
@@ -41,24 +40,73 @@ def peaks(swt, angle=None, r=R):
         ([0, 0, 0, 0, 0, 0, 0, 0, 0, 0], [0]),
     ],
 )
-def test_peaks_along_the_line(swt, columns):
-    assert peaks(swt) == columns
+def test_peaks_along_the_line(swt, places):
+    assert peaks(swt) == places
 
 
-def test_a_low_peak_is_none():
-    share = {top: peaks([0, top, 0, 0, 0, 0, 0, 10, 0, 0]) for top in (0.1, 9.9)}
-    assert share == {0.1: [7], 9.9: [1, 7]}
+def test_a_low_peak_is_none_unless_it_may_be_higher_between_the_instants():
+    share = {top: peaks([0, top, 0, 0, 0, 0, 0, 10, 0, 0]) for top in (0.1, 8.4, 8.6)}
+    assert share == {0.1: [7], 8.4: [7], 8.6: [1, 7]}
+    may_be = [0, 0, 0, 9, 10.1, 9, 0, 10, 0, 0]
+    assert peaks([0, 0, 0, 6, 6, 6, 0, 10, 0, 0], may_be) == [4, 7]
+    assert peaks([0, 0, 0, 6, 6, 6, 0, 10, 0, 0], np.minimum(may_be, 9.9)) == [7]
 
 
-def test_where_another_plane_takes_over_both_places_are_looked_at():
-    rising = [9.91, 9.92, 9.93, 9.94, 9.95, 9.96, 9.97, 9.98, 9.99, 10]
-    angle = np.where(R < 8.5, 0.0, 2.0)  # between the columns 7 and 8
-    assert peaks(rising) == [9]
-    assert peaks(rising, angle) == [7, 9]
-    # An angle of 2π is none.
-    assert peaks(rising, np.where(R < 8.5, 0.0, 2 * np.pi)) == [9]
-    falling = rising[::-1]
-    assert peaks(falling, np.where(R < 2.5, 0.0, 2.0)) == [0, 2]
+def test_each_point_has_its_own_peaks():
+    seen = np.array([1.0, 2.0, 3.0, 9.0, 8.0, 1.0])[:, None]
+    point = np.array([0, 0, 0, 1, 1, 1])
+    assert candidates(SimpleNamespace(point=point), Seen(seen, seen, seen))[0].tolist() == [2, 3]
+
+
+def test_what_lies_between_is_predicted_as_by_a_cubic_or_a_parabola():
+    for count, power in ((3, 2), (5, 3), (9, 3)):
+        x = np.linspace(-1.0, 2.0, 2 * count - 1)
+        for exponent in range(power + 2):
+            values = (x**exponent)[None, :, None]
+            off = np.abs(_predicted(values[:, ::2]) - values[:, 1::2]).max()
+            assert (off < 1e-14) == (exponent <= power)
+
+
+@pytest.mark.parametrize("width", [0.4, 0.2, 0.1])
+def test_a_flank_leads_to_a_ring_wherever_it_is_in_its_piece(monkeypatch, width):
+    """A narrow maximum with flanks like those of a root, of which the first positions see little."""
+
+    def look(scene, pieces, piece, share):
+        r = pieces.radius(piece, np.pi * share)
+        swt = 1.0 / (1.0 + np.abs((r - at) / (0.3 * width)) ** 1.5) + np.exp(-(((r - at) / width) ** 2))
+        return Seen(swt[:, None], 0.0 * swt[:, None], swt[:, None])
+
+    monkeypatch.setattr(first_look, "look_at", look)
+    pieces = Pieces.between(np.array([[0.5, 1.0, 2.0]]), np.array([np.inf]))
+    for at in np.linspace(1.05, 1.95, 31):
+        positions, seen = resolved([None], pieces)
+        assert np.all(np.diff(positions.r) > 0.0)
+        nearest = np.abs(positions.r - at).min()
+        assert nearest < 0.2 * width
+        assert seen.swt.max() > 2.0 * 0.75
+        assert len(positions.r) < 150
+
+
+def test_a_long_piece_has_a_position_where_the_layer_of_its_short_neighbour_ends(monkeypatch):
+    monkeypatch.setattr(first_look, "look_at", lambda _, __, piece, share: Seen(*np.ones((3, piece.size, 1))))
+    pieces = Pieces.between(np.array([[1.0, 2.0, 2.0 + 1e-6, 4.0]]), np.array([np.inf]))
+    r = resolved([None], pieces)[0].r
+    for place, inside in ((2.0, -1.0), (2.0 + 1e-6, 1.0)):
+        away = np.sort(inside * (r - place))
+        assert away[away > 1e-9][0] == pytest.approx(1e-6, rel=0.01)
+    # 4 steps a piece, one end and two layers.
+    assert r.size == 15
+
+
+def test_pieces_leave_no_gap_and_none_is_longer_than_a_wave():
+    ends = np.array([[0.1, 0.1, 0.4, 0.4 + 1e-15, 2.0], [0.3, 0.4, 0.4, 0.4, 1.0]])
+    pieces = Pieces.between(ends, np.array([0.4, np.inf]))
+    assert np.bincount(pieces.point).tolist() == [1 + 4, 2]
+    assert np.all((pieces.high - pieces.low)[pieces.point == 0] <= 0.4 + 1e-12)
+    for point, rows in enumerate(ends):
+        low, high = (values[pieces.point == point] for values in (pieces.low, pieces.high))
+        np.testing.assert_array_equal(high[:-1], low[1:])
+        assert (low[0], high[-1]) == (rows[0], rows[-1])
 
 
 def test_each_extreme_has_its_own_samples():

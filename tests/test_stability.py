@@ -11,7 +11,7 @@ from scenes import PROFILE_NAMES, points, take
 from soundness import RTOL, SHAPES, close, regime_names, sound
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.line import maximum
+from swtstudy.mechanics.line import first_look, maximum
 from swtstudy.mechanics.solver import BATCH_SIZE, scenes
 
 TINY = 5e-324
@@ -206,7 +206,7 @@ def test_a_huge_grid_comes_in_bounded_batches() -> None:
 def test_points_that_are_looked_at_one_by_one_have_the_same_values(monkeypatch: pytest.MonkeyPatch) -> None:
     some = points(phase=np.linspace(0.1, 3.0, 6), normal_amplitude=0.5)
     together = solve_points(some)
-    monkeypatch.setattr(maximum, "LOOK_SIZE", 1)
+    monkeypatch.setattr(first_look, "LOOK_SIZE", 1)
     monkeypatch.setattr(maximum, "PART_SIZE", 1)
     alone = solve_points(some)
     assert np.ptp(together.s) > 0.1 * together.s.max()

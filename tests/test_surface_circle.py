@@ -73,3 +73,26 @@ def test_a_safe_ratio_is_not_looked_at(monkeypatch):
     monkeypatch.setattr(surface_maximum, "SAFE_POISSON_RATIO", -1.0)
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}), friction=[0.1, 0.8])
     np.testing.assert_array_equal(solved.s_surface, solved.s)
+
+
+def test_a_loop_and_its_mirror_image_have_the_same_where_the_line_has_none():
+    """A bulk stress presses, so that s is 0 and no side of the circle is the critical point's."""
+    vertices = [(0.064, 0.602, 0.293), (0.651, 0.631, -0.852), (0.334, -0.394, 0.320), (0.227, 0.516, -0.109)]
+    own = {
+        "profile": "power_law",
+        "exponent": 1.05,
+        "poisson_ratio": 0.5,
+        "friction": 0.24,
+        "walker_exponent": 0.85,
+        "normal_amplitude": 1.2,
+    }
+    bulk = {"tangential_amplitude": 0.375, "bulk_stress_amplitude": 0.214, "bulk_stress_mean": -0.194}
+    found = [
+        swtstudy.solve(
+            load=swtstudy.LoadPath("loop", [(n, sign * t, b) for n, t, b in vertices]), **own, **bulk
+        )
+        for sign in (1.0, -1.0)
+    ]
+    assert [float(each.s) for each in found] == [0.0, 0.0]
+    assert float(found[0].s_surface) > 1e-4
+    assert float(found[0].s_surface) == pytest.approx(float(found[1].s_surface), rel=1e-9)

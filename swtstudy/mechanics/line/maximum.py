@@ -32,24 +32,11 @@ LEAST_SHARE = 0.25
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
 #: sharp tip, lost contact and large friction miss s_error.
 SLOWNESS = 3.0
-#: Nearer to the centre than this, in the largest radius, there is a tip, where extremes may be next to events
-#: at all scales of time: they are looked at with so many times the instants, too.
-TIP, TIMES_AT_TIP = 1e-6, 8
 #: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
 #: has more digits than r. A hundredth and a hundred times: about 1e-7.
 REACH = 1e-8
-#: Rounding is looked for where this share of what it may be is more than the error. Half or twice: none of
-#: 128 points misses s_error.
-LARGEST_SHOWN = 0.5
 #: Step to the slope of a coordinate, over the distance from a face's edge or the centre, and in roundings.
 SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
-#: What is looked at shows so much less than all of it. Half or twice: none of 128 points misses s_error.
-SHOWN = 1.5
-#: Numbers at and next to r, whose swt differs by rounding; those farther off, of which only higher ones tell.
-NEIGHBOURS = np.array([-8, -5, -3, -2, -1, 0, 1, 2, 3, 5, 8])
-FARTHER = np.outer([-1, 1], 8 ** np.arange(2, 7)).ravel()
-#: Zooms and digits more with which they are looked at: other instants, and tables, show other rounding.
-LOOKS = ((0, 0.0), (1, 0.0), (2, 2.0), (3, 2.0), (4, 0.0))
 
 
 @dataclass(frozen=True)
@@ -112,23 +99,13 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         error = found.error[doubtful]
         slow = error > accuracy.tolerance * found.swt[doubtful]
         found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
-    tip = np.flatnonzero(np.abs(found.position) < TIP * scene.profile.radius(scene.profile.largest_depth))
-    if tip.size:
-        left = SLOWNESS * _left_at_tip(scene.take(tip), found.take(tip), accuracy.check)
-        found.error[tip] = np.maximum(found.error[tip], left)
-    noise = _noise(scene, np.abs(found.position)[:, None])
-    of_stress = (noise + _of_tables(scene, accuracy.check)) * np.sqrt(found.swt)
-    may_be = np.maximum(_share_within_rounding(scene, found) * found.swt, of_stress)
-    shows = (found.swt > 0.0) & (LARGEST_SHOWN * may_be > found.error)
+    rounding = _rounding(scene, np.abs(found.position)[:, None]) + _of_tables(scene, accuracy.check)
     if scene.profile.has_singular_edge:
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
-        shows &= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    rows = np.flatnonzero(shows)
-    if rows.size:
-        spread = np.maximum(_spread(scene.take(rows), found.take(rows), accuracy.check), noise[rows] ** 2)
-        found.error[rows] = np.maximum(found.error[rows], SHOWN * spread)
-    return found
+        rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
+    # swt is a stress times a strain.
+    return replace(found, error=np.maximum(found.error, rounding * np.sqrt(found.swt)))
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
@@ -138,16 +115,7 @@ def reach_of_edge(profile: Profile) -> FloatArray:
     return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
 
 
-def _left_at_tip(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
-    """How much many more instants change swt at the n positions of the maxima, shape (n,)."""
-    split = scene.split_at_breakpoints()
-    more = replace(resolution, nodes=TIMES_AT_TIP * resolution.nodes)
-    place = np.abs(found.position)[:, None], np.sign(found.position), found.double_angle[:, None]
-    value, _ = refine(split, *place, more)
-    return np.abs(value[:, 0] - found.swt)
-
-
-def _noise(scene: Scene, r: FloatArray) -> FloatArray:
+def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
     """How far off a stress at r, shape (n, 1), may be by the rounding of what arrives there, shape (n,)."""
     profile, coordinate = scene.profile, scene.coordinate
     r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
@@ -163,40 +131,6 @@ def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
     """How far off tables leave a stress, by the mean slope of the profile, shape (n,)."""
     deepest = scene.profile.largest_depth
     return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
-
-
-def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
-    """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
-    load, r = scene.cycle.load, np.abs(found.position)[:, None]
-    r = told_by_fronts(scene.cycle, scene.coordinate, r)
-    normal = load.normal_motion
-    distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
-    # A motion within rounding is none.
-    shares = [
-        np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
-        for motion in (normal, load.motion - normal)
-    ]
-    return np.asarray(np.sqrt(np.maximum(*shares)))
-
-
-def _spread(scene: Scene, found: Maximum, resolution: Resolution) -> FloatArray:
-    """How much swt varies over the numbers at and next to the positions of the n maxima, shape (n,).
-
-    A maximum may be at a cusp, with a steep flank on one side: the better half of the numbers counts.
-    """
-    r = np.abs(found.position)[:, None]
-    split = scene.split_at_breakpoints()
-    steps = np.concatenate([NEIGHBOURS, FARTHER])
-    near = np.maximum(r + steps * np.spacing(r), scene.profile.flat_radius[:, None])
-    angle = np.broadcast_to(found.double_angle[:, None], near.shape)
-    spread = np.zeros(len(r))
-    for zooms, digits in LOOKS:
-        closer = replace(resolution, zooms=resolution.zooms + zooms, digits=resolution.digits + digits)
-        value, _ = refine(split, near, np.sign(found.position), angle, closer)
-        change = value - found.swt[:, None]
-        better = np.sort(change[:, : NEIGHBOURS.size], axis=1)[:, NEIGHBOURS.size // 2 :]
-        spread = np.maximum(spread, np.maximum(np.abs(better).max(axis=1), change.max(axis=1)))
-    return spread
 
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:

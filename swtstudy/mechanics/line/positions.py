@@ -128,6 +128,27 @@ class Pieces:
         """Shape (P,): which are the last of their points."""
         return np.append(np.diff(self.point) > 0, True)
 
+    def layers(self, thin: float) -> tuple[NDArray[np.intp], FloatArray]:
+        """Where thin layers of pieces end: what happens in a short piece makes one in a long neighbour, too.
+
+        Parameters
+        ----------
+        thin
+            Largest share of the angle of a piece that counts.
+
+        Returns
+        -------
+        piece, share
+            Shape (k,): numbers of the pieces, ascending, and shares of their angles.
+        """
+        length = self.high - self.low
+        before = np.append(np.inf, np.where(np.diff(self.point) == 0, length[:-1], np.inf))
+        after = np.append(np.where(np.diff(self.point) == 0, length[1:], np.inf), np.inf)
+        # α² is what grows like the distance from an end.
+        share = 2.0 / np.pi * np.sqrt(np.stack([before, after], axis=1) / length[:, None])
+        piece, side = np.nonzero(share < thin)
+        return piece, np.where(side == 0, share[piece, side], 1.0 - share[piece, side])
+
     def radius(self, piece: NDArray[np.intp], alpha: FloatArray) -> FloatArray:
         """Positions r at the angles α of pieces, both of shape (m,)."""
         return _places(self.low[piece], self.high[piece], alpha)

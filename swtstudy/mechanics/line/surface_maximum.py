@@ -59,8 +59,20 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     found
         The line's maxima.
     """
-    if scene.bulk is not None:
-        found = _somewhere(scene, found)
+    if scene.bulk is None:
+        return _surface_maximum(scene, found)
+    nowhere = (found.swt == 0.0) | (np.isnan(found.position) & np.isfinite(found.swt))
+    surface = _surface_maximum(scene, _with_place(found, nowhere, scene.largest_radius))
+    rows = np.flatnonzero(nowhere)
+    if rows.size:
+        # Nothing on the line says which side of the circle is higher.
+        some = scene.take(rows)
+        other = _with_place(found.take(rows), nowhere[rows], -some.largest_radius)
+        surface[rows] = np.maximum(surface[rows], _surface_maximum(some, other))
+    return surface
+
+
+def _surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     r, flat = np.abs(found.position), scene.profile.flat_radius
     at_edge = (flat > 0.0) & (r == flat)
     surface = np.where(at_edge, np.nan, found.swt)
@@ -84,11 +96,10 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     return surface
 
 
-def _somewhere(scene: Scene, found: Maximum) -> Maximum:
-    """The maxima with a place on the largest contact radius for those that have none."""
-    nowhere = (found.swt == 0.0) | (np.isnan(found.position) & np.isfinite(found.swt))
-    position = np.where(nowhere, scene.largest_radius, found.position)
-    return replace(found, position=position, double_angle=np.where(nowhere, 0.0, found.double_angle))
+def _with_place(found: Maximum, nowhere: NDArray[np.bool_], position: FloatArray) -> Maximum:
+    """The maxima with a position, shape (n,), for those that are ``nowhere``."""
+    double_angle = np.where(nowhere, 0.0, found.double_angle)
+    return replace(found, position=np.where(nowhere, position, found.position), double_angle=double_angle)
 
 
 def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray:

@@ -1,0 +1,117 @@
+"""Maxima that a search along the line once overlooked: small motions make narrow rings.
+
+The values are those of `swtstudy.audit.dense`: plain loops over 400 positions of each piece and 64 planes.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy.audit.dense import dense_look
+from swtstudy.fields.one_point import read_scene
+
+CASES = [
+    (
+        {"normal_amplitude": 0.06, "tangential_amplitude": 0.002, "phase": 1.08, "friction": 0.5},
+        "2",
+        0.0073044060,
+    ),
+    (
+        {
+            "normal_amplitude": 0.06,
+            "tangential_amplitude": 0.05,
+            "phase": 0.2918,
+            "poisson_ratio": 0.39,
+            "friction": 0.5,
+        },
+        "2",
+        0.030869660,
+    ),
+    (
+        {
+            "normal_force_amplitude": 0.06,
+            "tangential_force_amplitude": 0.0047,
+            "phase": 2.45,
+            "poisson_ratio": 0.39,
+            "friction": 0.7,
+        },
+        "2",
+        0.0034118443,
+    ),
+    (
+        {
+            "normal_force_amplitude": 0.113,
+            "tangential_force_amplitude": 8.56e-4,
+            "phase": 5.165,
+            "poisson_ratio": 0.496,
+            "friction": 0.7525,
+        },
+        "2",
+        0.00041448119,
+    ),
+    (
+        {
+            "profile": "truncated_paraboloid",
+            "flat_radius": 0.7734497,
+            "normal_amplitude": 0.2121965,
+            "tangential_amplitude": 0.00189344,
+            "phase": -math.pi / 2,
+            "poisson_ratio": 0.0179136,
+            "friction": 0.1213059,
+            "walker_exponent": 0.85,
+            "bulk_stress_amplitude": 1e-12,
+        },
+        "3/2",
+        0.029960089,
+    ),
+    (
+        {
+            "normal_amplitude": 0.21979304,
+            "tangential_amplitude": 0.37362847,
+            "phase": 1.9448273,
+            "poisson_ratio": 0.05387618,
+            "friction": 0.85119482,
+        },
+        "4/3",
+        0.58658370,
+    ),
+]
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize(("point", "ratio", "s"), CASES)
+def test_no_ring_is_overlooked(point, ratio, s, rtol):
+    found = swtstudy.solve(**point, frequency_ratio=ratio, rtol=rtol)
+    assert float(found.s) == pytest.approx(s, rel=max(0.3 * rtol, 2e-7))
+    assert abs(float(found.s) - s) <= float(found.s_error) + 2e-7 * s
+
+
+@pytest.mark.parametrize("number", [0, 3])
+def test_a_bulk_stress_of_next_to_nothing_changes_nothing(number):
+    """Another way through the solver: other pieces, other instants, no half of the cycle left out."""
+    point, ratio, s = CASES[number]
+    found = swtstudy.solve(**point, frequency_ratio=ratio, bulk_stress_amplitude=1e-12)
+    assert float(found.s) == pytest.approx(s, rel=2e-5)
+
+
+def test_the_dense_look_finds_them_too():
+    point, ratio, s = CASES[0]
+    scene = read_scene({**point, "frequency_ratio": ratio})
+    swt, x = dense_look(scene, steps=100, planes=32)
+    assert swt == pytest.approx(s, rel=1e-6)
+    assert abs(x) == pytest.approx(0.978799, abs=1e-5)
+
+
+def test_the_dense_look_knows_a_closed_form():
+    """A constant normal load: the edge of the contact, 0.155137 being the value at Table 1 with ψ = 0."""
+    still = read_scene({"normal_amplitude": 0.0})
+    u, ν, μ = 5 / 6, 0.3, 0.3
+    θ = np.arcsin(np.sqrt(1 - u))
+    i, j = (np.pi / 2 - θ) / 2 + np.sin(2 * θ) / 4, (np.pi / 2 - θ) / 8 + np.sin(4 * θ) / 32
+    pull, across = 2 * μ * (i + ν * j), 2 * ν * μ * (i - j)
+    expected = 4 / np.pi**2 * ((1 - 2 * ν) / 3 + pull) * (pull - ν * across) / (1 - ν**2)
+    assert dense_look(still, steps=20, planes=8)[0] == pytest.approx(expected, rel=1e-9)
