@@ -1,8 +1,8 @@
 """Is a maximum overlooked? s of random points, small motions among them, against a dense look at the line.
 
-``python studies/checks/overlooked.py``, from the project folder, writes results/overlooked.md: by scene, how many
-points are lower than the dense look by more than s_error, and by how much the worst. ``--points 1000`` draws
-fewer of each 10,000; ``--quick`` next to none.
+``python studies/checks/overlooked.py``, from the project folder, writes results/overlooked.md: by scene, how
+many points are lower than the dense look by more than s_error, and by how much the worst. ``--points 1000``
+draws fewer of each 10,000; ``--quick`` next to none.
 """
 
 from __future__ import annotations
