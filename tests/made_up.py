@@ -50,9 +50,11 @@ def made_up_point(**changes: object) -> AuditedPoint:
     """An audited point with its maximum on the surface line, but for the changes."""
     line = {
         "s": 1.0,
+        "s_error": 1e-5,
         "s_surface": 1.0,
         "critical_x": 1.0,
         "regime": "partial_slip",
+        "s_dense": np.nan,
         "s_all_planes": 1.0,
         "s_body": 1.0,
         "position": np.array([1.0, 0.0, 0.0]),

@@ -74,6 +74,34 @@ def test_other_files_are_not_taken_for_an_audit(tmp_path):
         audit_study("figure3", tmp_path / "audit.nc")
 
 
+def test_a_dense_look_says_whether_a_maximum_was_overlooked(tmp_path):
+    path, study = tmp_path / "audit.nc", Study.from_text(STUDY)
+    assert np.isnan(audit_study(study, path, workers=1).s_dense).all()
+    # Points that were not looked at densely are audited again.
+    found = audit_study(study, path, workers=1, dense=True)
+    np.testing.assert_allclose(found.s_dense, found.s, rtol=2.5e-5)
+    assert (found.shortfall == 0.0).all()
+    assert "at 2 points: at 0 of them it is higher than s by more than s_error." in report(found)
+
+
+def test_what_is_overlooked_is_said():
+    points = [made_up_point(s_dense=1.5), made_up_point(s_dense=1.000009), made_up_point()]
+    assert [each.shortfall for each in points[:2]] == [pytest.approx((0.5 - 1e-5) / 1.5, rel=1e-12), 0.0]
+    assert np.isnan(points[2].shortfall)
+    rows = drawn_rows(Study.from_toml(PARAMETER_BOX).grid, points=3, seed=1)
+    words = report(audit_dataset(rows, points, {}).assign_attrs(title="three points"))
+    assert "at 2 points: at 1 of them it is higher than s by more than s_error, by up to 3.3e-01." in words
+    assert "dense look" not in report(
+        audit_dataset(rows, [made_up_point()] * 3, {}).assign_attrs(title="three")
+    )
+
+
+def test_an_audit_of_before_dense_looks_opens(tmp_path):
+    save(made_up_audit().drop_vars(["s_error", "s_dense", "shortfall"]), tmp_path / "old.nc")
+    points = audited_points(open_audit(tmp_path / "old.nc")).values()
+    assert all(np.isnan(each.s_dense) and np.isfinite(each.s) for each in points)
+
+
 def test_a_damaged_audit_is_named(tmp_path):
     path = tmp_path / "audit.nc"
     save(made_up_audit(), path)

@@ -105,4 +105,4 @@ def test_s_error_next_to_a_sharp_tip_where_contact_is_lost(exponent, values, pha
     found, closest = solve_points(point, 1e-4), solve_points(point, 1e-8)
     assert abs(found.s[0] - closest.s[0]) <= found.s_error[0]
     assert found.s_error[0] <= 1e-4 * found.s[0]
-    assert closest.s_error[0] <= 1e-7 * closest.s[0]
+    assert closest.s_error[0] <= 2e-7 * closest.s[0]

@@ -9,6 +9,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.definition import Study, require_study
 
@@ -27,6 +29,7 @@ def audit_study(
     points: int = 1000,
     seed: int = 0,
     workers: int = 2,
+    dense: bool = False,
     progress: Callable[[int], object] | None = None,
 ) -> xr.Dataset:
     """Solve random points of a study without the surface line's assumptions.
@@ -44,6 +47,8 @@ def audit_study(
         Seed of the random numbers.
     workers
         Number of worker processes.
+    dense
+        Whether the surface line is looked at densely, too: 400 positions between any two cusps, on 64 planes.
     progress
         Called with the number of points that have been finished since its last call.
 
@@ -65,11 +70,15 @@ def audit_study(
     from swtstudy.runner.workers import start_workers
 
     rows, definitions = drawn_rows(study.grid, points, seed), study.grid.definitions
-    audit = partial(audit_point, definitions=definitions)
+    audit = partial(audit_point, definitions=definitions, dense=dense)
     keys = list(map(tuple, rows.tolist()))
     known: dict[tuple[float, ...], AuditedPoint] = {}
     if Path(path).exists():
         known = audited_points(open_audit(path))
+    if dense:
+        known = {
+            key: each for key, each in known.items() if np.isfinite(each.s_dense) or not np.isfinite(each.s)
+        }
     missing = [key for key in keys if key not in known]
     count = progress or (lambda finished: None)
     count(len(keys) - len(missing))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from swtstudy.audit.dense import dense_look
 from swtstudy.grid.canonical import points_from
 from swtstudy.grid.codes import Definitions
 from swtstudy.mechanics import solve_points
@@ -30,9 +31,11 @@ class AuditedPoint:
 
     Attributes
     ----------
-    s, s_surface, critical_x, regime
-        From the solver: the maximum on the surface line, the maximum on the circle through the critical
-        point, the position of the former, and the name of the regime.
+    s, s_error, s_surface, critical_x, regime
+        From the solver: the maximum on the surface line and its error, the maximum on the circle through the
+        critical point, the position of the former, and the name of the regime.
+    s_dense
+        What a dense look at the surface line finds; NaN without one.
     s_all_planes
         swt at that position over all plane orientations, from the field of the body.
     s_body
@@ -42,9 +45,11 @@ class AuditedPoint:
     """
 
     s: float
+    s_error: float
     s_surface: float
     critical_x: float
     regime: str
+    s_dense: float
     s_all_planes: float
     s_body: float
     position: FloatArray
@@ -54,6 +59,13 @@ class AuditedPoint:
     def excess(self) -> float:
         """By how much the body's maximum exceeds s, relative."""
         return self.s_body / self.s - 1.0 if self.s != 0.0 else float(self.s_body > 0.0)
+
+    @property
+    def shortfall(self) -> float:
+        """By how much s is below the dense look, relative; 0 within its error, NaN without a dense look."""
+        if not np.isfinite(self.s_dense):
+            return float("nan")
+        return max(self.s_dense - self.s - self.s_error, 0.0) / self.s_dense if self.s_dense > 0.0 else 0.0
 
     @property
     def remainder(self) -> float:
@@ -75,13 +87,20 @@ class AuditedPoint:
         return "plane_through_y" if abs(self.normal[1]) > _ZERO else "line_search"
 
 
-def audit_point(row: Sequence[float], definitions: Definitions) -> AuditedPoint:
-    """Audit one canonical row (`swtstudy.grid.canonical`), with what the user has defined by its code."""
+def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = False) -> AuditedPoint:
+    """Audit one canonical row (`swtstudy.grid.canonical`), with what the user has defined by its code.
+
+    With ``dense`` its surface line is looked at densely, too (`swtstudy.audit.dense`).
+    """
     points = points_from(np.array([row]), definitions)
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
-    solved = s, float(line.s_surface[0]), x, REGIMES[int(line.regime[0])]
-    if not np.isfinite(solved[1]):
+    regime, s_dense = REGIMES[int(line.regime[0])], float("nan")
+    if dense and np.isfinite(s):
+        with np.errstate(all="ignore"):
+            s_dense = dense_look(scene_of(points))[0]
+    solved = s, float(line.s_error[0]), float(line.s_surface[0]), x, regime, s_dense
+    if not np.isfinite(line.s_surface[0]):
         return AuditedPoint(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # The field handles gross slip and the 0/0 of a vanishing contact: NumPy's warnings would only alarm.
     with np.errstate(all="ignore"):

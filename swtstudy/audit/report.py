@@ -85,6 +85,8 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
         yield f"With {name}, the surface line is enough at {on_line} points."
         yield ""
     yield from _of_the_solver(dataset, exceeded)
+    if "s_dense" in dataset and np.isfinite(dataset["s_dense"].values).any():
+        yield from _overlooked(dataset)
 
 
 def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator[str]:
@@ -112,6 +114,20 @@ def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator
         "At the line's maximum the solver and the field beneath the contact, two routes to one value, differ "
         f"by {np.median(away):.0e} (median), {np.quantile(away, 0.99):.0e} (99 %), "
         f"{away.max():.0e} (largest)."
+    )
+
+
+def _overlooked(dataset: xr.Dataset) -> Iterator[str]:
+    """What a dense look at the surface line says of the search."""
+    short = dataset["shortfall"].values
+    low = short > 0.0
+    yield ""
+    yield "## Was a maximum overlooked?"
+    yield ""
+    yield (
+        f"A dense look at the surface line, at {np.isfinite(short).sum()} points: at {low.sum()} of them it "
+        "is higher than s by more than s_error"
+        + (f", by up to {short[low].max():.1e}." if low.any() else ".")
     )
 
 

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 _LENGTH = "in units of a_H = sqrt(R delta0)"
 _MEANINGS = {
     "s": "maximum of swt/SWT0 on the surface line, by the solver",
+    "s_error": "estimated absolute error of s",
+    "s_dense": "maximum of swt/SWT0 on the surface line, by a dense look",
+    "shortfall": "how far s and its error are below s_dense, relative",
     "s_surface": "maximum of swt/SWT0 on the circle through the critical point, by the solver",
     "critical_x": f"where that is, {_LENGTH}",
     "s_all_planes": "swt/SWT0 there over all plane orientations",
@@ -31,7 +34,10 @@ _MEANINGS = {
     **{f"body_{axis}": f"position of the body's maximum, {_LENGTH}" for axis in "xyz"},
     **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
 }
-_SCALARS = ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "excess", "remainder")
+_STORED = ("s", "s_error", "s_surface", "critical_x", "s_dense", "s_all_planes", "s_body")
+_SCALARS = (*_STORED, "excess", "remainder", "shortfall")
+#: What an older audit lacks.
+_LATER = {"s_error", "s_dense", "shortfall"}
 #: Parameters whose values are names: their columns hold codes.
 _WITH_NAMES = {name for name, row in PARAMETERS.items() if row.kind == "name"}
 
@@ -89,7 +95,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     from swtstudy.archive.read import load_file
 
     dataset = load_file(Path(path))
-    if not {"profile", "p", "q"} <= {*dataset.coords} or not {*_MEANINGS, "regime", "verdict"} <= {
+    if not {"profile", "p", "q"} <= {*dataset.coords} or not {*_MEANINGS, "regime", "verdict"} - _LATER <= {
         *dataset.data_vars
     }:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
@@ -114,13 +120,14 @@ def canonical_rows(dataset: xr.Dataset) -> FloatArray:
 
 def audited_points(dataset: xr.Dataset) -> dict[tuple[float, ...], AuditedPoint]:
     """The points of an audit, by canonical row."""
-    values = {name: dataset[name].values for name in _MEANINGS}
+    unknown = np.full(dataset.sizes["sample"], np.nan)
+    values = {name: dataset[name].values if name in dataset else unknown for name in _MEANINGS}
     points = {}
     for i, row in enumerate(map(tuple, canonical_rows(dataset).tolist())):
         position, normal = (
             np.array([values[f"{prefix}_{axis}"][i] for axis in "xyz"]) for prefix in ("body", "normal")
         )
-        s, s_surface, x, s_all_planes, s_body = (float(values[name][i]) for name in _SCALARS[:5])
+        stored = {name: float(values[name][i]) for name in _STORED}
         regime = REGIMES[int(dataset["regime"].values[i])]
-        points[row] = AuditedPoint(s, s_surface, x, regime, s_all_planes, s_body, position, normal)
+        points[row] = AuditedPoint(**stored, regime=regime, position=position, normal=normal)
     return points

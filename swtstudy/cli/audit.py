@@ -14,7 +14,10 @@ from swtstudy.cli.examples import examples
 @click.option("--seed", default=0, show_default=True, help="Seed of the random numbers.")
 @click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
 @click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
-def audit(studies: tuple[str, ...], points: int, seed: int, results: str, workers: int) -> None:
+@click.option(
+    "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
+)
+def audit(studies: tuple[str, ...], points: int, seed: int, results: str, workers: int, dense: bool) -> None:
     """Solve random points of each STUDY in the whole body and on all planes.
 
     Writes the audited points, and a report that says where the maximum is not on the surface line, where the
@@ -36,7 +39,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     for source, study in defined.items():
         target = targets[source]
         with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
-            dataset = audit_study(study, target, points, seed, workers, progress=bar.update)
+            dataset = audit_study(study, target, points, seed, workers, dense, progress=bar.update)
         text = report(dataset)
         with replacing(target.with_suffix(".md")) as temporary:
             temporary.write_text(text, encoding="utf-8")

@@ -99,13 +99,18 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         error = found.error[doubtful]
         slow = error > accuracy.tolerance * found.swt[doubtful]
         found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
-    rounding = _rounding(scene, np.abs(found.position)[:, None]) + _of_tables(scene, accuracy.check)
+    size = np.sqrt(found.swt)
+    # Two bounds of one thing.
+    rounding = np.minimum(
+        _rounding(scene, np.abs(found.position)[:, None]), _share_within_rounding(scene, found) * size
+    )
+    rounding = rounding + _of_tables(scene, accuracy.check)
     if scene.profile.has_singular_edge:
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
     # swt is a stress times a strain.
-    return replace(found, error=np.maximum(found.error, rounding * np.sqrt(found.swt)))
+    return replace(found, error=np.maximum(found.error, rounding * size))
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
@@ -131,6 +136,20 @@ def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
     """How far off tables leave a stress, by the mean slope of the profile, shape (n,)."""
     deepest = scene.profile.largest_depth
     return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
+
+
+def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
+    """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
+    load, r = scene.cycle.load, np.abs(found.position)[:, None]
+    r = told_by_fronts(scene.cycle, scene.coordinate, r)
+    normal = load.normal_motion
+    distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
+    # A motion within rounding is none.
+    shares = [
+        np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
+        for motion in (normal, load.motion - normal)
+    ]
+    return np.asarray(np.sqrt(np.maximum(*shares)))
 
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
