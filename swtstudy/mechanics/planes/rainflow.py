@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
@@ -39,7 +38,7 @@ def closed_cycles(strain: FloatArray, stress: FloatArray) -> Cycles:
     strain, stress
         Shape (h, T): one period at T instants, the first of which follows the last.
     """
-    h, t = strain.shape
+    t = strain.shape[1]
     instants = (strain.argmax(axis=1)[:, None] + np.arange(t + 1)) % t
     strain, stress = (np.take_along_axis(values, instants, axis=1).T.copy() for values in (strain, stress))
     counting = _Counting(strain[0], stress[0], t)
