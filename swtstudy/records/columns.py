@@ -16,11 +16,11 @@ from swtstudy.quantities import NONLOCAL, Request, columns_in, columns_of, item_
 def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], NDArray[np.bool_]]:
     """Items that are asked of some points, and of which, shape (len(points.table), number of items)."""
     distances, at = grid.items(asked)
-    of = np.zeros((len(points.table), len(asked.names) + len(distances)), bool)
-    of[:, : len(asked.names)] = True
+    of = np.zeros((len(points.table), len(asked.same) + len(distances)), bool)
+    of[:, : len(asked.same)] = True
     for each in at:
-        of[points.index, len(asked.names) + each] = True
-    return (*asked.names, *distances), of
+        of[points.index, len(asked.same) + each] = True
+    return (*asked.same, *distances), of
 
 
 def columns_at(
@@ -30,7 +30,7 @@ def columns_at(
 
     What the distinct points have is known by the names of columns.
     """
-    found = {name: known(name)[points.index] for name in columns_of(asked.names)}
+    found = {name: known(name)[points.index] for name in columns_of(asked.same)}
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):
         found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
@@ -50,7 +50,7 @@ def columns_back(
         found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
 
     every = np.arange(grid.size)
-    for name in columns_of(asked.names):
+    for name in columns_of(asked.same):
         put(name, every, columns[name])
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):

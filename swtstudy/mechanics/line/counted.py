@@ -4,13 +4,13 @@ A life N(SWT) is one of strain cycles. The strain of a plane is counted by rainf
 amplitude and its own largest σ_n: a swt of its own. A round does the damage Σ 1/N(SWT_i), which depends on a
 material's constants; so what is kept are the cycles themselves, over the largest swt.
 
-The place and plane of the largest swt are not always those of the largest damage: others may have more cycles.
-Between any two values of SWT, 1/N goes like a power of it, for strain-life constants one from 1 to some 10. So
-the places and planes are looked for at which the sum of swt_i to the power of 1, 2, 4, 8 is largest, on both
-sides of the line y = 0 and over all planes through y: first at the positions of the first look and at
-`PLANES` planes, then closer. Only those can be better whose swt, to that power, times V/4ε_a is larger than
-the sum at the critical place, V being the way that ε_n goes in a round and ε_a its amplitude: that is an upper
-bound of the sum, and little is left to count where a round has one cycle.
+The place and plane of the largest swt are not always those of the largest damage: others may have more
+cycles. Between any two values of SWT, 1/N goes like a power of it, for strain-life constants one from 1 to
+some 10. So the places and planes are looked for at which the sum of swt_i to the power of 1, 2, 4, 8 is
+largest, on both sides of the line y = 0 and over all planes through y: first at the positions of the first
+look and at `PLANES` planes, then closer. Only those can be better whose swt, to that power, times V/4ε_a is
+larger than the sum at the critical place, V being the way that ε_n goes in a round and ε_a its amplitude:
+that is an upper bound of the sum, and little is left to count where a round has one cycle.
 """
 
 from __future__ import annotations
@@ -42,12 +42,13 @@ SLACK = 1.05
 OFFSETS, SHRINKING, ROUNDS = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.4, 4
 #: Points times positions times instants that are looked at together, and histories that are counted so.
 LOOK_SIZE, COUNT_SIZE = 200_000, 4000
-#: Smallest strain cycle that counts, over the largest swt; cycles that differ by less are equal.
-NONE, EQUAL = 1e-6, 1e-6
+#: Smallest strain cycle that counts, over the largest swt; and how far from the edge of a flat face, over its
+#: radius, cycles at that edge are counted.
+NONE, BESIDE = 1e-6, 1e-6
 
 
 class Histories(NamedTuple):
-    """σ_n and ε_n of h planes at places, shape (h, T), which instants are inside of stretches; the criterion."""
+    """σ_n and ε_n of h planes at places, (h, T), which instants are inside of stretches; the criterion."""
 
     stress: FloatArray
     strain: FloatArray
@@ -58,21 +59,23 @@ class Histories(NamedTuple):
     def at(cls, look: Look, planes: PlaneHistory, double_angle: FloatArray) -> Histories:
         """On planes at 2θ, shape (h, X), of the positions (h, X) of a look."""
         stress, strain = planes.on_plane(double_angle)
-        inside = np.broadcast_to(look.inside, stress.shape)
+        count, inside = stress.shape[-1], np.broadcast_to(look.inside, stress.shape)
         walker = planes.walker
         if walker is not None:
             shape = double_angle.shape
             walker = Walker(*(np.broadcast_to(v, shape).ravel() for v in (walker.exponent, walker.modulus)))
-        return cls(*(v.reshape(-1, v.shape[-1]) for v in (stress, strain, inside)), walker)
+        stress, strain = stress.reshape(-1, count), strain.reshape(-1, count)
+        return cls(stress, strain, inside.reshape(-1, count), walker)
 
     def take(self, rows: NDArray[np.intp]) -> Histories:
         """Some of them."""
-        parts = (values[rows] for values in self[:3])
-        return Histories(*parts, self.walker and self.walker.take(rows))
+        stress, strain, inside, walker = self
+        return Histories(stress[rows], strain[rows], inside[rows], walker and walker.take(rows))
 
     def swt(self) -> FloatArray:
         """swt of the closed cycles, descending, shape (h, k)."""
-        tension, longest, shortest = (lifted(curve, self.inside) for curve in curves(self.stress, self.strain))
+        tops = (lifted(curve, self.inside) for curve in curves(self.stress, self.strain))
+        tension, longest, shortest = tops
         strain = np.where(longest > self.strain, longest, -shortest)
         found = closed_cycles(strain, tension)
         walker = self.walker and self.walker.reshape(-1, 1)
@@ -139,10 +142,21 @@ def strain_cycles(scene: Scene, position: FloatArray, double_angle: FloatArray) 
     return found
 
 
+def far_cycles(scene: Scene) -> list[list[FloatArray]]:
+    """The same far from the contact, where there is a bulk stress alone, for n points that have one."""
+    assert scene.bulk is not None
+    instants = np.sort(np.concatenate([scene.cycle.begin, scene.bulk.turning_instants()], axis=1), axis=1)
+    stress = scene.bulk.at(instants)
+    modulus = (1.0 - scene.poisson_ratio**2)[:, None]
+    found = closed_cycles(stress / modulus, stress)
+    swt = -np.sort(-combined(found.tension, found.amplitude, scene.walker), axis=1)
+    return [[shares[shares > NONE]] for shares in swt / swt[:, :1]]
+
+
 def _off_edge(scene: Scene, r: FloatArray) -> FloatArray:
     """r next to the edge of a flat face, where the stress itself may have no bound, shape (n,)."""
     flat = scene.profile.flat_radius
-    return np.where(r == flat, r * (1.0 + EQUAL), r)
+    return np.where(r == flat, r * (1.0 + BESIDE), r)
 
 
 def _at(split: Scene, r: FloatArray, side: FloatArray, double_angle: FloatArray) -> FloatArray:
@@ -166,13 +180,13 @@ def _higher(split: Scene, positions: Positions, largest: FloatArray, least: Floa
 def _higher_of_some(split: Scene, r: FloatArray, largest: FloatArray, least: FloatArray) -> _Places:
     look = Look.at(split, r, STEPS, DIGITS)
     kept: list[tuple[Histories, NDArray[np.intp], NDArray[np.intp], float, float]] = []
-    for side in (1.0,) if split.mirrored_half else (1.0, -1.0):
-        planes = split.planes(look.history, side)
-        for angle in 2.0 * np.pi * np.arange(PLANES) / PLANES:
-            every = Histories.at(look, planes, np.full(r.shape, angle))
+    for x_sign in (1.0,) if split.mirrored_half else (1.0, -1.0):
+        planes = split.planes(look.history, x_sign)
+        for plane in 2.0 * np.pi * np.arange(PLANES) / PLANES:
+            every = Histories.at(look, planes, np.full(r.shape, plane))
             bound = _bounds(every).reshape(len(POWERS), *r.shape) / largest ** POWERS[:, None, None]
             rows = np.flatnonzero((SLACK * bound > (1.0 + GAIN) * least[..., None]).any(axis=0))
-            kept.append((every.take(rows), *np.divmod(rows, r.shape[1]), side, angle))
+            kept.append((every.take(rows), *np.divmod(rows, r.shape[1]), x_sign, plane))
     point, column = (np.concatenate([part[k] for part in kept]) for k in (1, 2))
     side, angle = (np.concatenate([np.full(part[1].size, part[k]) for part in kept]) for k in (3, 4))
     found = _counted([part[0] for part in kept]) / largest[point, 0] ** POWERS[:, None]
