@@ -112,9 +112,7 @@ def _counted_words(dataset: xr.Dataset) -> str:
         return "uncounted: in rounds, as if each had one strain cycle"
     several = (dataset.counted_number.sum("counted_cycle") > 1.0).any("counted_place")
     lacking = dataset.counted.isnull().all(["counted_place", "counted_cycle"]) & (dataset.s > 0.0)
-    words = (
-        f"in rounds, strain cycles counted: more than one in {int(several.sum())} of {several.size} points"
-    )
+    words = f"in rounds, of counted strain cycles: several in {int(several.sum())} of {several.size} points"
     return words + f"; uncounted in {int(lacking.sum())}" * bool(lacking.any())
 
 
