@@ -47,6 +47,8 @@ class Quantity:
         Dimensions of its own beside those of the points: of `swtstudy.axes.QUANTITY_AXES`, with `DISTANCE`
         among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`, if with fatigue
         constants; none, if by its name.
+    is_place
+        Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
     """
 
     name: str
@@ -57,6 +59,7 @@ class Quantity:
     has_error: bool = False
     units: str = "1"
     dims: tuple[str, ...] = ()
+    is_place: bool = False
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -100,7 +103,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_volume",
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
-            "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance about local maxima of swt, "
+            "which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),
@@ -109,7 +113,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_point",
             r"s_\mathrm{point}",
             "swt at a distance",
-            "swt/SWT0 at half the critical distance from the critical point (point method)",
+            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from point_x "
+            "(point method)",
             "point",
             has_error=True,
             dims=(DISTANCE, "direction"),
@@ -118,10 +123,27 @@ QUANTITIES: dict[str, Quantity] = {
             "s_line",
             r"s_\mathrm{line}",
             "mean of swt along a line",
-            "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is that "
+            "from line_x (line method)",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),
+        ),
+        *(
+            Quantity(
+                f"{kind}_x",
+                rf"x_\mathrm{{{kind}}}/a_H",
+                f"place of s_{kind}",
+                f"signed x of the local maximum of swt that s_{kind} is about, in units of a_H",
+                f"{kind}_x",
+                dims=dims,
+                is_place=True,
+            )
+            for kind, dims in (
+                ("volume", (DISTANCE,)),
+                ("point", (DISTANCE, "direction")),
+                ("line", (DISTANCE, "direction")),
+            )
         ),
         Quantity(
             "counted",

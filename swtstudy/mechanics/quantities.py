@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.line.few_cycles import FewCycles
 from swtstudy.mechanics.points import FloatArray, Points, Solution
 from swtstudy.mechanics.solver import scenes
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.worst_means import worst_means
 from swtstudy.quantities import (
     COUNTED,
     COUNTS,
@@ -71,10 +71,10 @@ def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str
 def _nonlocal(
     scene: Scene, position: FloatArray, angle: FloatArray, distances: Sequence[float]
 ) -> dict[str, FloatArray]:
-    made = nonlocal_swt(scene, position, angle, np.array(distances))
+    made = worst_means(scene, position, angle, np.array(distances))
     found: dict[str, FloatArray] = {}
     for row in NONLOCAL.values():
-        for variable, function in zip(row.variables, (row.function, error_of(row.function)), strict=True):
+        for variable, function in zip(row.variables, (row.function, error_of(row.function)), strict=False):
             for values, distance in zip(np.moveaxis(getattr(made, function), 1, 0), distances, strict=True):
                 columns = columns_in(row, variable, item_of(distance))
                 found |= zip(columns, values.reshape(len(values), -1).T, strict=True)

@@ -86,6 +86,8 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     yield Variable(
         "critical_position", "x", "position of the critical point", "length", "critical_x", _length
     )
+    for of in (place for place in PLACES if place in asked.variables):
+        yield Variable(position_of(of), "x", NONLOCAL[of].meaning, "length", of, _length)
     yield from _at_rest(grid)
     if "dissipation" in asked.names:
         for end, symbol, words in (("", "W", ""), ("_error", r"\Delta W", "error of ")):
@@ -99,10 +101,21 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
 
 
+#: Of the nonlocal quantities those that are swt, and those that are places.
+MEANS = tuple(name for name, row in NONLOCAL.items() if not row.is_place)
+PLACES = tuple(name for name, row in NONLOCAL.items() if row.is_place)
+
+
+def position_of(place: str) -> str:
+    """Name of a place with a unit."""
+    return f"{place.removesuffix('_x')}_position"
+
+
 #: Names of all lives that there may be, and of all that there may be.
-LIVES = tuple(f"cycles{name.removeprefix('s')}" for name in ("s", *NONLOCAL))
+LIVES = tuple(f"cycles{name.removeprefix('s')}" for name in ("s", *MEANS))
 NAMES = (
-    *(f"SWT{of.removeprefix('s')}" for name in ("s", *NONLOCAL) for of in (name, error_of(name))),
+    *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
+    *(position_of(place) for place in PLACES),
     *LIVES,
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
@@ -119,7 +132,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
 
 def _swt_of(asked: Request) -> Iterator[tuple[str, str]]:
     """Names of SWT, and of what without units it is made of."""
-    names = ["s", *(name for name in NONLOCAL if name in asked.variables)]
+    names = ["s", *(name for name in MEANS if name in asked.variables)]
     for name in names:
         for of in (name, error_of(name)):
             yield f"SWT{of.removeprefix('s')}", of
