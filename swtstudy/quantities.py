@@ -103,8 +103,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_volume",
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
-            "largest mean of swt/SWT0 over the half spheres of the critical distance about local maxima of swt, "
-            "which is that about volume_x",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance about local maxima of "
+            "swt, which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),
@@ -113,8 +113,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_point",
             r"s_\mathrm{point}",
             "swt at a distance",
-            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from point_x "
-            "(point method)",
+            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from "
+            "point_x (point method)",
             "point",
             has_error=True,
             dims=(DISTANCE, "direction"),
@@ -123,8 +123,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_line",
             r"s_\mathrm{line}",
             "mean of swt along a line",
-            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is that "
-            "from line_x (line method)",
+            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is "
+            "that from line_x (line method)",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),

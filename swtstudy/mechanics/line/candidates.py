@@ -46,7 +46,8 @@ class Candidates(NamedTuple):
 def candidates(scene: Scene, least: FloatArray) -> Candidates:
     """Local maxima of swt on the surface line of n points that are above the ``least``, shape (n,).
 
-    Of a load whose second half mirrors the first, those at x ≥ 0 alone.
+    Of a load whose second half mirrors the first, those at x ≥ 0 alone. Cusps that the positions of the first
+    look step over, beside a higher maximum, are left out.
     """
     split = scene.split_at_breakpoints()
     positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
