@@ -234,6 +234,9 @@ def test_other_constants_need_no_new_run(tmp_path) -> None:
         several = (found[f"cycles{end}"] < ALUMINIUM.cycles(found[f"SWT{end}"])).sel(frequency_ratio=3)
         assert several.all()
     assert "rounds of the load" in found.cycles.comment
+    table = found.drop_dims("direction").swt.to_table()
+    assert len(table) == 4
+    assert not {"counted", "counted_number"} & {*table.columns}
 
 
 def test_each_body_counts_with_its_own_constants(tmp_path) -> None:
