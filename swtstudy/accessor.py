@@ -191,7 +191,8 @@ class SwtAccessor:
         Returns
         -------
         pandas.DataFrame
-            Columns: the dimensions in their order, the other parameters, and the results. The index has the
+            Columns: the dimensions in their order, the other parameters, and the results but for the strain
+            cycles counted, of which a point has several. The index has the
             name "point", so that ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
         """
         from swtstudy.results.table import to_table

@@ -15,6 +15,10 @@ from swtstudy.mistakes import Report, literal, nearest
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
+#: What studies with fatigue constants ask for: the strain cycles in a round, at so many places at most and so
+#: many of them at each.
+COUNTS = "strain_cycles"
+COUNTED_SIZES = {"counted_place": 5, "counted_cycle": 8}
 
 
 @dataclass(frozen=True)
@@ -33,14 +37,18 @@ class Quantity:
         What it is exactly, in one line.
     function
         Name of the function in `swtstudy.mechanics.stress.work`, or of the attribute of
-        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt`, that has it.
+        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or `swtstudy.mechanics.line.few_cycles.FewCycles`,
+        that has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     units
         CF units.
     dims
-        Dimensions of its own, of `swtstudy.axes.QUANTITY_AXES`, beside those of the points. With
-        `DISTANCE` among them it is asked by giving critical distances, else by its name.
+        Dimensions of its own beside those of the points: of `swtstudy.axes.QUANTITY_AXES`, with `DISTANCE`
+        among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`, if with fatigue
+        constants; none, if by its name.
+    is_place
+        Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
     """
 
     name: str
@@ -51,6 +59,7 @@ class Quantity:
     has_error: bool = False
     units: str = "1"
     dims: tuple[str, ...] = ()
+    is_place: bool = False
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -94,7 +103,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_volume",
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
-            "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance about local maxima of "
+            "swt, which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),
@@ -103,7 +113,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_point",
             r"s_\mathrm{point}",
             "swt at a distance",
-            "swt/SWT0 at half the critical distance from the critical point (point method)",
+            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from "
+            "point_x (point method)",
             "point",
             has_error=True,
             dims=(DISTANCE, "direction"),
@@ -112,17 +123,52 @@ QUANTITIES: dict[str, Quantity] = {
             "s_line",
             r"s_\mathrm{line}",
             "mean of swt along a line",
-            "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is "
+            "that from line_x (line method)",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),
         ),
+        *(
+            Quantity(
+                f"{kind}_x",
+                rf"x_\mathrm{{{kind}}}/a_H",
+                f"place of s_{kind}",
+                f"signed x of the local maximum of swt that s_{kind} is about, in units of a_H",
+                f"{kind}_x",
+                dims=dims,
+                is_place=True,
+            )
+            for kind, dims in (
+                ("volume", (DISTANCE,)),
+                ("point", (DISTANCE, "direction")),
+                ("line", (DISTANCE, "direction")),
+            )
+        ),
+        Quantity(
+            "counted",
+            r"\mathrm{SWT}_i/\mathrm{SWT}",
+            "SWT of strain cycles over SWT",
+            "SWT of the strain cycles in a round over the largest SWT, at the worst places and planes, the "
+            "critical one first; NaN where there are no more",
+            "share",
+            dims=(*COUNTED_SIZES,),
+        ),
+        Quantity(
+            "counted_number",
+            "n_i",
+            "number of such strain cycles",
+            "how many strain cycles of a round have this SWT, or about it; NaN where there are no more",
+            "number",
+            dims=(*COUNTED_SIZES,),
+        ),
     )
 }
 
-#: Those that are asked by name, and those that are asked by giving critical distances.
-NAMED = {name: row for name, row in QUANTITIES.items() if DISTANCE not in row.dims}
+#: Those that are asked by name, by giving critical distances, and with fatigue constants.
+NAMED = {name: row for name, row in QUANTITIES.items() if not row.dims}
 NONLOCAL = {name: row for name, row in QUANTITIES.items() if DISTANCE in row.dims}
+COUNTED = {name: row for name, row in QUANTITIES.items() if row.dims == (*COUNTED_SIZES,)}
 ALLOWED = f"a list of {', '.join(NAMED)}"
 
 
@@ -138,11 +184,14 @@ class Request:
         Critical distances ℓ/a_H, for which all of `NONLOCAL` are asked.
     is_axis
         Whether these distances are a dimension.
+    counts
+        Whether all of `COUNTED` are asked.
     """
 
     names: tuple[str, ...] = ()
     distances: tuple[float, ...] = ()
     is_axis: bool = False
+    counts: bool = False
 
     @classmethod
     def of(cls, items: Iterable[str], is_axis: bool = False) -> Request:
@@ -150,17 +199,22 @@ class Request:
         items = sorted(items)
         distances = sorted(distance for item in items if (distance := distance_of(item)) is not None)
         names = tuple(item for item in items if item in NAMED)
-        return cls(names, tuple(distances), is_axis or len(distances) > 1)
+        return cls(names, tuple(distances), is_axis or len(distances) > 1, COUNTS in items)
 
     @property
     def items(self) -> tuple[str, ...]:
-        """What is computed, each by itself, and which runs say they have: names and single distances."""
-        return (*self.names, *map(item_of, self.distances))
+        """What is computed, each by itself, and which runs say they have: the same ones, single distances."""
+        return (*self.same, *map(item_of, self.distances))
+
+    @property
+    def same(self) -> tuple[str, ...]:
+        """The items that are the same for all points."""
+        return (*self.names, COUNTS) if self.counts else self.names
 
     @property
     def variables(self) -> dict[str, tuple[str, ...]]:
         """Data variables, with their dimensions beside those of the points."""
-        rows = [NAMED[name] for name in self.names] + [*NONLOCAL.values()] * bool(self.distances)
+        rows = [row for item in (*self.same, *self.items[len(self.same) :][:1]) for row in rows_of(item)]
         return {
             variable: tuple(dim for dim in row.dims if dim != DISTANCE or self.is_axis)
             for row in rows
@@ -194,7 +248,14 @@ def distance_of(item: str) -> float | None:
 
 def is_item(raw: object) -> bool:
     """Whether something is an item of a request."""
-    return isinstance(raw, str) and (raw in NAMED or distance_of(raw) is not None)
+    return isinstance(raw, str) and (raw in NAMED or raw == COUNTS or distance_of(raw) is not None)
+
+
+def rows_of(item: str) -> tuple[Quantity, ...]:
+    """The quantities that an item of a request asks for."""
+    if item in NAMED:
+        return (NAMED[item],)
+    return (*(COUNTED if item == COUNTS else NONLOCAL).values(),)
 
 
 def columns_of(items: Iterable[str]) -> tuple[str, ...]:
@@ -207,16 +268,18 @@ def columns_of(items: Iterable[str]) -> tuple[str, ...]:
     """
     columns: list[str] = []
     for item in items:
-        rows = [NAMED[item]] if item in NAMED else [*NONLOCAL.values()]
-        for row in rows:
+        for row in rows_of(item):
             columns += (name for variable in row.variables for name in columns_in(row, variable, item))
     return tuple(columns)
 
 
 def columns_in(row: Quantity, variable: str, item: str) -> tuple[str, ...]:
-    """Those of one data variable of a quantity, along its direction."""
+    """Those of one data variable of a quantity, along its own dimensions but the critical distance."""
     if item in NAMED:
         return (variable,)
+    if item == COUNTS:
+        places, cycles = map(range, COUNTED_SIZES.values())
+        return tuple(f"{variable}@{place}@{cycle}" for place in places for cycle in cycles)
     name = f"{variable}@{item.partition('=')[2]}"
     return tuple(f"{name}@{each}" for each in DIRECTIONS) if "direction" in row.dims else (name,)
 
@@ -253,6 +316,8 @@ def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
             report(place, literal(name), ALLOWED)
         elif name in NONLOCAL:
             report(place, literal(name), f"it by giving {DISTANCE} a value")
+        elif name in COUNTED:
+            report(place, literal(name), "it in studies with [material], which have it")
         elif name not in NAMED:
             report(place, f"unknown quantity {literal(name)}", nearest(name, NAMED))
         elif name in raw[:index]:

@@ -56,10 +56,14 @@ def test_nonlocal_values():
     found = swtstudy.solve(critical_distance=[0.05], rtol=1e-2)
     words = {name: found[name].attrs["comment"] for name in ("s_volume", "s_point", "s_line")}
     assert words == {
-        "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
-        "s_point": "swt/SWT0 at half the critical distance from the critical point (point method)",
-        "s_line": "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+        "s_volume": "largest mean of swt/SWT0 over the half spheres of the critical distance about local "
+        "maxima of swt, which is that about volume_x",
+        "s_point": "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that "
+        "from point_x (point method)",
+        "s_line": "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which "
+        "is that from line_x (line method)",
     }
+    assert found.volume_x.attrs["symbol"] == r"x_\mathrm{volume}/a_H"
     assert not any("units" in found[name].attrs for name in (*words, "critical_distance"))
     assert found.critical_distance.attrs["symbol"] == r"\ell/a_H"
     assert found.direction.values.tolist() == ["depth", "critical_plane"]

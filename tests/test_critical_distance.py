@@ -48,9 +48,11 @@ def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch)
     def known(scene, position, angle, distance):
         volume = np.abs(position)[:, None] * distance
         both = np.stack([volume + 1.0, volume + 2.0], axis=-1)
-        return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1)
+        x = np.broadcast_to(position[:, None], volume.shape)
+        places = x, np.stack([x, x + 1.0], axis=-1), np.stack([x + 2.0, x + 3.0], axis=-1)
+        return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1, *places)
 
-    monkeypatch.setattr(quantities, "nonlocal_swt", known)
+    monkeypatch.setattr(quantities, "worst_means", known)
     found = swtstudy.solve(phase=[0.5, 1.0, 0.5 + np.pi], critical_distance=[0.2, 0.05], rtol=1e-2)
     volume = abs(found.critical_x.drop_attrs()) * found.critical_distance
 
@@ -75,8 +77,8 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
         asked.extend(distance.tolist())
         return whole(scene, position, angle, distance)
 
-    whole = quantities.nonlocal_swt
-    monkeypatch.setattr(quantities, "nonlocal_swt", counting)
+    whole = quantities.worst_means
+    monkeypatch.setattr(quantities, "worst_means", counting)
     never = stand_in.Counting()
     # Written otherwise, the old distance is still the old one.
     more = run(study(axes=NEAR.format('["1/20", 0.1]')), path, workers=1, solver=never)

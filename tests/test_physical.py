@@ -18,6 +18,7 @@ import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.parameters import PARAMETERS
+from swtstudy.units.life import UNCOUNTED
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES
 from swtstudy.units.sizes import wrong_size
@@ -116,9 +117,10 @@ def test_each_body_has_its_own_life():
     assert float(soft / stiff) == pytest.approx(210 / 180)
     lives = contact.cycles(STEEL, found.s)
     assert lives.attrs == {
-        "long_name": "cycles to the initiation of a crack",
+        "long_name": "rounds to the initiation of a crack",
         "units": "1",
         "symbol": "N",
+        "comment": UNCOUNTED,
     }
     assert lives.values == pytest.approx([float(STEEL.cycles(stiff)), float(STEEL.cycles(soft))])
     assert contact.swt(1e308, body=0) == np.inf  # without a warning

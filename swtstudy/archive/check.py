@@ -17,7 +17,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of, every_variable, item_of
+from swtstudy.quantities import DISTANCE, NONLOCAL, NOTHING, Request, attributes_of, every_variable, item_of
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
 from swtstudy.records.records import COMPUTED, STATES, made_by
@@ -95,7 +95,7 @@ def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     asked = _asked(dataset)
     dataset = without_units(dataset) if is_real(dataset) else dataset
     for name in asked.variables:
-        if name not in dataset:
+        if name not in dataset and not (name in NONLOCAL and NONLOCAL[name].is_place):
             yield name, "nothing", "a quantity that the attribute runs says is there"
     own = dict.fromkeys(["status", "run", *(item.name for item in fields(Solution))], ())
     for name, more in (own | asked.variables).items():

@@ -14,7 +14,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
-from swtstudy.records.real import ATTRIBUTE, is_real, read_contact
+from swtstudy.records.real import ATTRIBUTE, is_real, is_uncounted, read_contact
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import request_of
 from swtstudy.wording import value_words
@@ -103,6 +103,17 @@ def _contact(dataset: xr.Dataset) -> Iterator[str]:
         yield f"  units          {', '.join(vars(given.units).values())}"
         for material in dict.fromkeys(given.materials):
             yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"
+        if given.materials:
+            yield f"  lives          {_counted_words(dataset)}"
+
+
+def _counted_words(dataset: xr.Dataset) -> str:
+    if is_uncounted(dataset, "cycles"):
+        return "uncounted: in rounds, as if each had one strain cycle"
+    several = (dataset.counted_number.sum("counted_cycle") > 1.0).any("counted_place")
+    lacking = dataset.counted.isnull().all(["counted_place", "counted_cycle"]) & (dataset.s > 0.0)
+    words = f"in rounds, of counted strain cycles: several in {int(several.sum())} of {several.size} points"
+    return words + f"; uncounted in {int(lacking.sum())}" * bool(lacking.any())
 
 
 def _unit(coordinate: xr.DataArray) -> str:

@@ -101,7 +101,8 @@ def _asked(datasets: Sequence[xr.Dataset], items: tuple[str, ...], axis: bool) -
     own = [request_of(dataset, made_by(read_runs(dataset.attrs["runs"]))) for dataset in datasets]
     lengths = sorted({length for each in own for length in each.distances})
     names = sorted({name for each in own for name in each.names})
-    return Request(tuple(names), tuple(lengths), axis or len(lengths) > 1)
+    counts = any(each.counts for each in own)
+    return Request(tuple(names), tuple(lengths), axis or len(lengths) > 1, counts)
 
 
 def _names(paths: Sequence[Path]) -> str:

@@ -193,7 +193,7 @@ def _records_from(content: bytes) -> Records:
             tuple(map(Run.from_json, meta["runs"])),
             {int(index): message for index, message in meta["messages"].items()},
             {name: part[name] for name in part.files if name not in (*_OWN, *_ARRAYS)},
-        )
+        ).without_unknown()
 
 
 def _check_sum(content: bytes | memoryview) -> bytes:

@@ -13,6 +13,8 @@ from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.lock import LockedError, is_locked
 from swtstudy.archive.recall import grid_of
 from swtstudy.records.labelled import control_coordinate
+from swtstudy.records.real import is_uncounted
+from swtstudy.units.life import UNCOUNTED
 
 #: What xarray and netCDF4 raise for files that they cannot read.
 _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
@@ -30,6 +32,10 @@ def read_archive(path: Path) -> xr.Dataset:
     # Archives from before forces could be prescribed do not say what is.
     if "control" not in loaded.coords:
         loaded = loaded.assign_coords(control=control_coordinate(grid_of(loaded)))
+    # Nor do those from before strain cycles were counted that theirs are not.
+    for name, variable in loaded.data_vars.items():
+        if is_uncounted(loaded, str(name)):
+            variable.attrs.setdefault("comment", UNCOUNTED)
     return loaded
 
 

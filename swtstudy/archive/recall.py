@@ -21,7 +21,7 @@ from swtstudy.named import Named
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import Control, replaced_by
-from swtstudy.quantities import DISTANCE
+from swtstudy.quantities import DISTANCE, Request
 from swtstudy.records.columns import columns_back
 from swtstudy.records.labelled import arrays_of
 from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
@@ -156,6 +156,8 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
     runs = read_runs(dataset.attrs["runs"])
     asked = request_of(dataset, made_by(runs))
+    if not asked.variables.keys() <= {*dataset.data_vars}:
+        asked = Request(asked.names, counts=asked.counts)  # means of before, about critical points alone
     quantities = columns_back(grid, asked, points, columns_from(dataset, asked.items))
     # Mirroring a second time gives the canonical point back.
     solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
@@ -164,4 +166,5 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     failed = np.flatnonzero(status == FAILED)
     rows = zip(failed.tolist(), map(tuple, points.table[failed].tolist()), strict=True)
     messages = {index: reason[row] for index, row in rows if row in reason}
-    return Records(points.table, solution, status, run, runs, messages, quantities)
+    found = Records(points.table, solution, status, run, runs, messages, quantities)
+    return found.without_unknown()

@@ -83,7 +83,8 @@ class PhysicalContacts:
         fixed = {} if several or critical_distance is None else {DISTANCE: critical_distance}
         axes = {DISTANCE: list(critical_distance)} if several else {}  # type: ignore[call-overload]
         distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
-        asked = Request(read_quantities(quantities, "quantities", report), *distances)
+        names = read_quantities(quantities, "quantities", report)
+        asked = Request(names, *distances, counts=constants is not None)
         materials: tuple[FatigueConstants, ...] = ()
         try:
             materials = () if constants is None else constants_of_both(constants)

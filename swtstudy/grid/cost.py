@@ -11,7 +11,9 @@ from swtstudy.named import CONTENT_BITS
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
 #: The same of the nonlocal values of a point, whatever its weight and the number of distances.
-SECONDS_NONLOCAL = 0.1
+SECONDS_NONLOCAL = 0.2
+#: How much more counting the strain cycles of a point costs than its s.
+COUNTING = 2.5
 
 
 def weights(table: FloatArray) -> IntArray:

@@ -17,7 +17,7 @@ from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.reading import Given
 from swtstudy.units.rows import OF_BODIES
-from swtstudy.units.variables import NORMALISED, variables
+from swtstudy.units.variables import LIVES, NORMALISED, variables
 
 #: The attribute of a Dataset that says what its coordinates do not say of its contacts.
 ATTRIBUTE = "contact"
@@ -26,6 +26,11 @@ ATTRIBUTE = "contact"
 def is_real(dataset: xr.Dataset) -> bool:
     """Whether results are those of real contacts."""
     return ATTRIBUTE in dataset.attrs
+
+
+def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
+    """Whether a data variable is a life for which no strain cycles have been counted."""
+    return is_real(dataset) and name in LIVES and "counted" not in dataset
 
 
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:

@@ -175,6 +175,19 @@ class Records:
         ]
         return replace(self, runs=tuple(runs), quantities=kept)
 
+    def without_unknown(self) -> Records:
+        """These records without quantities of which not all is there, as in those of another version."""
+        runs = [
+            replace(
+                run,
+                quantities=tuple(
+                    item for item in run.quantities if {*columns_of([item])} <= self.quantities.keys()
+                ),
+            )
+            for run in self.runs
+        ]
+        return replace(self, runs=tuple(runs))
+
     def trimmed(self) -> Records:
         """These records without the runs that made none of them.
 

@@ -13,14 +13,16 @@ from swtstudy.axes import DIRECTIONS, QUANTITY_AXES
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameter import Parameter
 from swtstudy.quantities import (
+    COUNTED,
+    COUNTED_SIZES,
+    COUNTS,
     DISTANCE,
-    NAMED,
-    NONLOCAL,
     QUANTITIES,
     Request,
     columns_in,
     distance_of,
     item_of,
+    rows_of,
 )
 from swtstudy.records.real import is_real
 
@@ -38,10 +40,13 @@ def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple
     found: dict[str, tuple[tuple[str, ...], NDArray]] = {}
     for name, dims in asked.variables.items():
         row = next(row for row in QUANTITIES.values() if name in row.variables)
-        items = [row.name] if not row.dims else [item_of(distance) for distance in asked.distances]
+        items = [item_of(distance) for distance in asked.distances]
+        if DISTANCE not in row.dims:
+            items = [COUNTS if row.name in COUNTED else row.name]
         parts = [np.stack([columns[key] for key in columns_in(row, name, item)], axis=-1) for item in items]
         values = np.stack(parts, axis=1)
-        sizes = [values.shape[1 if dim == DISTANCE else 2] for dim in dims]
+        lengths = {DISTANCE: len(items), "direction": values.shape[2], **COUNTED_SIZES}
+        sizes = [lengths[dim] for dim in dims]
         found[name] = dims, values.reshape((len(values), *sizes))
     return found
 
@@ -67,7 +72,7 @@ def request_of(dataset: xr.Dataset, items: Iterable[str]) -> Request:
     if not own.distances or not is_real(dataset):
         return own
     lengths = np.atleast_1d(dataset[DISTANCE].values).tolist() if DISTANCE in dataset.coords else []
-    return Request(own.names, tuple(lengths), DISTANCE in dataset.dims)
+    return Request(own.names, tuple(lengths), DISTANCE in dataset.dims, own.counts)
 
 
 def columns_from(dataset: xr.Dataset, items: Iterable[str]) -> dict[str, FloatArray]:
@@ -79,7 +84,7 @@ def columns_from(dataset: xr.Dataset, items: Iterable[str]) -> dict[str, FloatAr
         if distance is not None and DISTANCE in dataset.dims:
             known = [item_of(value) for value in dataset[DISTANCE].values.tolist()]
             part = dataset.isel({DISTANCE: known.index(item)})
-        for row in [NAMED[item]] if distance is None else NONLOCAL.values():
+        for row in rows_of(item):
             for variable in row.variables:
                 keys = columns_in(row, variable, item)
                 own = [dim for dim in row.dims if dim != DISTANCE]

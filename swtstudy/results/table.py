@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.quantities import COUNTED
+
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
@@ -15,6 +17,8 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     """Results as a table, one row per point: see ``to_table`` of the accessor."""
     import pandas as pd
 
+    # A point has several cycles, which are no column.
+    dataset = dataset.drop_vars([*COUNTED], errors="ignore")
     dims = list(map(str, dataset.dims))
     # Those of a sample are along its dimension, single values along none.
     others = [str(name) for name in dataset.coords if name not in dims]

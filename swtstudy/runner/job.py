@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.files import check_writable
-from swtstudy.grid.cost import SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, weights
+from swtstudy.grid.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, weights
 from swtstudy.quantities import Request
 from swtstudy.records.records import Records, Run
 from swtstudy.runner.chunk import Solver
@@ -80,7 +80,9 @@ class Job:
         """Roughly the work that is left, in seconds of one process."""
         wanted = self.work.missing | self.work.incomplete
         seconds = weights(self.work.points.table[wanted]).sum() * SECONDS_PER_WEIGHT
-        if Request.of(self.work.quantities).distances:
+        asked = Request.of(self.work.quantities)
+        seconds *= 1.0 + COUNTING * asked.counts
+        if asked.distances:
             seconds += wanted.sum() * SECONDS_NONLOCAL
         return float(seconds)
 

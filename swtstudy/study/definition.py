@@ -170,7 +170,8 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
         return f"{places.get(name, 'fixed')}.{name}"
 
     distances = read_distances(fixed, axes, keys, report, {**AXES, **rows}[DISTANCE])
-    asked = Request(read_quantities(raw.get("quantities", []), "quantities", report), *distances)
+    names = read_quantities(raw.get("quantities", []), "quantities", report)
+    asked = Request(names, *distances, counts=contacts is not None and bool(contacts.materials))
     grid: Grid | None
     if contacts is None:
         grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)

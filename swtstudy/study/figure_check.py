@@ -8,7 +8,7 @@ from swtstudy.axes import AXES, DIRECTIONS, QUANTITY_AXES
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.nearest import index_of
 from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.quantities import DISTANCE, Request, every_variable
+from swtstudy.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
 
 
@@ -131,7 +131,7 @@ def _sizes(
 ) -> dict[str, int | None]:
     """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
     lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
-    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS)}
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
     made = {} if grid is None else grid.made(asked)
     if y.strip() in made:
         return {name: {**lengths_of, **lengths}[name] for name in made[y.strip()]}
@@ -169,7 +169,10 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         return
     if place is None:
         name = y.strip()
-        if name in every_variable() and name not in known:
+        if name in COUNTED:
+            found = f"{literal(y)}, which has several values at a point"
+            report("figure.y", found, "cycles, which is made of it")
+        elif name in every_variable() and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
         elif name not in known:

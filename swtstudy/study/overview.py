@@ -53,11 +53,12 @@ def _size(study: Study) -> str:
 
 def _cost(study: Study) -> str:
     """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
-    from swtstudy.grid.cost import SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, duration
+    from swtstudy.grid.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, duration
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
     weight = sum(p + q for p, q in ratios) / len(ratios)
-    each = weight * SECONDS_PER_WEIGHT + SECONDS_NONLOCAL * bool(study.asked.distances)
+    each = weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * study.asked.counts)
+    each += SECONDS_NONLOCAL * bool(study.asked.distances)
     seconds = study.grid.size * each
     return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.units.life import FatigueConstants, not_negative
+from swtstudy.quantities import COUNTED
+from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ SWT_ATTRIBUTES = {
     "units": "unit of stress of the moduli",
     "symbol": r"\mathrm{SWT}",
 }
-_CYCLES = {"long_name": "cycles to the initiation of a crack", "units": "1", "symbol": "N"}
+_CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
 
 
 def checked_body(body: object) -> int:
@@ -79,18 +80,26 @@ def bodies_of(s: ArrayLike | xr.DataArray, moduli: Moduli, body: int | None) -> 
 
 
 def cycles_from(
-    constants: FatigueConstants | Sequence[FatigueConstants], swt: Values, bodies: NDArray[np.intp]
+    constants: FatigueConstants | Sequence[FatigueConstants],
+    swt: Values,
+    bodies: NDArray[np.intp],
+    counted: xr.Dataset | None = None,
 ) -> Values:
-    """Cycles of each value with the constants of its body.
+    """Rounds to a crack of each value with the constants of its body, see `FatigueConstants.rounds`.
 
     Raises
     ------
     StudyError
         If the constants are neither those of both bodies nor a pair.
     """
-    one, two = (each.cycles(np.asarray(swt)) for each in constants_of_both(constants))
+    both = constants_of_both(constants)
+    if counted is None:
+        one, two = (each.cycles(np.asarray(swt)) for each in both)
+    else:
+        one, two = (np.asarray(each.rounds(swt, *(counted[name] for name in COUNTED))) for each in both)
     cycles = np.where(bodies == 1, two, one)
-    return _labelled("cycles", cycles, swt, _CYCLES)
+    words = _CYCLES | {"comment": UNCOUNTED if counted is None else ROUNDS}
+    return _labelled("cycles", cycles, swt, words)
 
 
 def constants_of_both(constants: object) -> tuple[FatigueConstants, FatigueConstants]:

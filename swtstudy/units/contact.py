@@ -257,8 +257,9 @@ class Contact:
         constants: FatigueConstants | Sequence[FatigueConstants],
         s: ArrayLike | xr.DataArray,
         body: int | None = None,
+        counted: xr.Dataset | None = None,
     ) -> Values:
-        """Cycles to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+        """Rounds of the load to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
 
         Parameters
         ----------
@@ -266,6 +267,9 @@ class Contact:
             Of both bodies, or a pair for bodies of different materials.
         s, body
             As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+        counted
+            Results with counted and counted_number, as of studies with [material], with which s is a
+            DataArray; unless it is given a round counts as one strain cycle.
 
         Returns
         -------
@@ -277,4 +281,4 @@ class Contact:
         StudyError
             A ValueError, as of `swt`, or if the constants are none.
         """
-        return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body))
+        return cycles_from(constants, self.swt(s, body), bodies_of(s, self.moduli, body), counted)

@@ -1,19 +1,30 @@
-"""From SWT to cycles: the SWT–life relation of the strain–life constants."""
+"""From SWT to cycles, and to rounds of several cycles: the SWT–life relation of the strain–life constants."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mistakes import Mistake, StudyError, plain_number
 from swtstudy.numbers import read_numbers
+from swtstudy.quantities import COUNTED_SIZES
 from swtstudy.units.sizes import wrong_size
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60
+#: What a life is one of, in comments of data variables.
+ROUNDS = (
+    "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
+    "counted in a round"
+)
+UNCOUNTED = (
+    "rounds of the load to the initiation of a crack, uncounted: as if each had one strain cycle; where it "
+    "has more the life is too long"
+)
 
 
 @dataclass(frozen=True)
@@ -67,7 +78,9 @@ class FatigueConstants:
             return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
     def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
-        """Cycles N to the initiation of a crack at a given SWT.
+        """Strain cycles N to the initiation of a crack at a given SWT.
+
+        A round of a load may have several: `rounds` counts these.
 
         The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
@@ -111,6 +124,52 @@ class FatigueConstants:
             x = np.where(known[..., 0], x - step, x)
         with np.errstate(over="ignore"):
             return np.asarray(0.5 * np.exp(x))
+
+    def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
+        """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
+
+        Of several places and planes that with the largest sum counts.
+
+        Parameters
+        ----------
+        swt
+            SWT as for `cycles`, or a mean of it over a critical distance, whose cycles are taken to have the
+            same ratios.
+        counted, counted_number
+            SWT_i over SWT, and how many cycles have it, along two more axes than ``swt``, places and cycles,
+            as results of studies with [material] have them; NaN where there are no more. Where there are none
+            at all a round counts as one cycle.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            A DataArray if ``swt`` is one: dimensions go by their names then.
+
+        Examples
+        --------
+        >>> steel = FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
+        >>> float(steel.rounds(steel.swt(1e5), [[1.0, 0.9]], [[4.0, np.nan]]).round())
+        25000.0
+        """
+        import xarray as xr
+
+        if not isinstance(swt, xr.DataArray):
+            return self._rounds(not_negative("swt", swt), np.asarray(counted), np.asarray(counted_number))
+        dims = (*swt.dims, *COUNTED_SIZES)
+        both = (each.broadcast_like(swt).transpose(*dims).values for each in (counted, counted_number))
+        return swt.copy(data=self._rounds(not_negative("swt", swt.values), *both))
+
+    def _rounds(
+        self, swt: NDArray[np.float64], counted: NDArray[np.float64], number: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """`rounds` of arrays."""
+        each = swt[..., None, None] * counted
+        known = np.broadcast_to(counted > 0.0, each.shape)
+        damage = np.zeros(each.shape)
+        with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
+            damage[known] = np.broadcast_to(number, each.shape)[known] / self.cycles(each[known])
+            rounds = 1.0 / damage.sum(axis=-1).max(axis=-1)
+        return np.where(known.any(axis=(-2, -1)), rounds, self.cycles(swt))
 
 
 def not_negative(name: str, values: object) -> NDArray[np.float64]:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.quantities import NONLOCAL, Request, error_of
+from swtstudy.quantities import COUNTED, NONLOCAL, Request, error_of
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
+from swtstudy.units.life import ROUNDS, UNCOUNTED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -41,6 +42,8 @@ class Variable:
         What that is multiplied by, or what the contact has.
     to_cycles
         Whether it is the life at that.
+    counts
+        Whether that is of counted strain cycles.
     """
 
     name: str
@@ -50,18 +53,20 @@ class Variable:
     of: str
     scale: Callable[[PhysicalGrid], xr.DataArray]
     to_cycles: bool = False
+    counts: bool = False
 
     def attributes(self, units: Units) -> dict[str, Any]:
         """CF attributes."""
         label = "1" if self.kind == "1" else units.label(self.kind) or f"unit of {self.kind}"
-        return {"long_name": self.meaning, "units": label, "symbol": self.symbol}
+        words = {"long_name": self.meaning, "units": label, "symbol": self.symbol}
+        return words | ({"comment": ROUNDS if self.counts else UNCOUNTED} if self.to_cycles else {})
 
     def values(self, dataset: xr.Dataset, grid: PhysicalGrid) -> xr.DataArray:
         """Its values over the dimensions of a Dataset."""
         if not self.of:
             return self.scale(grid)
         found = dataset[self.of] * self.scale(grid)
-        return _cycles(found, grid) if self.to_cycles else found
+        return _cycles(found, grid, dataset) if self.to_cycles else found
 
 
 def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
@@ -76,10 +81,13 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         yield Variable(name, r"\Delta " * error + symbol, meaning, "stress", of, _swt_scale)
         if grid.materials and not error:
             symbol = rf"N_\mathrm{{{place}}}" if place else "N"
-            yield Variable(f"cycles{end}", symbol, f"cycles to a crack{words}", "1", of, _swt_scale, True)
+            life = f"cycles{end}", symbol, f"rounds to a crack{words}", "1", of, _swt_scale
+            yield Variable(*life, to_cycles=True, counts=asked.counts)
     yield Variable(
         "critical_position", "x", "position of the critical point", "length", "critical_x", _length
     )
+    for of in (place for place in PLACES if place in asked.variables):
+        yield Variable(position_of(of), "x", NONLOCAL[of].meaning, "length", of, _length)
     yield from _at_rest(grid)
     if "dissipation" in asked.names:
         for end, symbol, words in (("", "W", ""), ("_error", r"\Delta W", "error of ")):
@@ -93,10 +101,22 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
 
 
-#: Names of all that there may be.
+#: Of the nonlocal quantities those that are swt, and those that are places.
+MEANS = tuple(name for name, row in NONLOCAL.items() if not row.is_place)
+PLACES = tuple(name for name, row in NONLOCAL.items() if row.is_place)
+
+
+def position_of(place: str) -> str:
+    """Name of a place with a unit."""
+    return f"{place.removesuffix('_x')}_position"
+
+
+#: Names of all lives that there may be, and of all that there may be.
+LIVES = tuple(f"cycles{name.removeprefix('s')}" for name in ("s", *MEANS))
 NAMES = (
-    *(f"SWT{of.removeprefix('s')}" for name in ("s", *NONLOCAL) for of in (name, error_of(name))),
-    *(f"cycles{name.removeprefix('s')}" for name in ("s", *NONLOCAL)),
+    *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
+    *(position_of(place) for place in PLACES),
+    *LIVES,
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
 )
@@ -112,7 +132,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
 
 def _swt_of(asked: Request) -> Iterator[tuple[str, str]]:
     """Names of SWT, and of what without units it is made of."""
-    names = ["s", *(name for name in NONLOCAL if name in asked.variables)]
+    names = ["s", *(name for name in MEANS if name in asked.variables)]
     for name in names:
         for of in (name, error_of(name)):
             yield f"SWT{of.removeprefix('s')}", of
@@ -150,7 +170,11 @@ def _work(grid: PhysicalGrid) -> xr.DataArray:
     return grid.seats.each(lambda contact: contact.friction * contact.normal_force * contact.slip_scale)
 
 
-def _cycles(swt: xr.DataArray, grid: PhysicalGrid) -> xr.DataArray:
-    """Cycles at SWT, with the constants of each body."""
-    one, two = (swt.copy(data=each.cycles(swt.values)) for each in grid.materials)
+def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset) -> xr.DataArray:
+    """Rounds to a crack at SWT, with the constants of each body, of strain cycles if they are counted."""
+    if COUNTED.keys() <= {*dataset.data_vars}:
+        counted = [dataset[name] for name in COUNTED]
+        one, two = (each.rounds(swt, *counted) for each in grid.materials)
+    else:
+        one, two = (swt.copy(data=each.cycles(swt.values)) for each in grid.materials)
     return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]

@@ -37,6 +37,8 @@ class NonlocalSwt:
         Shape (n, k): means over half spheres.
     point, point_error, line, line_error
         Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
+    volume_x, point_x, line_x
+        Shape (n, k), (n, k, 2) and (n, k, 2): signed x of the points of the surface line that they are about.
     """
 
     volume: FloatArray
@@ -45,20 +47,23 @@ class NonlocalSwt:
     point_error: FloatArray
     line: FloatArray
     line_error: FloatArray
+    volume_x: FloatArray
+    point_x: FloatArray
+    line_x: FloatArray
 
 
 def nonlocal_swt(
     scene: Scene, position: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = 1e-3
 ) -> NonlocalSwt:
-    """swt over critical distances about the critical points of n scenes.
+    """swt over critical distances about one point each of n scenes.
 
     Parameters
     ----------
     scene
         n points.
     position, angle
-        Shape (n,): signed x of the critical points on the surface line, in a_H, and the angle between the
-        normal of the critical plane and the x axis, degrees; NaN where there is none.
+        Shape (n,): signed x of the points on the surface line, in a_H, and the angle between the normal of
+        the worst plane there and the x axis, degrees; NaN where there is none.
     distance
         Shape (k,): ℓ > 0 in a_H.
     rtol
@@ -78,7 +83,9 @@ def nonlocal_swt(
             # A peak that is missed at one place does not average out.
             point_error[row, group] = np.maximum(of_lines.error[0], OF_POINT * of_lines.value[0])
             line_error[row, group] = of_lines.error[1]
-    return NonlocalSwt(volume, volume_error, point, point_error, line, line_error)
+    about = (np.broadcast_to(position.reshape(-1, *(1,) * (v.ndim - 1)), v.shape) for v in (volume, point))
+    volume_x, point_x = about
+    return NonlocalSwt(volume, volume_error, point, point_error, line, line_error, volume_x, point_x, point_x)
 
 
 def _groups(distance: FloatArray) -> list[NDArray[np.intp]]:
