@@ -12,7 +12,7 @@ from scenes import random_points
 from swtstudy.mechanics.events.nodes import _places
 from swtstudy.mechanics.events.stretches import meet
 from swtstudy.mechanics.line import first_look
-from swtstudy.mechanics.line.first_look import Seen, _predicted, candidates, resolved
+from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
 from swtstudy.mechanics.line.look import Look, _falling
 from swtstudy.mechanics.line.positions import Pieces
 from swtstudy.mechanics.line.samples import of_extremes
@@ -23,7 +23,9 @@ def peaks(swt, highest=None):
     """Numbers of the candidates among values on one side, of one point."""
     values = np.array(swt, dtype=float)[:, None]
     most = values if highest is None else np.array(highest, dtype=float)[:, None]
-    place, side = candidates(SimpleNamespace(point=np.zeros(len(values), int)), Seen(values, values, most))
+    place, side = high_positions(
+        SimpleNamespace(point=np.zeros(len(values), int)), Seen(values, values, most)
+    )
     assert not side.any()
     return place.tolist()
 
@@ -55,7 +57,7 @@ def test_a_low_peak_is_none_unless_it_may_be_higher_between_the_instants():
 def test_each_point_has_its_own_peaks():
     seen = np.array([1.0, 2.0, 3.0, 9.0, 8.0, 1.0])[:, None]
     point = np.array([0, 0, 0, 1, 1, 1])
-    assert candidates(SimpleNamespace(point=point), Seen(seen, seen, seen))[0].tolist() == [2, 3]
+    assert high_positions(SimpleNamespace(point=point), Seen(seen, seen, seen))[0].tolist() == [2, 3]
 
 
 def test_what_lies_between_is_predicted_as_by_a_cubic_or_a_parabola():

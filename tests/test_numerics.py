@@ -7,6 +7,7 @@ import pytest
 
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import (
+    as_rows,
     RowTable,
     align,
     count_below,
@@ -28,6 +29,12 @@ from swtstudy.mechanics.numerics.peaks import (
 from swtstudy.mechanics.numerics.roots import sign_changes
 
 RNG = np.random.default_rng(7)
+
+
+def test_entries_that_are_listed_row_by_row_are_rows():
+    index, real = as_rows(np.array([0, 0, 2, 3, 3, 3]), np.array([3, 0, 2]))
+    assert index.tolist() == [[3, 4, 5], [0, 1, 1], [2, 2, 2]]
+    assert real.tolist() == [[True] * 3, [True, True, False], [True, False, False]]
 
 
 def test_gather_and_pick_are_numpys() -> None:

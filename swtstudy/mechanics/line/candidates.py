@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.accuracy import Accuracy
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, Climb
-from swtstudy.mechanics.line.first_look import first_look
-from swtstudy.mechanics.line.maximum import SCAN_PLANES, SCAN_RESOLUTION
-from swtstudy.mechanics.line.positions import positions_of_first_look
+from swtstudy.mechanics.line.climb import Climb
+from swtstudy.mechanics.line.first_look import resolved
+from swtstudy.mechanics.line.positions import Pieces, cusps
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
@@ -46,39 +45,22 @@ class Candidates(NamedTuple):
 def candidates(scene: Scene, least: FloatArray) -> Candidates:
     """Local maxima of swt on the surface line of n points that are above the ``least``, shape (n,).
 
-    Of a load whose second half mirrors the first, those at x ≥ 0 alone. Cusps that the positions of the first
-    look step over, beside a higher maximum, are left out.
+    Of a load whose second half mirrors the first, those at x ≥ 0 alone.
     """
-    split = scene.split_at_breakpoints()
-    positions = positions_of_first_look(split.cycle, scene.coordinate, scene.bulk is not None)
-    look = first_look(scene, positions.r, SCAN_RESOLUTION, SCAN_PLANES)
-    swt = np.where(np.arange(positions.r.shape[1]) < positions.count[:, None, None], look.swt, -np.inf)
-    padded = np.pad(swt, ((0, 0), (0, 0), (1, 1)), constant_values=-np.inf)
-    peak = (swt > padded[..., :-2]) & (swt >= padded[..., 2:]) & (swt > least[:, None, None])
-    point, side, column = np.nonzero(peak)
-    climb = _started(scene, look.closer(scene, point, side, column), point, side, column)
-    accuracy = Accuracy.for_tolerance(TOLERANCE)
+    split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(TOLERANCE)
+    ends = cusps(split.cycle, scene.coordinate, scene.bulk is not None)
+    positions, seen = resolved(scene, Pieces.between(ends, scene.profile.feature_length))
+    climb = Climb.start(split, positions, seen, accuracy.search, least)
     for _ in range(ROUNDS):
         going = np.flatnonzero(~climb.settled)
         if not going.size:
             break
         moved, _ = climb_round(split, positions, climb.take(going), accuracy)
         climb = Climb.joined([climb.take(climb.settled), moved])
-    r = climb.brackets(positions).radius(climb.centre[:, None])
+    r = positions.take(climb.place).around(climb.centre[:, None])
     value, angle = refine(split.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
     found = Candidates(climb.point, climb.side * r[:, 0], angle[:, 0], value[:, 0])
     return _apart(found, SAME * scene.largest_radius)
-
-
-def _started(
-    scene: Scene, angle: FloatArray, point: NDArray[np.intp], side: NDArray[np.intp], column: NDArray[np.intp]
-) -> Climb:
-    """Climbs from positions of the first look."""
-    m = len(point)
-    centre, top, seen, remaining = np.zeros((4, m))
-    x_sign, width = np.where(side == 0, 1.0, -1.0), np.full(m, FIRST_WIDTH)
-    rounds, settled = np.zeros(m, dtype=np.intp), np.zeros(m, dtype=bool)
-    return Climb(point, x_sign, column, angle, centre, width, top, seen, remaining, rounds, settled)
 
 
 def _apart(found: Candidates, distance: FloatArray) -> Candidates:

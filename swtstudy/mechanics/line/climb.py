@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.first_look import SHARE, Seen, candidates
+from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
@@ -60,17 +60,28 @@ class Climb:
     settled: NDArray[np.bool_]
 
     @classmethod
-    def start(cls, scene: Scene, positions: Positions, seen: Seen, resolution: Resolution) -> Climb:
-        """From a first look at positions of n points, on each plane on which swt may be largest."""
-        place, side = candidates(positions, seen)
+    def start(
+        cls,
+        scene: Scene,
+        positions: Positions,
+        seen: Seen,
+        resolution: Resolution,
+        least: FloatArray | None = None,
+    ) -> Climb:
+        """From a first look at positions of n points, on each plane on which swt may be largest.
+
+        With ``least``, of shape (n,), on each on which it may be as high as that.
+        """
+        place, side = high_positions(positions, seen, least)
         own, x_sign = scene.take(positions.point[place]), np.where(side == 0, 1.0, -1.0)
         look = Look.at(own, positions.r[place][:, None], resolution.nodes, resolution.digits)
         planes = own.planes(look.history, x_sign[:, None, None]).take(np.arange(place.size), 0 * place)
         row, angle, swt = _summits(planes, look.inside[:, 0])
         point = positions.point[place[row]]
-        largest = np.zeros(len(scene))
-        np.maximum.at(largest, point, swt)
-        high = swt >= (1.0 - SHARE) * largest[point]
+        if least is None:
+            least = np.zeros(len(scene))
+            np.maximum.at(least, point, swt)
+        high = swt >= (1.0 - SHARE) * least[point]
         row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
         heights = zero, zero + FIRST_WIDTH, zero, zero, zero
         return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)

@@ -20,8 +20,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.positions import PositionBrackets, Positions, positions_of_first_look
+from swtstudy.mechanics.line.positions import Pieces, Positions, cusps
+from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import Walker, combined, curves, of_maxima
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.planes.through_y import PlaneHistory
@@ -94,10 +96,10 @@ class _Places(NamedTuple):
     ----------
     point, power
         Numbers of the point, and of the power.
-    side, column
-        Sign of x, and column among the positions of the first look.
+    side, place
+        Sign of x, and number of the position of the first look.
     c
-        Where around that position, see `PositionBrackets`.
+        Where around that position, see `Positions.around`.
     angle
         2θ, rad.
     """
@@ -105,7 +107,7 @@ class _Places(NamedTuple):
     point: NDArray[np.intp]
     power: NDArray[np.intp]
     side: FloatArray
-    column: NDArray[np.intp]
+    place: NDArray[np.intp]
     c: FloatArray
     angle: FloatArray
 
@@ -127,7 +129,8 @@ def strain_cycles(scene: Scene, position: FloatArray, double_angle: FloatArray) 
         place and plane for each of `POWERS` where the sum is larger by `GAIN`; each in descending order.
     """
     split = scene.split_at_breakpoints()
-    positions = positions_of_first_look(split.cycle, split.coordinate, split.bulk is not None)
+    ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
+    positions, _ = resolved(scene, Pieces.between(ends, split.profile.feature_length))
     home = _at(split, _off_edge(scene, np.abs(position)), np.sign(position), double_angle)
     largest = home[:, :1]
     home = home / largest
@@ -168,12 +171,13 @@ def _at(split: Scene, r: FloatArray, side: FloatArray, double_angle: FloatArray)
 
 def _higher(split: Scene, positions: Positions, largest: FloatArray, least: FloatArray) -> _Places:
     """Where the first look finds the largest sums, if they may be above the ``least``, (powers, n)."""
-    n, columns = positions.r.shape
-    size = max(LOOK_SIZE // (columns * STEPS * split.cycle.begin.shape[1]), 1)
+    index, _ = as_rows(positions.point, np.arange(len(split)))
+    size = max(LOOK_SIZE // (index.shape[1] * STEPS * split.cycle.begin.shape[1]), 1)
     parts = []
-    for rows in np.array_split(np.arange(n), -(-n // size)):
-        found = _higher_of_some(split.take(rows), positions.r[rows], largest[rows], least[:, rows])
-        parts.append(found._replace(point=rows[found.point]))
+    for rows in np.array_split(np.arange(len(split)), -(-len(split) // size)):
+        found = _higher_of_some(split.take(rows), positions.r[index[rows]], largest[rows], least[:, rows])
+        point = rows[found.point]
+        parts.append(found._replace(point=point, place=index[point, found.place]))
     return _Places(*(np.concatenate(values) for values in zip(*parts, strict=True)))
 
 
@@ -233,24 +237,24 @@ def _closer(
     split: Scene, positions: Positions, largest: FloatArray, places: _Places
 ) -> list[tuple[int, int, FloatArray]]:
     """Point, power and cycles over the largest swt at the best places near to some, by point and power."""
-    point, power, side, column, c, angle = places
+    point, power, side, place, c, angle = places
     if not point.size:
         return []
     own = split.take(point)
-    brackets = PositionBrackets.around(positions, point, column)
+    here = positions.take(place)
     wide, turned = 1.0, 2.0 * np.pi / PLANES
     for _ in range(ROUNDS):
         around = np.clip(c[:, None] + wide * OFFSETS, -1.0, 1.0)
-        look = Look.at(own, brackets.radius(around), FINE_STEPS, DIGITS)
+        look = Look.at(own, here.around(around), FINE_STEPS, DIGITS)
         planes = own.planes(look.history, side[:, None, None])
         angles = angle[:, None] + turned * OFFSETS
         tried = [Histories.at(look, planes, np.repeat(a[:, None], OFFSETS.size, axis=1)) for a in angles.T]
         found = _counted(tried).reshape(len(POWERS), OFFSETS.size, point.size, OFFSETS.size)
         own_power = found[power, :, np.arange(point.size)].reshape(point.size, -1)
-        plane, place = np.divmod(own_power.argmax(axis=1), OFFSETS.size)
+        plane, step = np.divmod(own_power.argmax(axis=1), OFFSETS.size)
         rows = np.arange(point.size)
-        c, angle = around[rows, place], angles[rows, plane]
+        c, angle = around[rows, step], angles[rows, plane]
         wide, turned = SHRINKING * wide, SHRINKING * turned
-    shares = _at(own, brackets.radius(c[:, None])[:, 0], side, angle) / largest[point]
+    shares = _at(own, here.around(c[:, None])[:, 0], side, angle) / largest[point]
     order = np.lexsort((power, point))
     return [(int(point[k]), int(power[k]), shares[k]) for k in order]

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
+from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
 from swtstudy.mechanics.points import FloatArray
@@ -137,34 +138,36 @@ def look_at(scene: Scene, pieces: Pieces, piece: NDArray[np.intp], share: FloatA
     """Look at shares of the angle of pieces, (m,) each, the pieces in ascending order."""
     point, r = pieces.point[piece], pieces.radius(piece, np.pi * share)
     count = np.bincount(point, minlength=len(scene))
-    start = np.cumsum(count) - count
     found = Seen(*np.empty((3, point.size, 1 if scene.mirrored_half else 2)))
     # Points with as many positions together: rows are as long as the longest.
     left = np.argsort(-count, kind="stable")[: np.count_nonzero(count)]
     while left.size:
-        column = np.arange(count[left[0]])
-        size = max(LOOK_SIZE // (column.size * scene.cycle.begin.shape[1]), 1)
+        size = max(LOOK_SIZE // (count[left[0]] * scene.cycle.begin.shape[1]), 1)
         rows, left = left[:size], left[size:]
-        own = count[rows][:, None]
-        index, real = start[rows][:, None] + np.minimum(column, own - 1), column < own
+        index, real = as_rows(point, rows)
         look = first_look(scene.take(rows), r[index], RESOLUTION, PLANES)
         for values, seen in zip(vars(found).values(), vars(look).values(), strict=True):
             values[index[real]] = seen[real]
     return found
 
 
-def candidates(positions: Positions, seen: Seen) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def high_positions(
+    positions: Positions, seen: Seen, least: FloatArray | None = None
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Numbers and sides of the positions around which swt may be largest, shape (k,) each.
 
     These are the local maxima of what is seen, as far as positions, instants and planes may each leave a
-    share of it unseen, and those of what may be between the instants, as far as it may be the largest.
+    share of it unseen, and those of what may be between the instants, as far as it may be the largest. With
+    ``least``, of shape (n,), those as high as that.
     """
     point = positions.point
-    largest = np.zeros(point.max(initial=-1) + 1)
-    np.maximum.at(largest, point, seen.swt.max(axis=1))
-    top = largest[point][:, None]
-    chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * top)
-    chosen |= _peaks(point, seen.highest) & (seen.highest >= top)
+    if least is None:
+        largest = np.zeros(point.max(initial=-1) + 1)
+        np.maximum.at(largest, point, seen.swt.max(axis=1))
+        least = largest
+    enough = least[point][:, None]
+    chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
+    chosen |= _peaks(point, seen.highest) & (seen.highest >= enough)
     place, side = np.nonzero(chosen)
     return place, side
 

@@ -132,6 +132,26 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     return filled
 
 
+def as_rows(row: NDArray[np.intp], rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Where the entries of some rows are among those of all, which are listed row by row.
+
+    Parameters
+    ----------
+    row
+        Shape (m,): the row of each entry, ascending.
+    rows
+        Shape (n,): rows with at least one entry.
+
+    Returns
+    -------
+    index, real
+        Shape (n, k): numbers of the entries, where shorter rows repeat their last one; and which are no repeats.
+    """
+    start, end = (np.searchsorted(row, rows, side)[:, None] for side in ("left", "right"))
+    index = start + np.arange(int((end - start).max(initial=0)))
+    return np.minimum(index, end - 1), index < end
+
+
 def align(values: NDArray[T], like: NDArray[Any]) -> NDArray[T]:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
