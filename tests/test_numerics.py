@@ -7,9 +7,9 @@ import pytest
 
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import (
-    as_rows,
     RowTable,
     align,
+    as_rows,
     count_below,
     distinct,
     filled_rows,

@@ -145,7 +145,7 @@ def as_rows(row: NDArray[np.intp], rows: NDArray[np.intp]) -> tuple[NDArray[np.i
     Returns
     -------
     index, real
-        Shape (n, k): numbers of the entries, where shorter rows repeat their last one; and which are no repeats.
+        Shape (n, k): numbers of the entries, of which shorter rows repeat the last; and which are no repeats.
     """
     start, end = (np.searchsorted(row, rows, side)[:, None] for side in ("left", "right"))
     index = start + np.arange(int((end - start).max(initial=0)))
