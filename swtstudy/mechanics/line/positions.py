@@ -18,12 +18,6 @@ from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
 
-#: Positions that the first look spreads over the contact besides the cusps. Half or twice as many: less than
-#: 1e-6, the same time, at 128 points of the box, which are not those with narrow maxima.
-SPREAD = 24
-#: So many more for each wave, and for each tangential oscillation within a normal one beyond the first:
-#: what sticks at touch-down keeps the oscillation.
-SPREAD_PER_WAVE, SPREAD_PER_OSCILLATION = 8, 4
 #: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
 #: its least radius is left out, and where contact is lost this share. 0.2 in place of 0.02: 7e-3 at some
 #: of 600 points.
@@ -32,16 +26,12 @@ INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
 #: its largest radius, beyond which swt differs from that of the bulk stress alone by less than 1e-3 of its
 #: difference at the edge.
 BEYOND = np.array([1.5, 5.0, 40.0])
-#: Steps of each of these stretches, in which swt has no cusps.
-OUTSIDE_STEPS = 5
 #: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
 BESIDE_FACE = 0.999
 #: A stretch between cusps shorter than this share of the range is none. 1e-14: no change; 1e-10: 2e-10.
 NO_LENGTH = 1e-12
 #: Stretches whose ends are more than this apart, as a ratio, are shared by the logarithm: they lead to a tip.
 FAR_APART = 1e4
-#: Angles α nearer than this to 0 or π are an end of the stretch. 1e-11 or 1e-7: no change at 128 points.
-END = 1e-9
 
 
 def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> FloatArray:
