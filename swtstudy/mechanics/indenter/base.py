@@ -76,6 +76,9 @@ class Profile(ABC):
         Shape (n,): largest indentation depth in δ0, up to which tables are made.
     """
 
+    #: Whether the contact is a strip in plane strain, not a disc: what that changes is in
+    #: `swtstudy.mechanics.indenter.plane`.
+    plane: ClassVar[bool] = False
     #: Whether the stress has no bound at the edge r = b⁺ of a flat face.
     has_singular_edge: ClassVar[bool] = False
     #: Whether equal cells of ξ resolve g′ as well as others.
@@ -176,6 +179,10 @@ class Profile(ABC):
     def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
         """`depth` and `weighted_slope` in one."""
         return self.depth(radius), self.weighted_slope(radius)
+
+    def slope_integral(self, radius: FloatArray) -> FloatArray:
+        """∫ g′ dξ from b to ``radius``, of the slope that `weighted_slope` has."""
+        return self.depth(radius)
 
     @abstractmethod
     def half_load(self, radius: FloatArray) -> FloatArray:

@@ -163,7 +163,7 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
     while True:
         radius = np.linspace(0.0, end, count + 1)
         middle = 0.5 * (radius[1:] + radius[:-1])
-        chord = np.diff(profile.depth(radius[None])[0]) * count / end
+        chord = np.diff(profile.slope_integral(radius[None])[0]) * count / end
         bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord).max()
         if bend < chord.max() / cells**2 or count > 8 * cells:
             return radius
@@ -175,7 +175,7 @@ def _adapted_radii(profile: Profile, end: float, cells: int) -> FloatArray:
     radius = np.linspace(0.0, end, 5)
     while True:
         width, middle = np.diff(radius), 0.5 * (radius[1:] + radius[:-1])
-        chord = np.diff(profile.depth(radius[None])[0]) / width
+        chord = np.diff(profile.slope_integral(radius[None])[0]) / width
         bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord)
         bend *= np.sqrt(np.minimum(width * (cells / end), 1.0))
         bent = bend > chord.max() / (2 * cells) ** 2
