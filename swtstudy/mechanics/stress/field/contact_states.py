@@ -14,6 +14,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.stress.field.kernels import Kernels, kernels_of
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
 from swtstudy.mechanics.stress.field.superposition import stress_history
 
@@ -37,19 +38,21 @@ class ContactStates:
         Shape (T, m).
     tangential_slope
         Shape (T, k, m).
+    kernels
+        What is superposed.
     """
 
     cells: SlopeCells
     touching: FloatArray
     tangential_slope: FloatArray
+    kernels: Kernels
 
     def stress(
         self, x: ArrayLike, y: ArrayLike, z: ArrayLike, friction: float, poisson_ratio: float
     ) -> FloatArray:
         """Stress at points of shape S, shape S + (T, 6); see `superposition.stress_history`."""
-        return stress_history(
-            x, y, z, self.cells, self.touching, self.tangential_slope, friction, poisson_ratio
-        )
+        own = self.cells, self.touching, self.tangential_slope
+        return stress_history(x, y, z, *own, friction, poisson_ratio, self.kernels)
 
 
 def contact_states(
@@ -74,7 +77,8 @@ def contact_states(
     touching = at < states.edge[0, :, None]
     branches = np.unique(memory.branch[_grown(memory)])
     shares = _shares(memory, states, at, branches) * touching[:, None]
-    return ContactStates(_slopes(cycle, coordinate, radius, branches), touching.astype(float), shares)
+    cells_of = _slopes(cycle, coordinate, radius, branches)
+    return ContactStates(cells_of, touching.astype(float), shares, kernels_of(coordinate.profile))
 
 
 def resolving_cells(cycle: Cycle, coordinate: Coordinate, cells: int) -> tuple[SlopeCells, IntArray]:
