@@ -2,7 +2,8 @@
 
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
 about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
-(point method), or as the mean over the depths 0 … 2ℓ (line method), straight down or along the critical plane.
+(point method), or as the mean over the depths 0 … 2ℓ (line method), straight down or along the critical
+plane.
 
 With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
 that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
