@@ -9,6 +9,7 @@ from oracles.strips import STRIPS
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 
 from swtstudy.mechanics.body.body import Body, closer_nodes, nodes_at, time_nodes
+from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.solver import solve_points
@@ -153,3 +154,20 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
         assert means.point[0, k, 0] == pytest.approx(float(body.swt(x, 0.0, 0.5 * size).swt), rel=2e-3)
         line = float((2.0 * node * weight * body.swt(x, 0.0, 2.0 * size * node**2).swt).sum())
         assert means.line[0, k, 0] == pytest.approx(line, rel=3e-3)
+
+
+@pytest.mark.parametrize("name", ["cylinder", "rounded_flat"])
+def test_the_search_of_the_body_stays_in_the_section(name: str) -> None:
+    """It finds s of the line, nothing higher beneath it, and y = 0; far away swt of a bulk stress alone."""
+    batch = random_plane_points(8, 2, name)
+    found = solve_points(batch)
+    for k in range(2):
+        whole, at_line = body_maximum(scene_of(take(batch, k)), float(found.critical_x[k]))
+        assert whole.swt == pytest.approx(found.s[k], rel=1e-3)
+        assert float(at_line.swt) == pytest.approx(found.s[k], rel=1e-3)
+        assert whole.position[1] == 0.0
+    shape = {"flat_half_width": 0.2} if name == "rounded_flat" else {}
+    batch = plane_points(name, 0.4, 0.0, 0.0, 0.0, bulk_stress_amplitude=0.3, **shape)
+
+    whole, _ = body_maximum(scene_of(batch), np.nan)
+    assert whole.swt == pytest.approx(0.09, rel=1e-12)

@@ -50,7 +50,7 @@ class BulkStress(ABC):
         return np.asarray(self.largest > self.least)
 
     def far_field(
-        self, poisson_ratio: FloatArray, walker_exponent: FloatArray | None, plane: bool = False
+        self, poisson_ratio: FloatArray, walker_exponent: FloatArray | None, plane: bool
     ) -> FloatArray:
         """swt far from the contact, shape (n,): that of the bulk stress alone, on the x-normal.
 
