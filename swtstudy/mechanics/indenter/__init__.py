@@ -41,7 +41,8 @@ def _class_of(
     """The class of a family or of tables, and its shape: the table is that of all n profiles."""
     if isinstance(profile, str):
         return PROFILES[profile], dict(shape)
-    return TabulatedPlane if profile.plane else Tabulated, {"table": profile}
+    of_table: type[Profile] = TabulatedPlane if profile.plane else Tabulated
+    return of_table, {"table": profile}
 
 
 def make_profile(
