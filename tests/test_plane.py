@@ -127,7 +127,7 @@ def test_a_table_says_how_far_it_goes() -> None:
     x = np.linspace(0.0, 1.1, 80)
     table = TabulatedProfile("short", x, 0.5 * x**2, geometry="plane")
     assert table.deepest == pytest.approx(1.21)
-    with pytest.raises(StudyError, match=r"load over its mean 1.3 is beyond the table of short"):
+    with pytest.raises(StudyError, match=r"load 4P/\(πE\*\) = 1.3 is beyond the table of short"):
         solved(profile=table, normal_force_amplitude=0.3, tangential_force_amplitude=0.1)
     again = TabulatedProfile.of_content("again", table.content())
     assert again.geometry == "plane"

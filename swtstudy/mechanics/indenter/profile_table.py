@@ -182,7 +182,7 @@ class TabulatedProfile(Named):
             return None
         disc, at, slope, place = "disc", "depth", "g′", "radius"
         if self.plane:
-            disc, at, slope, place = "strip", "load over its mean", "N′", "half-width"
+            disc, at, slope, place = "strip", "load 4P/(πE*) =", "N′", "half-width"
         radius, falls = self._sampled[0], self._falls
         if falls.size:
             return (
