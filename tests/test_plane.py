@@ -10,12 +10,14 @@ from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
+from scipy.interpolate import PPoly
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
 from swtstudy.families import FAMILIES, PLANE
 from swtstudy.mechanics.events.nodes import Nodes
-from swtstudy.mechanics.indenter import PROFILES, Profile, make_profile
+from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
+from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.bulk_shift import bulk_shift
@@ -136,6 +138,13 @@ def test_a_table_says_how_far_it_goes() -> None:
         StudyError, match=r"wrong\.geometry: found 'round'; allowed: one of axisymmetric, plane"
     ):
         TabulatedProfile("wrong", x, 0.5 * x**2, geometry="round")
+
+
+def test_slope_of_a_cubic() -> None:
+    """f = x³: N′ = ξ ∫ 6x dx/√(ξ² − x²) = 6 ξ²."""
+    cubic = PPoly(np.array([[1.0, 1.0], [0.0, 1.5], [0.0, 0.75], [0.0, 0.125]]), np.array([0.0, 0.5, 2.0]))
+    radius = np.array([0.3, 0.5, 0.9, 1.7])
+    np.testing.assert_allclose(exact_load_slope(cubic, radius), 6.0 * radius**2, rtol=1e-13)
 
 
 @pytest.mark.parametrize("gamma", [0.3, 0.5, 0.8])
@@ -324,8 +333,10 @@ def test_shift_of_the_stick_zone() -> None:
     assert np.isnan(bulk_shift(flat)).all()
 
 
-def test_without_friction_nothing_pulls() -> None:
-    assert float(solved(friction=0.0, normal_force_amplitude=0.5, tangential_force_amplitude=0.0).s) == 0.0
+@pytest.mark.parametrize("strip", STRIPS, ids=str)
+def test_without_friction_nothing_pulls(strip: Strip) -> None:
+    given = {"friction": 0.0, "normal_force_amplitude": 0.5, "tangential_force_amplitude": 0.0}
+    assert float(solved(profile=strip.profile, **strip.shape, **given).s) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -370,3 +381,20 @@ def test_it_shares_an_axis_with_discs() -> None:
         phase=1,
     )
     assert float(plain.s) == float(both.s.sel(profile="cylinder"))
+
+
+@pytest.mark.parametrize("height", [0.002, 0.05])
+def test_waves_are_compact_while_the_load_rises(height: float) -> None:
+    """N′ ≥ 0 is 1 + h k² J₀ ≥ 0, h k² below 2.48; the least wavelength is said where it is refused."""
+    least = 2.0 * np.pi / np.sqrt(2.4829)
+    for share, refused in ((1.002, False), (0.998, True)):
+        shape = {"waviness_amplitude": height, "wavelength": share * least}
+        wrong = check_shape("wavy_cylinder", shape, 2.5)
+        assert (wrong is not None) == refused
+        assert not refused or "below 3.988, " in str(wrong)
+        assert not refused or "up to the load 2.5 P0" in str(wrong)
+        if not refused:
+            slope = np.diff(
+                profile_of(Strip("wavy_cylinder", shape, float)).depth(np.linspace(0, 1.5, 4000)[None])
+            )
+            assert (slope > 0.0).all()

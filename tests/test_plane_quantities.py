@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from oracles.strips import STRIPS, Strip
 from scenes import PLANE_NAMES, plane_points, random_plane_points
 
 import swtstudy
 from swtstudy.families import FAMILIES
 from swtstudy.figures.profile import _height
 from swtstudy.mechanics.control.force import unit_half_load
+from swtstudy.mechanics.control.strip import StripDisplacement
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.conjugate import Conjugate
@@ -107,14 +109,29 @@ def test_swt_along_a_cylinder_does_not_depend_on_y() -> None:
         "tangential_force_amplitude": 0.5,
         "friction": 0.6,
     }
-    field = swtstudy.swt_field(x=[-1.0, 0.4], y=[0.0, 3.0], z=[0.0, 0.1], **given)
-    np.testing.assert_array_equal(field.s_local.isel(y=0), field.s_local.isel(y=1))
-    assert float(field.s_local.sel(x=-1.0, y=0.0, z=0.0)) == pytest.approx(0.18, rel=1e-6)
+    field = swtstudy.swt_field(x=-1.0, y=0.0, z=0.0, **given)
+    assert float(field.s_local) == pytest.approx(0.18, rel=1e-6)
+    given["normal_force_amplitude"] = 0.4
+    # Alone, each place has the instants at which the edge passes its x.
+    alone = [float(swtstudy.swt_field(x=-1.1, y=y, z=0.0, **given).s_local) for y in (0.0, 3.0)]
+    assert alone[0] == alone[1]
     stress = swtstudy.stress_field(
         x=[-1.2, 0.4], y=2.0, z=[0.0, 0.2], time=[0.3], bulk_stress_mean=0.1, **given
     )
     expected = 0.3 * (stress.sigma_xx + stress.sigma_zz)
     np.testing.assert_allclose(stress.sigma_yy, expected, atol=1e-15)
+
+
+@pytest.mark.parametrize("strip", STRIPS, ids=str)
+def test_displacement_of_a_strip_grows_by_its_logarithm(strip: Strip) -> None:
+    """dU = −½ ln ξ dT: −(2/π) ln ξ for each unit of load, N_0 = π/4 of them."""
+    shape = {name: np.array([value]) for name, value in strip.shape.items()}
+    moved = StripDisplacement(make_profile(strip.profile, shape, np.array([1.8])))
+    radius, step = strip.flat + np.array([[0.2, 0.5, 0.9, 1.4]]), 1e-5
+    rise = moved.of(radius + step) - moved.of(radius - step)
+    load = moved.profile.depth(radius + step) - moved.profile.depth(radius - step)
+    np.testing.assert_allclose(rise, -0.5 * np.log(radius) * load, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(moved.compliance(radius), -0.5 * np.log(radius), rtol=1e-14)
 
 
 @pytest.mark.parametrize("name", PLANE_NAMES)

@@ -119,7 +119,8 @@ class Profile(ABC):
         others = ", ".join(f"{other} {value:g}" for other, value in shape.items() if other != name)
         return (
             f"{name} {shape[name]:g} is below {least:.4g}, the smallest for which the contact stays compact"
-            f"{' at ' * bool(others)}{others} up to the depth {largest_depth:g} δ0"
+            f"{' at ' * bool(others)}{others} up to the {'load' if cls.plane else 'depth'} {largest_depth:g} "
+            f"{'P0' if cls.plane else 'δ0'}"
         )
 
     @classmethod
