@@ -56,8 +56,8 @@ def test_nonlocal_values():
     found = swtstudy.solve(critical_distance=[0.05], rtol=1e-2)
     words = {name: found[name].attrs["comment"] for name in ("s_volume", "s_point", "s_line")}
     assert words == {
-        "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point, "
-        "over the half disc in the section of plane contacts",
+        "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical "
+        "point, over the half disc in the section of plane contacts",
         "s_point": "swt/SWT0 at half the critical distance from the critical point (point method)",
         "s_line": "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
     }
