@@ -50,6 +50,7 @@ CONTACT_AXES: dict[str, Parameter] = {
             ("radius", "R", "R", "radius of the relative curvature, 1/R = 1/R1 + 1/R2"),
             ("depth", r"\delta_0", "δ0", "mean indentation depth"),
             ("normal_force", "F_0", "F0", "normal force at the mean depth"),
+            ("contact_length", "L", "L", "length of a plane contact, across its section"),
             ("bulk_stress_ratio", r"R_\sigma", "Rσ", "least over largest bulk stress"),
             ("body", r"\mathrm{body}", "body", "body, 1 or 2"),
         )

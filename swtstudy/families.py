@@ -1,14 +1,17 @@
-"""The families of indenters (eqs. 3–6 of the paper): what the table of parameters must know of them."""
+"""The families of indenters, of revolution (eqs. 3–6 of the paper) and plane, as the parameters know them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TypeGuard
 
+#: What a contact is: a disc, or a strip in plane strain.
+AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
+
 
 @dataclass(frozen=True)
 class Family:
-    """One family of indenters (eqs. 3–6); its class is in `swtstudy.mechanics.indenter.PROFILES`.
+    """One family of indenters; its class is in `swtstudy.mechanics.indenter.PROFILES`.
 
     Attributes
     ----------
@@ -17,13 +20,16 @@ class Family:
     shape
         The shape parameters κ_i that it has.
     plain
-        The shape parameter and its value that make it the `PLAIN` family, whatever the others are; None for
-        none.
+        The shape parameter and its value that make it the `PLAIN` family of its geometry, whatever the
+        others are; None for none.
+    geometry
+        One of `GEOMETRIES`.
     """
 
     name: str
     shape: tuple[str, ...] = ()
     plain: tuple[str, float] | None = None
+    geometry: str = AXISYMMETRIC
 
 
 FAMILIES: dict[str, Family] = {
@@ -34,14 +40,19 @@ FAMILIES: dict[str, Family] = {
         Family("truncated_paraboloid", ("flat_radius",), plain=("flat_radius", 0.0)),
         Family("wavy_paraboloid", ("waviness_amplitude", "wavelength"), plain=("waviness_amplitude", 0.0)),
         Family("power_law", ("exponent",), plain=("exponent", 2.0)),
+        Family("cylinder", geometry=PLANE),
+        Family("rounded_flat", ("flat_half_width",), ("flat_half_width", 0.0), PLANE),
+        Family("wavy_cylinder", ("waviness_amplitude", "wavelength"), ("waviness_amplitude", 0.0), PLANE),
+        Family("power_law_cylinder", ("exponent",), ("exponent", 2.0), PLANE),
     )
 }
 
 #: The family of what the user has defined.
 TABLE = Family("table")
 
-#: The family that others are at their plain shape.
-PLAIN = "paraboloid"
+#: The families that others of their geometry are at their plain shape.
+PLAIN, PLAIN_STRIP = "paraboloid", "cylinder"
+PLAIN_OF = {AXISYMMETRIC: PLAIN, PLANE: PLAIN_STRIP}
 
 
 def is_profile(raw: object) -> TypeGuard[str]:
@@ -52,6 +63,11 @@ def is_profile(raw: object) -> TypeGuard[str]:
 def family_of(profile: object) -> Family:
     """The family of a profile, or of that of a name; what the user has defined has no shape parameters."""
     return FAMILIES.get(str(profile), TABLE)
+
+
+def is_plane(profile: object) -> bool:
+    """Whether a profile, or that of a name, is that of a plane contact."""
+    return getattr(profile, "geometry", family_of(profile).geometry) == PLANE
 
 
 def families_with(name: str) -> list[str]:

@@ -112,6 +112,17 @@ PARAMETERS: dict[str, Parameter] = {
             scale="a_H",
         ),
         Parameter(
+            "flat_half_width",
+            r"b/a_H",
+            "b",
+            "half-width of the flat face",
+            None,
+            0.0,
+            20.0,
+            part="shape",
+            scale="a_H",
+        ),
+        Parameter(
             "waviness_amplitude",
             r"h/\delta_0",
             "h",
@@ -188,12 +199,12 @@ PARAMETERS: dict[str, Parameter] = {
     )
 }
 
-#: Names by letter.
-LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in PARAMETERS.items()}
+#: Names by letter, the first one of those that share it.
+LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
 
 #: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
 SYMBOLS: dict[str, tuple[str, str]] = {
     spelled(symbol): (parameter.name, parameter.letter)
-    for parameter in PARAMETERS.values()
+    for parameter in reversed(PARAMETERS.values())
     for symbol in (parameter.letter, parameter.symbol, parameter.symbol.split("/")[0])
 }

@@ -74,7 +74,8 @@ QUANTITIES: dict[str, Quantity] = {
             "dissipation",
             r"W/(\mu F_0\, \mu E^* \delta_0/G^*)",
             "dissipated work",
-            "work by friction in a cycle over mu F0 mu E* delta0 / G*, F0 the normal force at depth delta0",
+            "work by friction in a cycle over mu F0 mu E* delta0 / G*, F0 the normal force at depth delta0; "
+            "of plane contacts per length, over mu P0 mu delta0",
             "dissipated_work",
             has_error=True,
         ),
@@ -82,14 +83,15 @@ QUANTITIES: dict[str, Quantity] = {
             "stick_radius",
             r"c/a_H",
             "radius that always sticks",
-            "radius of the permanent stick zone in units of a_H; NaN if the whole contact slides or is lost",
+            "radius of the permanent stick zone in units of a_H, half its width in plane contacts; "
+            "NaN if the whole contact slides or is lost",
             "permanent_stick_radius",
         ),
         Quantity(
             "contact_radius",
             r"a_\mathrm{max}/a_H",
             "largest contact radius",
-            "largest contact radius over the cycle, in units of a_H",
+            "largest contact radius over the cycle, in units of a_H; half the width in plane contacts",
             "largest_contact_radius",
         ),
         Quantity(
@@ -103,8 +105,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_volume",
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
-            "largest mean of swt/SWT0 over the half spheres of the critical distance about local maxima of "
-            "swt, which is that about volume_x",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of plane "
+            "contacts half discs, about local maxima of swt, which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),

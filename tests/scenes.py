@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import gcd
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.families import FAMILIES, family_of
+from swtstudy.families import FAMILIES, family_of, is_plane
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.indenter import check_shape
+from swtstudy.prescribed import Control
 
-PROFILE_NAMES = tuple(FAMILIES)
+#: Those of discs, which all that is prescribed goes with, and those of strips.
+PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))
+PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
 
 
 def points(
@@ -60,6 +64,7 @@ def random_points(seed: int, count: int, profile: str = "paraboloid", largest_te
 #: How the tests draw a shape parameter, among those of compact contacts.
 DRAWN: dict[str, Callable[[np.random.Generator, int], NDArray[np.float64]]] = {
     "flat_radius": lambda rng, count: rng.uniform(0.05, 2.0, count),
+    "flat_half_width": lambda rng, count: rng.uniform(0.05, 2.0, count),
     "waviness_amplitude": lambda rng, count: 10.0 ** rng.uniform(-3.5, -1.0, count),
     "wavelength": lambda rng, count: rng.uniform(3.6, 10.0, count),
     "exponent": lambda rng, count: rng.uniform(1.1, 6.0, count),
@@ -71,6 +76,54 @@ def random_shape(
 ) -> dict[str, ArrayLike]:
     """Shape parameters of a compact contact."""
     shape = {name: DRAWN[name](rng, count) for name in family_of(profile).shape}
+    if profile == "wavy_cylinder":  # it is compact from 3.99 on
+        shape["wavelength"] += 0.4
     for k, d in enumerate(normal_amplitude):
         assert check_shape(profile, {name: values[k] for name, values in shape.items()}, 1.0 + d) is None
     return dict(shape)
+
+
+#: What points have beside a load and a shape.
+_FURTHER = ("walker_exponent", "bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase")
+
+
+def plane_points(
+    profile: str = "cylinder",
+    poisson_ratio: ArrayLike = 0.3,
+    friction: ArrayLike = 0.3,
+    normal_force_amplitude: ArrayLike = 0.0,
+    tangential_force_amplitude: ArrayLike = 0.5,
+    phase: ArrayLike = 0.0,
+    p: ArrayLike = 1,
+    q: ArrayLike = 1,
+    **others: ArrayLike,
+) -> Points:
+    """A batch of points of plane contacts, of forces; what is not a shape parameter is one of `_FURTHER`."""
+    further = {name: others.pop(name) for name in _FURTHER if name in others}
+    own = poisson_ratio, friction, normal_force_amplitude, tangential_force_amplitude, phase, p, q
+    count = np.broadcast(*map(np.asarray, (*own, *others.values(), *further.values()))).size
+    batch = points(profile, np.broadcast_to(poisson_ratio, count), *own[1:], **others)
+    more = {name: np.broadcast_to(value, count).astype(float) for name, value in further.items()}
+    return replace(batch, control=Control(True, True), **more)
+
+
+def random_plane_points(seed: int, count: int, profile: str) -> Points:
+    """Points in equilibrium all over the box, with bulk stresses and exponents."""
+    rng = np.random.default_rng(seed)
+    normal = rng.uniform(0.0, 0.9, count)
+    p, q = np.array([(1, 1), (1, 2), (2, 1), (3, 2)])[rng.integers(4, size=count)].T
+    return plane_points(
+        profile,
+        rng.uniform(0.0, 0.5, count),
+        rng.uniform(0.1, 1.5, count),
+        normal,
+        rng.uniform(0.05, 1.0, count) * (1.0 - normal),
+        rng.uniform(0.0, 2.0 * np.pi, count),
+        p,
+        q,
+        walker_exponent=rng.choice([0.5, 0.35, 0.7], count),
+        bulk_stress_amplitude=rng.choice([0.0, 0.1, 0.4], count),
+        bulk_stress_mean=rng.choice([0.0, 0.2], count),
+        bulk_stress_phase=rng.uniform(0.0, 6.0, count),
+        **random_shape(rng, count, profile, normal),
+    )

@@ -56,8 +56,8 @@ def test_nonlocal_values():
     found = swtstudy.solve(critical_distance=[0.05], rtol=1e-2)
     words = {name: found[name].attrs["comment"] for name in ("s_volume", "s_point", "s_line")}
     assert words == {
-        "s_volume": "largest mean of swt/SWT0 over the half spheres of the critical distance about local "
-        "maxima of swt, which is that about volume_x",
+        "s_volume": "largest mean of swt/SWT0 over the half spheres of the critical distance, in the "
+        "section of plane contacts half discs, about local maxima of swt, which is that about volume_x",
         "s_point": "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that "
         "from point_x (point method)",
         "s_line": "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which "

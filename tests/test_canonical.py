@@ -49,7 +49,7 @@ def test_values_are_told_apart_by_twelve_digits():
 
 def test_the_columns_are_the_rows_of_the_table_of_parameters():
     assert LOAD_COLUMNS == ("control", "load", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
-    shapes = ("flat_radius", "waviness_amplitude", "wavelength", "exponent")
+    shapes = ("flat_radius", "flat_half_width", "waviness_amplitude", "wavelength", "exponent")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
     extra = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase", "walker_exponent")
     assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS

@@ -14,7 +14,7 @@ import swtstudy
 from swtstudy import Study, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.families import FAMILIES
+from swtstudy.families import FAMILIES, is_plane
 from swtstudy.parameters import PARAMETERS
 from swtstudy.records.records import MISSING
 from swtstudy.study.schema import study_schema
@@ -536,7 +536,7 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 
-@pytest.mark.parametrize("profile", FAMILIES)
+@pytest.mark.parametrize("profile", [name for name in FAMILIES if not is_plane(name)])
 def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
     monkeypatch.chdir(tmp_path)
     call("new", "full")
@@ -551,6 +551,18 @@ def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path,
             text = text.replace(line, f"{name} = {json.dumps(value)}")
     study = swtstudy.Study.from_text(text)
     assert set(study.grid.fixed) | set(study.grid.axes) == names
+
+
+def test_a_new_study_of_a_cylinder_has_forces(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    call("new", "rig")
+    text = Path("rig.toml").read_text()
+    assert '"cylinder" (plane: forces alone)' in text
+    text = text.replace('profile = "paraboloid"', 'profile = "cylinder"')
+    text = text.replace("# tangential_force_amplitude = …", "tangential_force_amplitude = 0.2")
+    text = text.replace("normal_amplitude", "normal_force_amplitude")
+    study = swtstudy.Study.from_text(text)
+    assert study.grid.control.name == "forces"
 
 
 @pytest.mark.parametrize(

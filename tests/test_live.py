@@ -106,7 +106,7 @@ def test_a_slider_redraws():
     assert {"waviness_amplitude", "wavelength"} <= set(live.parameters)
     assert "flat_radius" not in live.parameters
     shown = {name for name, each in live.controls.items() if each.layout.display != "none"}
-    assert set(SLIDERS) - shown == {"flat_radius", "exponent"}
+    assert set(SLIDERS) - shown == {"flat_radius", "flat_half_width", "exponent"}
 
 
 def test_forces_without_equilibrium_are_said_and_leave_the_picture():

@@ -222,6 +222,23 @@ def stability() -> None:
     assert max(float(each.max()) for each in others) < 1e-4
 
 
+def thresholds() -> None:
+    rows = {line.split()[0]: line.split()[1:] for line in lines("thresholds_35NCD16.txt")[2:]}
+    tests = {name: [float(v) for v in row] for name, row in rows.items() if name[:2] in ("PF", "FF")}
+    unshifted = {name: row[4] for name, row in tests.items() if name[:2] == "PF" or name in ("FF7", "FF8")}
+    assert len(tests) == 16
+    says("meet those of PF1 to PF8, FF7 and FF8 within {} %", 1)
+    assert max(abs(ratio - 1.0) for ratio in unshifted.values()) < 0.01
+    shifted = [100.0 * (1.0 - row[4]) for name, row in tests.items() if name not in unshifted]
+    says("they are low by {} to {} %, most", min(shifted), max(shifted))
+    mean, scatter = ([float(v) for v in rows[name]] for name in ("mean", "scatter"))
+    said = "At the surface they are at {} on average, with a scatter of {} %"
+    says(said, mean[0], 100.0 * scatter[0])
+    says("beneath the edge the average is {}, with a scatter of {} %", mean[2], 100.0 * scatter[2])
+    sizes = [row[0] for row in tests.values()]
+    says("half-widths from {} to {} mm", min(sizes), max(sizes))
+
+
 def lives() -> None:
     rows = [line.split() for line in lines("physical.txt") if re.match(r"\s*\d+°", line)]
     worst, mean = (np.array([float(row[column]) for row in rows]) for column in (2, 3))
@@ -294,6 +311,7 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     audit_of_bulk_stress,
     stability,
     lives,
+    thresholds,
     checks,
     best_load,
     statements,

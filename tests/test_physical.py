@@ -191,6 +191,7 @@ def test_every_parameter_is_known_of_a_contact():
     own = {row.name: row for row in PARAMETERS.values() if row.name != "poisson_ratio"}
     shapes = {name for name, row in own.items() if row.part == "shape" and row.kind == "number"}
     about = {"moduli", "radius", "depth", "shape", "bulk_stress_body", "bulk_stress_ratio"}
+    about |= {"contact_length"}
     assert {one.name for one in fields(PhysicalContact)} - about == {*own} - shapes
     assert {row.scale for row in own.values()} - {""} == {*SCALES}
     assert {scale.made_of for scale in SCALES.values()} - {""} <= shapes

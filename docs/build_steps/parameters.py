@@ -1,7 +1,7 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.families import FAMILIES, PLAIN, Family
+from swtstudy.families import FAMILIES, PLAIN, PLAIN_STRIP, Family
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
 
@@ -13,13 +13,18 @@ def parameters() -> str:
         for p in PARAMETERS.values()
     )
     profiles = (
-        (f"`{family.name}`", ", ".join(f"`{s}`" for s in family.shape) or "–", _plain(family))
+        (
+            f"`{family.name}`",
+            family.geometry,
+            ", ".join(f"`{s}`" for s in family.shape) or "–",
+            _plain(family),
+        )
         for family in FAMILIES.values()
     )
     return (
         table(("name", "symbol", "meaning", "allowed", "default", "in a real contact over"), rows)
         + "\n"
-        + table(("profile", "needs", f"is the {PLAIN} at"), profiles)
+        + table(("profile", "contact", "needs", f"is the {PLAIN} or {PLAIN_STRIP} at"), profiles)
     )
 
 

@@ -23,6 +23,7 @@ def physical(
     normal_force: float | None = None,
     similar: float = SIMILAR,
     bulk_stress_ratio: float | None = None,
+    contact_length: float | None = None,
     bulk_stress_body: int = 0,
     **parameters: float | str | Fraction | Named,
 ) -> PhysicalContact: ...
@@ -38,6 +39,7 @@ def physical(
     normal_force: object = None,
     similar: float = SIMILAR,
     bulk_stress_ratio: object = None,
+    contact_length: object = None,
     bulk_stress_body: int = 0,
     **parameters: Any,
 ) -> Any: ...
@@ -52,6 +54,7 @@ def physical(
     normal_force: Any = None,
     similar: Any = SIMILAR,
     bulk_stress_ratio: Any = None,
+    contact_length: Any = None,
     bulk_stress_body: Any = 0,
     **parameters: Any,
 ) -> PhysicalContact | PhysicalContacts:
@@ -76,6 +79,9 @@ def physical(
         Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
     bulk_stress_body
         0 or 1: the body that carries the bulk stress; the other one has none.
+    contact_length
+        Length of a plane contact across its section: its loads are forces then. Without it they are forces
+        per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
     **parameters
         The other names of `swtstudy.parameters.PARAMETERS`. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
@@ -116,7 +122,12 @@ def physical(
     [0.52, 0.58]
     """
     sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
-    several = {**sizes, "bulk_stress_ratio": bulk_stress_ratio, **parameters}
+    several = {
+        **sizes,
+        "bulk_stress_ratio": bulk_stress_ratio,
+        "contact_length": contact_length,
+        **parameters,
+    }
     if any(dimensions_of(value) == 1 for value in several.values() if not isinstance(value, Named)):
         of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
         return contacts_from(of_bodies, several, similar, bulk_stress_body)
@@ -130,5 +141,6 @@ def physical(
         normal_force=normal_force,
         similar=similar,
         bulk_stress_ratio=bulk_stress_ratio,
+        contact_length=contact_length,
         bulk_stress_body=bulk_stress_body,
     )

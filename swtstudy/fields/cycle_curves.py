@@ -38,8 +38,14 @@ def instants_of(scene: Scene, special: list[float]) -> TimeNodes:
 
 
 def course_of_load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
-    """Forces and displacements over time; see `swtstudy.fields.forces.course`."""
+    """Forces and displacements over time; see `swtstudy.fields.forces.course`. In the plane forces alone."""
     both = course(scene, unit, nodes)
+    forces: Variables = {
+        "normal_force": ("time", both.normal_force, named("normal force", "F_N/F_0")),
+        "tangential_force": ("time", both.tangential_force, named("tangential force", r"F_x/(\mu F_0)")),
+    }
+    if scene.profile.plane:
+        return forces
     return {
         "depth": ("time", both.depth, named("indentation depth", r"\delta/\delta_0")),
         "displacement": (
@@ -47,8 +53,7 @@ def course_of_load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variable
             both.displacement,
             named("tangential displacement", r"G^* u/(\mu E^* \delta_0)"),
         ),
-        "normal_force": ("time", both.normal_force, named("normal force", "F_N/F_0")),
-        "tangential_force": ("time", both.tangential_force, named("tangential force", r"F_x/(\mu F_0)")),
+        **forces,
     }
 
 
@@ -75,19 +80,23 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[N
     share
         Shape (T,): time in cycles.
     curves
-        Depth and displacement over it; if stress and strain on the critical plane are there, they come first.
+        Depth and displacement over it, or without them the forces; if stress and strain on the critical
+        plane are there, they come first.
     """
     of_swt: dict[str, np.intp] = {}
     if "normal_stress" in curves:
         of_swt["σ_n largest"] = curves["normal_stress"].argmax()
         of_swt["ε_n smallest"] = curves["normal_strain"].argmin()
-    extremes = of_swt | {
-        "δ largest": curves["depth"].argmax(),
-        "δ smallest": curves["depth"].argmin(),
-        "u largest": curves["displacement"].argmax(),
-        "u smallest": curves["displacement"].argmin(),
-    }
-    touching = curves["depth"] > 0.0
+    names = {"δ": "depth", "u": "displacement"}
+    if "depth" not in curves:
+        names = {"F_N": "normal_force", "F_x": "tangential_force"}
+    (normal, tangential), extremes = names.values(), of_swt
+    for letter, name in names.items():
+        extremes = extremes | {
+            f"{letter} largest": curves[name].argmax(),
+            f"{letter} smallest": curves[name].argmin(),
+        }
+    touching = curves[normal] > 0.0
     distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
     marked: dict[int, str] = {}
 
@@ -99,7 +108,7 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[N
     for reason, index in extremes.items():
         if len(marked) < _MARKED and distance[index] >= _APART and (reason in of_swt or touching[index]):
             mark(int(index), reason)
-    moving = curves["normal_strain" if of_swt else "displacement"]
+    moving = curves["normal_strain" if of_swt else tangential]
     while len(marked) < _MARKED and np.ptp(moving) > 0.0:
         mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
     order = sorted(marked)
@@ -110,6 +119,11 @@ def springs_of(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
     """The memory diagram over r at some instants; see `swtstudy.fields.springs.spring_forces`."""
     compression, force = spring_forces(scene, some, radius)
     dims = ("instant", "r")
+    if scene.profile.plane:
+        return {
+            "compression": (dims, compression, named("normal force beyond that of the strip", "w/F_0")),
+            "force": (dims, force, named("tangential force in the diagram", r"\tau/(\mu F_0)")),
+        }
     return {
         "compression": (dims, compression, named("compression of the springs", r"w/\delta_0")),
         "force": (

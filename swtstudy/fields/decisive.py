@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.body.body import TimeNodes, closer_nodes, time_nodes
+from swtstudy.mechanics.stress.field.kernels import kernels_of
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps on each stretch between two events: a smooth extreme is missed by 0.6 % of the range there at most.
@@ -24,5 +25,6 @@ def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes
     point
         x, y, z in a_H.
     """
-    nodes = time_nodes(scene, _STEPS, [np.hypot(*point[:2])])
+    distance = kernels_of(scene.profile).distance(*np.array(point[:2]))
+    nodes = time_nodes(scene, _STEPS, [distance])
     return closer_nodes(scene, nodes, point, _CELLS, _ROUNDS)

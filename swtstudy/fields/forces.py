@@ -23,7 +23,7 @@ class Course:
     Attributes
     ----------
     depth, displacement
-        δ/δ0 and G* u/(μ E* δ0).
+        δ/δ0 and G* u/(μ E* δ0); NaN in the plane, where only their changes at constant load are known.
     normal_force, tangential_force
         F_N/F_0 and F_x/(μ F_0).
     """
@@ -48,6 +48,9 @@ def course(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Course:
     """
     load, whole = scene.cycle.load, Conjugate.whole(scene, unit, NODES)
     normal, tangential = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
+    if scene.profile.plane:
+        unknown = np.full_like(normal, np.nan)
+        return Course(unknown, unknown, normal, tangential)
     other_normal = whole.other.of(scene.coordinate.radius(np.maximum(normal, 0.0)[None]))[0]
     size = max(1, LARGEST_SIZE // (scene.cycle.memory.start.shape[2] * NODES))
     answer = np.empty_like(tangential)

@@ -55,7 +55,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     xarray.Dataset
         What `swtstudy.solve` gives, and
 
-        - over time (ω1 t; of a loop the angle of its period): depth δ/δ0, displacement G*u/(μE*δ0),
+        - over time (ω1 t; of a loop the angle of its period): depth δ/δ0, displacement G*u/(μE*δ0) (these two
+          not of plane contacts),
           normal_force F_N/F_0 and tangential_force F_x/(μF_0), two of which are prescribed; edge_state, that
           of the contact next to its edge (open, stick, forward or backward slip) from each instant to the
           next; contact_radius, slip_radius; normal_stress

@@ -28,9 +28,10 @@ def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[F
     Returns
     -------
     compression, force
-        Shape (T, X): w in δ0, and τ = G* u_MDR/(μ E* δ0), |τ| ≤ w.
+        Shape (T, X): w in δ0, and τ = G* u_MDR/(μ E* δ0), |τ| ≤ w. In the plane, where strips have no
+        springs, what the diagram has in their place: N − N(ξ) over P_0, and the tangential force over μP_0.
     """
-    if isinstance(scene.coordinate, ForceCoordinate):
+    if isinstance(scene.coordinate, ForceCoordinate) and not scene.profile.plane:
         whole = Conjugate.whole(scene, scene.coordinate.unit, NODES)
         return _of_conjugate(of_instants(whole, nodes.interval), nodes.instant, radius)
     cycle = scene.cycle

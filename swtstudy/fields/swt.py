@@ -8,6 +8,7 @@ import xarray as xr
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import as_given, read_places
 from swtstudy.mechanics.body.body import Body, time_nodes
+from swtstudy.mechanics.stress.field.kernels import kernels_of
 
 #: Cells of the field.
 _CELLS = 60
@@ -38,12 +39,13 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     surface would be up to 20 % low, in rings. Between the events there are few instants: where an extreme
     over the cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the
     default history of `stress_field` is exact, but slower. Few distinct distances (a grid in polar
-    coordinates) are computed faster.
+    coordinates) are computed faster. Nothing of a plane contact depends on y.
     """
     scene = read_scene(parameters)
     places = read_places(x, y, z)
     flat = np.stack([place.values.ravel() for place in places])
-    distance, group = np.unique(np.round(np.hypot(flat[0], flat[1]), 12), return_inverse=True)
+    away = kernels_of(scene.profile).distance(flat[0], flat[1])
+    distance, group = np.unique(np.round(away, 12), return_inverse=True)
     swt, normal = np.empty(flat.shape[1]), np.empty((flat.shape[1], 3))
     for first in range(0, distance.size, _RADII):
         some = (group >= first) & (group < first + _RADII)

@@ -27,6 +27,27 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+#: The panels, and those of a plane contact, whose displacements are not known.
+_PANELS = (
+    draw_load,
+    draw_slip,
+    draw_springs,
+    draw_tractions,
+    draw_stress,
+    draw_swt,
+    draw_load_plane,
+    draw_forces,
+    draw_force_loop,
+)
+_OF_STRIP = (
+    draw_load_plane,
+    draw_slip,
+    draw_springs,
+    draw_tractions,
+    draw_stress,
+    draw_swt,
+    draw_forces,
+)
 #: Size of a panel on a screen, inches.
 _PANEL = (4.4, 3.8)
 #: Height of a panel in print, inches, at least: there is much in each.
@@ -73,23 +94,16 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Widt
         Nine panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
         tangential force; tractions; the stress cycle on the critical plane; swt along the surface; the plane
         of the forces; these over the cycle; the force–displacement loop. Stick and slip are coloured along
-        all three loops, and the same numbered instants are marked in all panels but that of swt.
+        all three loops, and the same numbered instants are marked in all panels but that of swt. Plane
+        contacts have no panels with displacements.
     """
-    sheet = Sheet(1, 9, width, _PANEL, most=3, least_height=_LEAST_HEIGHT, fold=False)
+    drawn = _PANELS if "displacement" in dataset else _OF_STRIP
+    sheet = Sheet(1, len(drawn), width, _PANEL, most=3, least_height=_LEAST_HEIGHT, fold=False)
     with styled(style, width):
         figure = sheet.figure()
         panels = sheet.panels(figure, share_x="none", share_y="none")
-        load, slip, springs, tractions, stress, swt, plane, forces, loop = panels[0]
-        draw_load(load, dataset)
-        draw_slip(slip, dataset)
-        draw_springs(springs, dataset)
-        draw_tractions(tractions, dataset)
-        draw_stress(stress, dataset)
-        draw_swt(swt, dataset)
-        draw_load_plane(plane, dataset)
-        draw_forces(forces, dataset)
-        draw_force_loop(loop, dataset)
-        for axes, letter in zip(panels.flat, "ABCDEFGHI", strict=True):
+        for axes, draw, letter in zip(panels[0], drawn, "ABCDEFGHI", strict=False):
+            draw(axes, dataset)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset))
         wrap_texts(figure)

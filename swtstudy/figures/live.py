@@ -12,6 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from swtstudy.fields.inspection import no_equilibrium
 from swtstudy.fields.load_and_springs import load_and_springs
 from swtstudy.figures.figure import Figure
+from swtstudy.figures.force_panels import draw_load_plane
 from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.style import styled
 from swtstudy.figures.ticks import tick_in_pi
@@ -76,7 +77,7 @@ class LiveFigure:
         with styled():
             for axes in self.figure.axes:
                 axes.clear()
-            draw_load(load, dataset)
+            (draw_load if "displacement" in dataset else draw_load_plane)(load, dataset)
             draw_springs(springs, dataset)
             draw_over_phase(over_phase, solved.s, phase)
             for axes in (load, springs):

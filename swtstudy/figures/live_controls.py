@@ -20,6 +20,7 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
     "friction": (0.01, 1.0, 0.01, 0.3),
     "poisson_ratio": (0.0, 0.5, 0.01, 0.3),
     "flat_radius": (0.0, 2.0, 0.01, 0.5),
+    "flat_half_width": (0.0, 2.0, 0.01, 0.5),
     "waviness_amplitude": (0.0, 0.05, 0.001, 0.02),
     "wavelength": (4.5, 12.0, 0.1, 5.0),
     "exponent": (1.2, 8.0, 0.1, 4.0),

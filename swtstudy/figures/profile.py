@@ -45,8 +45,9 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     Returns
     -------
     matplotlib.figure.Figure
-        Two panels: f in δ0 over x in a_H, pressed by δ0, with the half-space beneath; g and the pressure. A
-        table has its points, and its title the largest deviation of the fit from them.
+        Two panels: f in δ0 over x in a_H, pressed by δ0, with the half-space beneath; g, or of a plane
+        contact N, and the pressure. A table has its points, and its title the largest deviation of the fit
+        from them.
 
     Raises
     ------
@@ -57,7 +58,8 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     wrong = [name for name in parameters if name in PARAMETERS and PARAMETERS[name].part != "shape"]
     if wrong:
         raise StudyError(Mistake(name, "a parameter of the load or the bodies", "a shape") for name in wrong)
-    grid, mistakes = read_grid({"normal_amplitude": 0.0, **parameters}, {})
+    still = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
+    grid, mistakes = read_grid({**still, **parameters}, {})
     if grid is None:
         raise StudyError(mistakes)
     given = grid.fixed["profile"]
@@ -100,19 +102,23 @@ def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
     load = {**arrow, "color": "C3", "lw": 2.0}
     axes.annotate("", (0.0, 0.5 * top), (0.0, top), arrowprops=load)
     words: dict[str, Any] = {"color": "C3", "fontsize": "small"}
-    axes.annotate("normal load: depth $\\delta$, force", (0.04 * reach, 0.8 * top), **words)
+    normal, tangential = (
+        ("line load $P$", "$Q$") if profile.plane else ("depth $\\delta$, force", "$u$, force")
+    )
+    axes.annotate(f"normal load: {normal}", (0.04 * reach, 0.8 * top), **words)
     axes.annotate("", (-0.45 * reach, 0.3 * top), (-0.85 * reach, 0.3 * top), arrowprops=load)
-    axes.annotate("tangential: $u$, force", (-0.97 * reach, 0.38 * top), **words)
+    axes.annotate(f"tangential: {tangential}", (-0.97 * reach, 0.38 * top), **words)
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
-    axes.set_title("f, undeformed, at the depth δ0", loc="left")
+    at = "sunk by δ0" if profile.plane else "at the depth δ0"
+    axes.set_title(f"f, undeformed, {at}", loc="left")
 
 
 def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float]) -> None:
     """The radius of the face, or the length of a wave and its height, above the lower end of the indenter."""
     look: dict[str, Any] = {"arrowstyle": "<|-|>", "color": "k", "lw": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
     right = axes.get_xlim()[1]
-    face = shape.get("flat_radius", 0.0)
+    face = shape.get("flat_radius", shape.get("flat_half_width", 0.0))
     if face:
         end = min(face, right)
         axes.annotate("", (end, -0.8), (0.0, -0.8), arrowprops={**look, "mutation_scale": 8.0})
@@ -131,22 +137,27 @@ def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float]) -> N
 
 
 def _draw_springs(axes: Axes, profile: Profile, edge: float) -> None:
-    """g and the pressure."""
+    """g, or N, and the pressure."""
     r = np.linspace(1e-6, _REACH * edge, _RADII)[None]
-    axes.plot(r[0], profile.depth(r)[0], color="C0", label="$g/\\delta_0$")
+    axes.plot(r[0], profile.depth(r)[0], color="C0", label="$N/P_0$" if profile.plane else "$g/\\delta_0$")
     axes.axvline(edge, color="0.6", lw=0.8, ls=":")
     axes.axhline(1.0, color="0.6", lw=0.8, ls=":")
     inside = r[:, r[0] < edge]
     pressure = profile.primitives(inside, _DIGITS).outer(np.full(inside.shape, edge))[0, 0] / np.pi
     axes.plot(inside[0], pressure, color="C3", label="$p\\,a_H/(E^*\\delta_0)$")
-    axes.set(xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="radius$/a_H$")
-    axes.set_title("springs, and pressure at δ0", loc="left")
+    axes.set(
+        xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="half-width$/a_H$" if profile.plane else "radius$/a_H$"
+    )
+    what = "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0"
+    axes.set_title(what, loc="left")
     axes.legend(frameon=False, loc="upper left")
 
 
 def _height(profile: Profile, radius: FloatArray) -> FloatArray:
-    """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ."""
+    """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ; in the plane N r/ξ is in the place of g."""
     node, weight = np.polynomial.legendre.leggauss(200)
     θ = 0.25 * np.pi * (1.0 + node)
-    g = profile.depth((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)
+    g = profile.slope_integral((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)
+    if profile.plane:
+        weight = weight / np.sin(θ)
     return np.asarray((g @ weight) * 0.5)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.families import FAMILIES, PLAIN, family_of
+from swtstudy.families import FAMILIES, PLAIN_OF, family_of
 from swtstudy.grid.codes import Definitions, code_of, control_code, control_of, value_of
 from swtstudy.named import Named, cost_of
 from swtstudy.parameters import HARMONIC, PARAMETERS
@@ -94,7 +94,7 @@ def _make_profiles_canonical(table: FloatArray) -> None:
         if family.plain is not None:
             name, value = family.plain
             same = (profile == code_of(family.name)) & (table[:, _COLUMN[name]] == value)
-            profile[same] = code_of(PLAIN)
+            profile[same] = code_of(PLAIN_OF[family.geometry])
     for code in np.unique(profile):
         # What the user has defined has no shape parameters.
         shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape

@@ -15,6 +15,7 @@ from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.loops import check_amplitudes, check_loops
+from swtstudy.grid.plane import check_forces
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
@@ -87,6 +88,7 @@ def read_grid(
     along = good_axes | good_samples
     check_amplitudes(good_fixed, along, keys, report)
     check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
+    check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)

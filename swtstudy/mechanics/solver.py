@@ -66,7 +66,8 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         _, left_out = resolved_shape(points.profile, shape, scene.profile.largest_depth)
         error[index] = np.maximum(found.error + left_out * found.swt, LEAST_ERROR * found.swt)
         critical = found.swt > 0.0
-        surface[index] = surface_maximum(scene, found)
+        # Planes whose normals leave the section of a plane contact strain less.
+        surface[index] = found.swt if scene.profile.plane else surface_maximum(scene, found)
         position[index] = np.where(critical, found.position, np.nan)
         angle[index] = np.where(critical, _fold_angle(np.degrees(found.double_angle) / 2.0), np.nan)
         regime[index] = _regime(scene.cycle, lost)
@@ -130,19 +131,20 @@ def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
 
 
 def _idle(scene: Scene) -> NDArray[np.bool_]:
-    """Where s is 0: pressure alone makes no tension at ν = 1/2, and without motion no swing of strain."""
+    """Where s is 0: pressure alone makes no tension at ν = 1/2 or in the plane, rest no swing of strain."""
     load = scene.cycle.load
     rests = load.largest_normal == load.least_normal
     if scene.bulk is not None:
         return np.asarray((scene.friction == 0.0) & rests & ~scene.bulk.moves)
-    return np.asarray((scene.friction == 0.0) & ((scene.poisson_ratio == 0.5) | rests))
+    compressed = (scene.poisson_ratio == 0.5) | scene.profile.plane
+    return np.asarray((scene.friction == 0.0) & (compressed | rests))
 
 
 def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
     """The maxima, or swt far from the contact where no point exceeds it: there is no critical point then."""
     if scene.bulk is None:
         return found
-    far = scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent)
+    far = scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent, scene.profile.plane)
     # Not where s is not finite.
     higher = (far > 0.0) & (far >= (1.0 - SAME) * found.swt)
     none = np.zeros(len(far))

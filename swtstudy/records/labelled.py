@@ -47,14 +47,16 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
     },
     "s_surface": {
         "long_name": "s on the surface circle",
-        "comment": "s over the circle on the surface through the critical point and over all planes",
+        "comment": "s over the circle on the surface through the critical point and over all planes; "
+        "in plane contacts s itself",
         "units": "1",
         "symbol": r"s_\mathrm{surface}",
     },
     "bulk_shift": {
         "long_name": "shift of the stick zone",
-        "comment": "by the strain of the bulk stress, in a_H: s leaves it out; NaN for other profiles "
-        "than the paraboloid, without friction or stick, and where it exceeds the width of the slip zone",
+        "comment": "by the strain of the bulk stress, in a_H: s leaves it out; NaN for other profiles than "
+        "the paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the "
+        "slip zone",
         "units": "1",
         "symbol": r"e/a_H",
     },

@@ -39,7 +39,7 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
     found = dataset.rename(known)
     for each in variables(grid, asked):
         values = each.values(found, grid)
-        found[each.name] = values.dims, values.values, each.attributes(grid.units)
+        found[each.name] = values.dims, values.values, each.attributes(grid.labels)
     if "SWT" in found:
         found.SWT.attrs["ancillary_variables"] = "SWT_error regime"
     for name in grid.pairs:

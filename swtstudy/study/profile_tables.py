@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from swtstudy.families import AXISYMMETRIC
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
@@ -47,7 +48,9 @@ def read_profiles(
                 radius, height = read_columns(folder / table["file"], COLUMNS).T
             else:
                 radius, height = table["radius"], table["height"]
-            found[name] = TabulatedProfile(name, radius, height, table.get("smoothing", 0.0))
+            found[name] = TabulatedProfile(
+                name, radius, height, table.get("smoothing", 0.0), table.get("geometry", AXISYMMETRIC)
+            )
         except StudyError as error:
             mistakes += [
                 Mistake(key, f"{each.found}{place_of(each)}", each.allowed, source) for each in error.mistakes

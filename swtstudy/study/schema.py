@@ -51,6 +51,7 @@ _PROFILE_DESCRIPTIONS = {
     "height": "Heights f at these radii, in a depth δ0: 0 at the axis.",
     "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
     "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
+    "geometry": '"axisymmetric", or "plane" for a long body: its radii are then half-widths.',
 }
 _SAMPLE_DESCRIPTIONS = {
     "design": "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).",

@@ -72,6 +72,7 @@ class ProfileTable(_Table):
     height: Any = None
     file: str | None = None
     smoothing: Any = 0.0
+    geometry: Any = "axisymmetric"
 
 
 class StudyTable(_Table):

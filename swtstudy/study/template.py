@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.axes import QUANTITY_AXES
-from swtstudy.families import FAMILIES
+from swtstudy.families import FAMILIES, PLANE
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
@@ -129,7 +129,8 @@ def _profiles() -> str:
     lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
     for family in FAMILIES.values():
         needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
-        lines.append(f"#   {quoted(family.name)}{needs}")
+        plane = " (plane: forces alone)" if family.geometry == PLANE else ""
+        lines.append(f"#   {quoted(family.name)}{plane}{needs}")
     return "\n".join(lines)
 
 

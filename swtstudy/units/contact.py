@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.families import family_of, is_profile
+from swtstudy.families import family_of, is_plane, is_profile
 from swtstudy.grid.canonical import canonical_number, rounded
 from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile
@@ -45,7 +45,8 @@ def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProf
     """A table to the digits of canonical points: in whichever units it was given, it is the same."""
     pure = table.scaled(length, depth)
     smoothing = canonical_number(pure.smoothing)
-    return TabulatedProfile(pure.name, rounded(pure.radius), rounded(pure.height), smoothing)
+    own = rounded(pure.radius), rounded(pure.height), smoothing
+    return TabulatedProfile(pure.name, *own, pure.geometry)
 
 
 def _contact_radius(table: TabulatedProfile, depth: float) -> float:
@@ -77,6 +78,8 @@ class Contact:
         Stresses.
     bulk_stress_body
         0 or 1: the body that carries them.
+    contact_length
+        Length of a plane contact across its section; None for loads per length, and for a disc.
     """
 
     moduli: Moduli
@@ -97,6 +100,7 @@ class Contact:
     bulk_stress_mean: float = 0.0
     bulk_stress_phase: float = 0.0
     bulk_stress_body: int = 0
+    contact_length: float | None = None
 
     @property
     def length_scale(self) -> float:
@@ -124,23 +128,40 @@ class Contact:
 
     @property
     def contact_radius(self) -> float:
-        """a at the mean depth δ0."""
+        """a at the mean depth δ0; of a strip half its width."""
         return self.length_scale * float(self._profile().radius(np.ones((1, 1)))[0, 0])
 
     @property
     def normal_force(self) -> float:
-        """Force at the mean depth δ0, 2 E* ∫ (δ0 − g) dξ over the springs."""
-        return self.force_factor * self.moduli.normal * self.depth * self.length_scale
+        """Force at the mean depth δ0, 2 E* ∫ (δ0 − g) dξ over the springs.
+
+        Of a strip (π/4) E* δ0 per length, times the length if there is one.
+        """
+        across = (self.contact_length or 1.0) if self.plane else self.length_scale
+        return self.force_factor * self.moduli.normal * self.depth * across
+
+    @property
+    def plane(self) -> bool:
+        """Whether it is a strip."""
+        return is_plane(self.profile)
+
+    @property
+    def work_scale(self) -> float:
+        """Unit of the work of friction."""
+        slip = self.friction * self.depth if self.plane else self.slip_scale
+        return self.friction * self.normal_force * slip
 
     @property
     def force_factor(self) -> float:
-        """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid."""
+        """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid; of a strip per length over E* δ0."""
         edge = self._profile().radius(np.ones((1, 1)))
         return 2.0 * float(self._profile().half_load(edge)[0, 0])
 
     @property
     def mean_pressure(self) -> float:
-        """Force over π a² at the mean depth."""
+        """Force over the area of contact at the mean depth."""
+        if self.plane:
+            return self.normal_force / (2.0 * self.contact_radius * (self.contact_length or 1.0))
         return self.normal_force / (math.pi * self.contact_radius**2)
 
     @property

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.families import is_plane
 from swtstudy.grid.canonical import COLUMNS, SHAPE_COLUMNS, rounded
 from swtstudy.grid.codes import code_of
 from swtstudy.grid.grid import Grid
@@ -24,6 +25,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.rows import rows
 from swtstudy.units.seats import Seats, seats_of
+from swtstudy.units.strips import labels_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -58,10 +60,20 @@ class PhysicalGrid(Grid):
     bulk_stress_body: int = 0
     similar: float = math.inf
 
+    @property
+    def labels(self) -> Units:
+        """Labels of the units, which may be per length."""
+        return labels_of(self.units, self.values("profile"), {*self.fixed, *self.axes, *self.samples})
+
+    @property
+    def plane(self) -> bool:
+        """Whether all its contacts are plane ones."""
+        return all(map(is_plane, self.values("profile")))
+
     @cached_property
     def rows(self) -> dict[str, Parameter]:
         """The rows of the parameters, with their units."""
-        return rows(self.units)
+        return rows(self.labels)
 
     @property
     def of_bodies(self) -> Mapping[str, tuple[float, float]]:

@@ -9,10 +9,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from swtstudy.families import family_of, is_profile
+from swtstudy.families import family_of, is_plane, is_profile
 from swtstudy.grid.reading import given_twice, read_grid
 from swtstudy.grid.values import read_value
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
+from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
@@ -31,6 +32,7 @@ from swtstudy.units.given import (
 )
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import least_depths, length_of
+from swtstudy.units.strips import LENGTH, check_lengths, still_load
 
 #: A kind of contact.
 C = TypeVar("C", bound=Contact)
@@ -57,6 +59,7 @@ def contact_from(
     similar: object,
     bulk_stress_ratio: object,
     bulk_stress_body: object,
+    contact_length: object = None,
 ) -> C:
     """A contact of a kind, from what `swtstudy.physical` takes.
 
@@ -74,7 +77,10 @@ def contact_from(
         **{name: value for name, value in parameters.items() if name in (*_DEFAULTS, *PAIRS)},
         **{"depth": depth, "normal_force": normal_force, "similar": similar},
     }
+    if contact_length is not None:
+        given[LENGTH] = contact_length
     needed = [*own, *(name for name, default in _DEFAULTS.items() if default is None and name in given)]
+    needed += [name for name in PAIRS if name in given and given[name] is None]
     lacking = [name for name in needed if given[name] is None]
     unknown = [name for name in parameters if name not in given]
     mistakes = [*_mistakes(given), *wrong_bulk(bulk_stress_ratio, parameters, bulk_stress_body)]
@@ -98,6 +104,14 @@ def contact_from(
 def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
     """The defaults of what has nothing given in its place."""
     replaced, load = replaced_by(parameters), parameters.get("load")
+    if is_plane(parameters.get("profile")):
+        still = still_load([parameters["profile"]], parameters)
+        forces = (
+            {}
+            if replaced_by(["tangential_force_amplitude"]) & {*parameters, *replaced}
+            else {"tangential_force_amplitude": None}
+        )
+        return _defaults_beside({**parameters, **still, **forces, "profile": None}) | still | forces
     defaults = {name: default for name, default in _DEFAULTS.items() if name not in replaced}
     if isinstance(load, Named) and "bulk_stress_amplitude" in load.scaled_by:
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
@@ -107,7 +121,7 @@ def _defaults_beside(parameters: Mapping[str, object]) -> dict[str, Any]:
 def _sizes(given: Mapping[str, Any]) -> dict[str, Any]:
     """The lengths and forces, and the shape of any profile."""
     names = [name for name in given if name in (*_DEFAULTS, *PAIRS) and name not in (*_PURE, "profile")]
-    return {name: given[name] for name in ("radius", *names) if name in given}
+    return {name: given[name] for name in ("radius", LENGTH, *names) if name in given}
 
 
 def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
@@ -120,6 +134,8 @@ def _mistakes(given: Mapping[str, Any]) -> list[Mistake]:
     mistakes += wrong_bodies(young, poisson, given["similar"])
     mistakes += wrong_load(given["depth"], given["normal_force"])
     mistakes += wrong_sizes(_sizes(given), None if profile is None else str(profile))
+    named = {name for name in ("depth", LENGTH) if given.get(name) is not None}
+    check_lengths([profile], named, str, lambda *found: mistakes.append(Mistake(*found)))
     if is_table and "radius" in given:
         found, allowed = literal(given["radius"]), "nothing: the table of the profile has lengths"
         mistakes.append(Mistake("radius", found, allowed))
@@ -142,7 +158,7 @@ def _contact(kind: type[C], given: Mapping[str, Any]) -> C:
         depth=1.0 if given["depth"] is None else plain_number(given["depth"]),
         profile=given["profile"],
         shape={name: values[name] for name in family_of(given["profile"]).shape},
-        **{n: value for n, value in values.items() if n == "radius" or PARAMETERS[n].part != "shape"},
+        **{n: value for n, value in values.items() if n not in PARAMETERS or PARAMETERS[n].part != "shape"},
     )
 
 
@@ -150,6 +166,8 @@ def depth_at(contact: Contact, force: float) -> float:
     """Indentation depth at a normal force, which rises with it."""
     from scipy.optimize import brentq
 
+    if contact.plane:
+        return force / (contact.contact_length or 1.0) / (MEAN_LOAD * contact.moduli.normal)
     if isinstance(contact.profile, TabulatedProfile):
         profile = make_profile(contact.profile, {}, np.ones(1))
         half = np.array([[0.5 * force / contact.moduli.normal]])

@@ -7,14 +7,16 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from swtstudy.families import is_plane
 from swtstudy.grid.loops import check_amplitudes, check_loops
+from swtstudy.grid.plane import check_forces
 from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
 from swtstudy.grid.shapes import check_shapes_given
 from swtstudy.grid.values import Value, read_value
 from swtstudy.mistakes import Mistake, Report, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameter import Parameter
-from swtstudy.parameters import LOOP_AMPLITUDE
+from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
@@ -23,6 +25,7 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
+from swtstudy.units.strips import check_lengths, labels_of, still_load
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,10 @@ def read_contacts(
         mistakes.append(Mistake(key, found, allowed, source))
 
     samples = samples or {}
-    own = {name: row for name, row in rows(given.units).items() if name != DISTANCE}
+    everything = {**fixed, **axes, **samples}
+    profiles = _profiles(everything, known)
+    labels = labels_of(given.units, profiles, everything)
+    own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, keys, report)
     similar = single.pop(SIMILAR_KEY, given.similar)
     if not 0.0 <= plain_number(similar) < math.inf:
@@ -60,7 +66,7 @@ def read_contacts(
         single, axes, keys, report, (DISTANCE, SIMILAR_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    everything = {**fixed, **axes, **samples}
+    check_lengths(profiles, everything, keys, report)
     along = good_axes | good_samples
     _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
     check_amplitudes(good_fixed, along, keys, report)
@@ -88,7 +94,10 @@ def completed(
     fixed = fixed | {name: two[0] for name, two in extra["pairs"].items() if name not in pairs}
     given = {*fixed, *axes, *samples, *pairs}
     given |= replaced_by(given)
-    table = rows(extra["units"])
+    profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
+    fixed = fixed | still_load(profiles, {*given, *_scaling(fixed, axes, samples)})
+    given |= replaced_by(fixed)
+    table = rows(labels_of(extra["units"], profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
     if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
@@ -104,6 +113,18 @@ def completed(
     if "body" in given or not _differ(grid):
         return grid
     return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+
+
+def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
+    """The profiles that are given, as far as they can be told."""
+    raw = everything.get("profile", PARAMETERS["profile"].default)
+    several = raw if isinstance(raw, list | tuple) else [raw]
+    return [known.get("profile", {}).get(each, each) if isinstance(each, str) else each for each in several]
+
+
+def _scaling(*values: Mapping[str, Value | tuple[Value, ...]]) -> set[str]:
+    """The amplitudes that scale loops."""
+    return {name for load in _loops(*values) for name in load.scaled_by}
 
 
 def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
@@ -164,7 +185,14 @@ def _check_given(
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything.keys():
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")
+    if any(value not in (1.0, 2.0) for value in good.get("body", ())):
+        report(keys("body"), literal(list(good["body"])), "1 or 2")
     scaling = {name for load in good.get("load", ()) if isinstance(load, Named) for name in load.scaled_by}
+    profiles = good.get("profile", ())
+    if any(map(is_plane, profiles)):
+        named = {*everything, *still_load(profiles, {*everything, *scaling})}
+        check_forces(named, {}, {"profile": profiles}, keys, report)
+        return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = next(force for force, other in PAIRS.items() if other == name)
         needed = own[name].default is None or name in scaling
@@ -176,8 +204,6 @@ def _check_given(
             allowed = f"1 if the column {column} of the loop is in {unit}"
             allowed += f"; or {force}, 1 if it is in {own[force].units}"
         report(keys(name), "nothing", allowed)
-    if any(value not in (1.0, 2.0) for value in good.get("body", ())):
-        report(keys("body"), literal(list(good["body"])), "1 or 2")
 
 
 def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report) -> None:

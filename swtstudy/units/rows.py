@@ -22,7 +22,10 @@ SIMILAR_KEY = "similar"
 #: What is 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
 #: The kinds of what has a unit.
-_KINDS = {"young_modulus": "stress", "radius": "length", "depth": "length", "normal_force": "force"}
+_KINDS = {
+    **{"young_modulus": "stress", "radius": "length", "depth": "length", "normal_force": "force"},
+    "contact_length": "length",
+}
 #: Symbols that are not the numerator of the non-dimensional one.
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Of which exactly one is given.

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 #: What a contact at rest depends on, and its slip with it.
 SEAT_NAMES = (
     *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
+    "contact_length",
     *SHAPE_COLUMNS,
 )
 #: More contacts than these take minutes.
@@ -118,6 +119,7 @@ def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
         phase=0.0,
         profile=profile,
         shape={name: numbers[name] for name in family_of(profile).shape},
+        contact_length=numbers.get("contact_length"),
     )
     if "normal_force" in numbers:
         contact = replace(contact, depth=depth_at(contact, numbers["normal_force"]))

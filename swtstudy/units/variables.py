@@ -89,15 +89,16 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     for of in (place for place in PLACES if place in asked.variables):
         yield Variable(position_of(of), "x", NONLOCAL[of].meaning, "length", of, _length)
     yield from _at_rest(grid)
+    radius = "half-width" if grid.plane else "radius"
     if "dissipation" in asked.names:
         for end, symbol, words in (("", "W", ""), ("_error", r"\Delta W", "error of ")):
             of, meaning = NORMALISED[f"dissipation{end}"], f"{words}work of friction in a cycle"
             yield Variable(f"dissipation{end}", symbol, meaning, "work", of, _work)
     if "stick_radius" in asked.names:
-        of, meaning = NORMALISED["stick_radius"], "radius that always sticks"
+        of, meaning = NORMALISED["stick_radius"], f"{radius} that always sticks"
         yield Variable("stick_radius", "c", meaning, "length", of, _length)
     if "contact_radius" in asked.names:
-        of, meaning = NORMALISED["contact_radius"], "largest contact radius"
+        of, meaning = NORMALISED["contact_radius"], f"largest contact {radius}"
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
 
 
@@ -147,7 +148,9 @@ def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
         ("normal_force", "F_0", "normal force at the mean depth", "force", lambda c: c.normal_force),
     )
     for name, symbol, meaning, kind, value in rest:
-        if not grid.values(name):
+        if grid.plane:
+            meaning = meaning.replace("contact radius", "contact half-width").replace("depth", "load")
+        if not grid.values(name) and not (grid.plane and name == "depth"):
             yield Variable(name, symbol, meaning, kind, "", partial(_each, value))
 
 
@@ -167,7 +170,7 @@ def _length(grid: PhysicalGrid) -> xr.DataArray:
 
 
 def _work(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.each(lambda contact: contact.friction * contact.normal_force * contact.slip_scale)
+    return grid.seats.each(lambda contact: contact.work_scale)
 
 
 def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset) -> xr.DataArray:

@@ -6,7 +6,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swtstudy.mechanics.body.half_sphere import HalfSpheres, from_every_other, gauss, interpolation, nested
+from swtstudy.mechanics.body.half_sphere import (
+    HalfDiscs,
+    HalfSpheres,
+    from_every_other,
+    gauss,
+    interpolation,
+    nested,
+)
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -97,7 +104,8 @@ class Around:
         self.scene, self.x, self.into, self.distance = scene, x, into, distance
         self.largest = float(distance.max())
         self.layout = layout = ONE if distance.size == 1 else SEVERAL
-        self.spheres = HalfSpheres(abs(x), self.largest, layout.power, layout.distances, layout.inclinations)
+        parts = HalfDiscs if scene.profile.plane else HalfSpheres
+        self.spheres = parts(abs(x), self.largest, layout.power, layout.distances, layout.inclinations)
         grid, (nth, mth) = self._turned(*self.spheres.grid(1)), SHOWN
         some = (values.reshape(self.spheres.shape[:2])[::-nth, ::-mth].ravel() for values in grid)
         lines = self._of_lines(self.largest * np.array(SHOWN_ON_LINES))

@@ -67,8 +67,7 @@ class Body:
             part = slice(first, first + INSTANTS)
             states = contact_states(scene.cycle, scene.coordinate, interval[part], instant[part], self.cells)
             stress[..., part, :] = states.stress(x, y, z, *material)
-        if scene.bulk is not None:
-            stress[..., 0] += scene.bulk.at(instant[None])[0]
+        scene.add_bulk(stress, instant)
         return stress
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:

@@ -131,7 +131,7 @@ def _far_field(scene: Scene) -> float:
     """swt of the bulk stress alone, 0 without one."""
     if scene.bulk is None:
         return 0.0
-    return float(scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent)[0])
+    return float(scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent, scene.profile.plane)[0])
 
 
 def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
@@ -148,7 +148,8 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     radii, depths = _radii(scene, largest), largest * DEPTHS
     if scene.bulk is not None:
         radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
-    grid = np.stack(np.meshgrid(radii, ANGLES, depths, indexing="ij"), axis=-1).reshape(-1, 3)
+    angles = ANGLES[[0, -1]] if scene.profile.plane else ANGLES
+    grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
     swt = Body(scene, time_nodes(scene, LOOK), CELLS).coarse_swt(*_cartesian(grid))
     chosen = [own]
@@ -199,7 +200,8 @@ def _climb_from(
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     scene = search.scene
-    steps = FIRST_STEPS * np.array([search.largest, 1.0, search.largest])
+    # In the plane all is in the section.
+    steps = FIRST_STEPS * np.array([search.largest, 0.0 if scene.profile.plane else 1.0, search.largest])
     height = 0.0
     for _ in range(ROUNDS):
         trial = _off_ring(search, _folded(place + steps * stencil))

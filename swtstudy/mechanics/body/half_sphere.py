@@ -1,4 +1,4 @@
-"""Means over half spheres about one point of the surface, all from values at the same places.
+"""Means over half spheres or discs about one point of the surface, all from values at the same places.
 
 The places lie around the circle about the axis through the centre: the contact edge and the slip fronts are
 such circles, beside which swt grows like the square root of the distance d. So swt is smooth in a root of d,
@@ -151,6 +151,36 @@ class HalfSpheres:
         chord = np.sqrt((size - distance) * (size + distance))
         across = np.maximum(2.0 * np.sqrt(self.centre * radius), 1e-150)
         return 2.0 * np.arcsin(np.minimum(chord / across, 1.0))
+
+
+class HalfDiscs(HalfSpheres):
+    """Places for the means over half discs about a point of a plane contact, in its section.
+
+    ``centre`` is then the distance of the point from the middle of the contact. There are no arcs.
+    """
+
+    @property
+    def along(self) -> int:
+        return 1
+
+    def side_places(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        return (np.empty(0),) * 3
+
+    def grid(self, along: int | None = None) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Distance from the middle, depth and angle, which is 0 or beyond the middle π, of places, (N,)."""
+        distance = (self.largest * nested(self.distances) ** self.power)[:, None]
+        inclination = np.pi * _inclined(nested(self.inclinations))
+        x, depth = self.centre + distance * np.cos(inclination), distance * np.sin(inclination)
+        return np.abs(x).ravel(), depth.ravel(), np.where(x < 0.0, np.pi, 0.0).ravel()
+
+    def _weights(self, size: FloatArray, along: int) -> FloatArray:
+        node, weight = gauss(_abscissae(self.inclinations))
+        of_inclination = (node * (1.0 - node) * weight) @ interpolation(self.inclinations, node)
+        root, weight = gauss(_abscissae(self.distances))
+        weight = weight * root ** (2.0 * self.power - 1.0)
+        scaled = (size[:, None] / self.largest) ** (1.0 / self.power) * root
+        found = (weight @ interpolation(self.distances, scaled))[..., None] * of_inclination
+        return np.asarray(found.reshape(len(size), -1) / found.sum(axis=(1, 2))[:, None])
 
 
 @lru_cache(maxsize=16)

@@ -5,18 +5,18 @@ The sums over `SpringCells` are made once for each place; no instant makes cells
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.spring_cells import SpringCells
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.field.primitives import primitives
-from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_components, tangential_components
+from swtstudy.mechanics.stress.field.kernels import kernels_of
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Places whose sums are made at a time: 8 or 128: 1.2 times the time.
 PLACES = 32
-FUNCTIONS = len(PunchFunctions._fields)
 
 
 class Histories:
@@ -36,17 +36,18 @@ class Histories:
         self, scene: Scene, radius: FloatArray, depth: FloatArray, angle: FloatArray, springs: SpringCells
     ) -> None:
         self.scene, self.radius, self.depth, self.angle = scene, radius, depth, angle
-        self.springs = springs
+        self.springs, self.kernels = springs, kernels_of(scene.profile)
         self.x, self.y = (radius * turn(angle) for turn in (np.cos, np.sin))
         cells, pieces = springs.cell.size, springs.share.size
-        #: Shape (10, c · N): what a closed form lacks to the integral from the function's first cell.
-        self.constant = np.empty((FUNCTIONS, cells * radius.size))
-        #: Shape (10, m · N): what it lacks to the integral from the axis, over all pieces.
-        self.base = np.empty((FUNCTIONS, pieces * radius.size))
-        constant = self.constant.reshape(FUNCTIONS, cells, -1)
-        base = self.base.reshape(FUNCTIONS, pieces, -1)
+        count = len(self.kernels.functions._fields)
+        #: Shape (f, c · N): what a closed form of f functions lacks to the integral from its first cell.
+        self.constant = np.empty((count, cells * radius.size))
+        #: Shape (f, m · N): what it lacks to the integral from the axis, over all pieces.
+        self.base = np.empty((count, pieces * radius.size))
+        constant = self.constant.reshape(count, cells, -1)
+        base = self.base.reshape(count, pieces, -1)
         for part in (slice(at, at + PLACES) for at in range(0, radius.size, PLACES)):
-            plain, weighted = primitives(radius[part], depth[part], springs.ends[:, None])
+            plain, weighted = self.kernels.primitives(radius[part], depth[part], springs.ends[:, None])
             sums, constant[..., part] = self._sums(np.stack(plain), np.stack(weighted))
             base[..., part] = self._pieces(sums)
 
@@ -56,7 +57,7 @@ class Histories:
         intercept, gradient, cell = springs.intercept[:, None], springs.gradient[:, None], springs.cell
         left = intercept * plain[:, cell] + gradient * weighted[:, cell]
         steps = intercept * plain[:, cell + 1] + gradient * weighted[:, cell + 1] - left
-        sums = np.zeros((FUNCTIONS, cell.size + 1, plain.shape[-1]))
+        sums = np.zeros((len(plain), cell.size + 1, plain.shape[-1]))
         np.cumsum(steps, axis=1, out=sums[:, 1:])
         return sums, sums[:, :-1] - left
 
@@ -91,15 +92,12 @@ class Histories:
         where = np.repeat(at, instant.shape[1])
         normal, drag = self._functions(instant.ravel(), where)
         x, y, z = (values.take(where) for values in (self.x, self.y, self.depth))
-        stress = normal_components(normal, x, y, z, ν) + tangential_components(drag, x, y, z, ν)
+        stress = self.kernels.normal(normal, x, y, z, ν) + self.kernels.tangential(drag, x, y, z, ν)
         stress = stress.reshape(*instant.shape, 6)
-        if self.scene.bulk is not None:
-            stress[..., 0] += self.scene.bulk.at(instant[None])[0]
+        self.scene.add_bulk(stress, instant)
         return stress
 
-    def _functions(
-        self, instant: FloatArray, place: NDArray[np.intp]
-    ) -> tuple[PunchFunctions, PunchFunctions]:
+    def _functions(self, instant: FloatArray, place: NDArray[np.intp]) -> tuple[Any, Any]:
         """The functions integrated over the springs at instants of places, (n,), of pressure and of drag."""
         scene, springs = self.scene, self.springs
         cycle, coordinate = scene.cycle, scene.coordinate
@@ -123,16 +121,16 @@ class Histories:
         held += self.base.take(piece * len(self.radius) + place, axis=1)
         # q = −(μ/π) ∫ τ′ dξ/√(ξ² − r²): hence the sign of the drag.
         drag = -scene.friction[0] * (held - sign * (normal - inner))
-        return PunchFunctions(*normal), PunchFunctions(*drag)
+        return self.kernels.functions(*normal), self.kernels.functions(*drag)
 
     def _primitives(self, radius: FloatArray, place: NDArray[np.intp]) -> FloatArray:
-        """Primitives of the functions, with the weights 1 and ξ, at radii, shape (2, 10, …)."""
-        return np.array(primitives(self.radius.take(place), self.depth.take(place), radius))
+        """Primitives of the functions, with the weights 1 and ξ, at radii, shape (2, f, …)."""
+        return np.array(self.kernels.primitives(self.radius.take(place), self.depth.take(place), radius))
 
     def _up_to(
         self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp], primitive: FloatArray
     ) -> FloatArray:
-        """Integrals of slope functions from their first cells to radii at places, shape (10, …)."""
+        """Integrals of slope functions from their first cells to radii at places, shape (f, …)."""
         cell = self.springs.cell_of(radius, function)
         result = self.constant.take(cell * len(self.radius) + place, axis=1)
         result += self.springs.intercept.take(cell) * primitive[0]

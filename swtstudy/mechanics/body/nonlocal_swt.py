@@ -1,8 +1,9 @@
 """swt not at a point but over a critical distance ℓ: volume average and the theory of critical distances.
 
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
-about the critical point, or taken at the depth ℓ/2 (point method) or as the mean over the depths 0 … 2ℓ (line
-method), straight down or along the critical plane.
+about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
+(point method), or as the mean over the depths 0 … 2ℓ (line method), straight down or along the critical
+plane.
 
 With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
 that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
@@ -34,7 +35,7 @@ class NonlocalSwt:
     Attributes
     ----------
     volume, volume_error
-        Shape (n, k): means over half spheres.
+        Shape (n, k): means over half spheres, or half discs in the plane.
     point, point_error, line, line_error
         Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
     volume_x, point_x, line_x

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from swtstudy.families import is_plane
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
 from swtstudy.mechanics.control.mapped import MappedLoad
@@ -49,11 +50,14 @@ def diagram(
         If a polygon is prescribed by a force and a displacement and its normal load is not constant: its
         sides are no straight lines of the diagram.
     """
-    if control.normal_force:
+    if control.normal_force or is_plane(name):
         profile, unit = profile_up_to_force(name, shape, load.largest_normal)
     else:
         profile = make_profile(name, shape, load.largest_normal)
         unit = unit_half_load(name, shape, len(load)) if control.tangential_force else np.ones(0)
+    if profile.plane:
+        # A load that rests may be said to be of displacements: there are only forces.
+        return load, ForceCoordinate(profile, unit)
     coordinate = ForceCoordinate(profile, unit) if control.tangential_force else DepthCoordinate(profile)
     if not control.mixed:
         return load, coordinate

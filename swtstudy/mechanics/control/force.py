@@ -57,6 +57,9 @@ def profile_up_to_force(
     """n profiles of a family in contact up to a normal force over that at δ0, (n,), and its half at δ0."""
     unit = unit_half_load(name, shape, len(largest_force))
     profile = make_profile(name, shape, np.ones_like(unit))
+    if profile.plane:
+        # There the load itself stands in the place of the depth.
+        return make_profile(name, shape, np.maximum(largest_force, 0.0)), unit
     # dN/dG grows with the contact radius, so that the force at δ0 grows at least like this.
     steepest = unit / profile.radius(np.ones_like(unit))
     wide = make_profile(name, shape, 1.0 + np.maximum(largest_force - 1.0, 0.0) * steepest)

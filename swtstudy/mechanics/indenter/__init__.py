@@ -11,9 +11,14 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid
+from swtstudy.mechanics.indenter.plane import Cylinder
+from swtstudy.mechanics.indenter.plane_table import TabulatedPlane
 from swtstudy.mechanics.indenter.power_law import PowerLaw
+from swtstudy.mechanics.indenter.power_law_cylinder import PowerLawCylinder
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.indenter.rounded_flat import RoundedFlat
 from swtstudy.mechanics.indenter.tabulated import Tabulated
+from swtstudy.mechanics.indenter.wavy_cylinder import WavyCylinder
 from swtstudy.mechanics.indenter.wavy_paraboloid import WavyParaboloid
 from swtstudy.mechanics.points import FloatArray, IntArray
 
@@ -23,6 +28,10 @@ PROFILES: dict[str, type[Profile]] = {
     "truncated_paraboloid": TruncatedParaboloid,
     "wavy_paraboloid": WavyParaboloid,
     "power_law": PowerLaw,
+    "cylinder": Cylinder,
+    "rounded_flat": RoundedFlat,
+    "wavy_cylinder": WavyCylinder,
+    "power_law_cylinder": PowerLawCylinder,
 }
 
 
@@ -32,7 +41,8 @@ def _class_of(
     """The class of a family or of tables, and its shape: the table is that of all n profiles."""
     if isinstance(profile, str):
         return PROFILES[profile], dict(shape)
-    return Tabulated, {"table": profile}
+    of_table: type[Profile] = TabulatedPlane if profile.plane else Tabulated
+    return of_table, {"table": profile}
 
 
 def make_profile(

@@ -76,6 +76,9 @@ class Profile(ABC):
         Shape (n,): largest indentation depth in δ0, up to which tables are made.
     """
 
+    #: Whether the contact is a strip in plane strain, not a disc: what that changes is in
+    #: `swtstudy.mechanics.indenter.plane`.
+    plane: ClassVar[bool] = False
     #: Whether the stress has no bound at the edge r = b⁺ of a flat face.
     has_singular_edge: ClassVar[bool] = False
     #: Whether equal cells of ξ resolve g′ as well as others.
@@ -116,7 +119,8 @@ class Profile(ABC):
         others = ", ".join(f"{other} {value:g}" for other, value in shape.items() if other != name)
         return (
             f"{name} {shape[name]:g} is below {least:.4g}, the smallest for which the contact stays compact"
-            f"{' at ' * bool(others)}{others} up to the depth {largest_depth:g} δ0"
+            f"{' at ' * bool(others)}{others} up to the {'load' if cls.plane else 'depth'} {largest_depth:g} "
+            f"{'P0' if cls.plane else 'δ0'}"
         )
 
     @classmethod
@@ -176,6 +180,10 @@ class Profile(ABC):
     def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
         """`depth` and `weighted_slope` in one."""
         return self.depth(radius), self.weighted_slope(radius)
+
+    def slope_integral(self, radius: FloatArray) -> FloatArray:
+        """∫ g′ dξ from b to ``radius``, of the slope that `weighted_slope` has."""
+        return self.depth(radius)
 
     @abstractmethod
     def half_load(self, radius: FloatArray) -> FloatArray:

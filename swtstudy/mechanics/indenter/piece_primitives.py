@@ -31,7 +31,7 @@ class PiecePrimitives(Primitives):
         self.gap = (position - b) * (position + b)
         self.low = np.sqrt(np.maximum(self.gap, 0.0))
         self._slope, self._over_radius = (
-            _in_powers_of_w(c, pieces.start) for c in (pieces.slope, pieces.over_radius)
+            _in_powers_of_w(c, pieces.start) for c in (self.inner_coefficients(pieces), pieces.over_radius)
         )
         self._half_load = self._half_loads(np.maximum(position, b))
         knots = np.broadcast_to(pieces.start, (*position.shape, pieces.start.size))
@@ -39,17 +39,24 @@ class PiecePrimitives(Primitives):
         self._inner_offset = np.cumsum(self._inside(knots, lambda k: jumps[k]), axis=-1)
         self._outer_offset = self._offset_outside(knots)
 
+    @staticmethod
+    def inner_coefficients(pieces: SlopePieces) -> FloatArray:
+        """Coefficients of what is integrated over the springs inside r."""
+        return pieces.slope
+
     def inner(self, radius: FloatArray) -> FloatArray:
+        first, third = self.within(radius)
+        r, b = align(self.position, radius), self.pieces.flat_radius
+        return np.stack([2.0 / r * first, 2.0 / r**3 * (b * b * first + third)])
+
+    def within(self, radius: FloatArray) -> FloatArray:
+        """Integrals of it times w and w³ over √(ρ² − w²) up to ``radius``, shape (2, n, X, …)."""
         w = np.minimum(self._w(radius), align(self.low, radius))
         piece = self.pieces.piece(w)
         first, third = self._inside(w, lambda k: self._slope[k].take(piece))
         first -= self._offset(self._inner_offset[0], piece)
         third -= self._offset(self._inner_offset[1], piece)
-        r, b = align(self.position, radius), self.pieces.flat_radius
-        outside_face = align(self.gap, radius) > 0.0
-        first = np.where(outside_face, first, 0.0)
-        third = np.where(outside_face, third, 0.0)
-        return np.stack([2.0 / r * first, 2.0 / r**3 * (b * b * first + third)])
+        return np.where(align(self.gap, radius) > 0.0, np.stack([first, third]), 0.0)
 
     def outer(self, radius: FloatArray) -> FloatArray:
         w = np.maximum(self._w(radius), align(self.low, radius))

@@ -97,7 +97,7 @@ class PowerPrimitives(Primitives):
 
     def __init__(self, exponent: FloatArray, position: FloatArray, digits: float) -> None:
         self.exponent, self.position = exponent, position
-        self._inner = _inner_series(exponent, digits)
+        self._inner = inner_series(exponent, digits)
         self._near, self._far = _near_series(exponent, digits), _FarSeries(exponent, digits)
         #: rⁿ⁻¹.
         self.power = position ** (exponent[:, None] - 1.0)
@@ -105,10 +105,8 @@ class PowerPrimitives(Primitives):
     def inner(self, radius: FloatArray) -> FloatArray:
         r, n, scale = (align(v, radius) for v in (self.position, self.exponent, self.power))
         sine = np.minimum(radius / r, 1.0)
-        # ∫ sinⁿα dα over sinⁿ⁺¹α is analytic and even in α up to π.
-        y = 2.0 * (np.arcsin(sine) * (2.0 / np.pi)) ** 2 - 1.0
         power = sine ** (n + 1.0)
-        first = power * chebyshev.evaluate(_aligned(self._inner, radius), y)
+        first = power * evaluate_inner(self._inner, sine)
         third = ((n + 1.0) * first - power * np.sqrt(1.0 - sine * sine)) / (n + 2.0)
         return np.stack([first, third]) * (2.0 * n * scale)
 
@@ -135,8 +133,14 @@ def _aligned(series: FloatArray, like: FloatArray) -> FloatArray:
     return series.reshape(series.shape + (1,) * (like.ndim - 1))
 
 
-def _inner_series(exponent: FloatArray, digits: float) -> FloatArray:
-    """∫ sinⁿα dα over sinⁿ⁺¹α in (2α/π)²."""
+def evaluate_inner(series: FloatArray, sine: FloatArray) -> FloatArray:
+    """∫ sinⁿα dα over sinⁿ⁺¹α, which is analytic and even in α up to π, by `inner_series`."""
+    y = 2.0 * (np.arcsin(sine) * (2.0 / np.pi)) ** 2 - 1.0
+    return chebyshev.evaluate(_aligned(series, sine), y)
+
+
+def inner_series(exponent: FloatArray, digits: float) -> FloatArray:
+    """∫ sinⁿα dα over sinⁿ⁺¹α in (2α/π)², for exponents n above 0."""
     from scipy.special import beta, betainc
 
     count = math.ceil(digits) + INNER_NODES

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
+from swtstudy.families import AXISYMMETRIC, GEOMETRIES, PLANE
+from swtstudy.mechanics.indenter.plane import MEAN_LOAD
+from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
@@ -29,7 +31,7 @@ SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
 
 
 class TabulatedProfile(Named):
-    """A measured or computed axisymmetric profile: heights f above its lowest point, at the axis.
+    """A measured or computed profile: heights f above its lowest point, at the axis.
 
     Parameters
     ----------
@@ -42,6 +44,9 @@ class TabulatedProfile(Named):
     smoothing
         Root mean square of what the fit may miss of the heights, in their unit, if they are noisy. Nothing is
         smoothed unless asked: a spline goes through all points.
+    geometry
+        "axisymmetric", or "plane" for a long body of this section, symmetric about x = 0: then radii are
+        distances x from its middle, and δ0 is 4 P_0/(π E*), P_0 the mean load per length.
 
     Raises
     ------
@@ -55,11 +60,19 @@ class TabulatedProfile(Named):
 
     parameter: ClassVar[str] = "profile"
 
-    def __init__(self, name: str, radius: ArrayLike, height: ArrayLike, smoothing: float = 0.0) -> None:
-        self.name = name
+    def __init__(
+        self,
+        name: str,
+        radius: ArrayLike,
+        height: ArrayLike,
+        smoothing: float = 0.0,
+        geometry: str = AXISYMMETRIC,
+    ) -> None:
+        self.name, self._geometry = name, geometry
         self._radius, self._height = (_frozen(values) for values in (radius, height))
         self._smoothing = smoothing
         mistakes = list(_mistakes(name, self._radius, self._height, smoothing))
+        mistakes += _wrong_geometry(name, geometry)
         if mistakes:
             raise StudyError(mistakes)
         self._smoothing = float(smoothing)
@@ -79,28 +92,39 @@ class TabulatedProfile(Named):
         """Root mean square of what the fit may miss."""
         return self._smoothing
 
+    @property
+    def geometry(self) -> str:
+        """What the contact is, as of a `swtstudy.families.Family`."""
+        return self._geometry
+
+    @property
+    def plane(self) -> bool:
+        """Whether it is that of a plane contact."""
+        return self._geometry == PLANE
+
     def __repr__(self) -> str:
         return f"TabulatedProfile({self.name!r}, {self._radius.size} points up to {self._radius[-1]:g})"
 
     def content(self) -> dict[str, Any]:
-        return {
+        content = {
             "radius": self._radius.tolist(),
             "height": self._height.tolist(),
             "smoothing": self._smoothing,
         }
+        return content | {"geometry": PLANE} if self.plane else content
 
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> TabulatedProfile:
-        return cls(name, content["radius"], content["height"], content["smoothing"])
+        own = content["radius"], content["height"], content["smoothing"]
+        return cls(name, *own, content.get("geometry", AXISYMMETRIC))
 
     def notes(self) -> dict[str, Any]:
         return {"deviation": self.deviation}
 
     def scaled(self, length: float, depth: float) -> TabulatedProfile:
         """The same profile in other units: radii in ``length``, heights in ``depth``."""
-        return TabulatedProfile(
-            self.name, self._radius / length, self._height / depth, self._smoothing / depth
-        )
+        scaled = self._radius / length, self._height / depth, self._smoothing / depth
+        return TabulatedProfile(self.name, *scaled, self._geometry)
 
     @cached_property
     def fit(self) -> PPoly:
@@ -109,9 +133,10 @@ class TabulatedProfile(Named):
 
     @cached_property
     def pieces(self) -> SlopePieces:
-        """g′ by pieces."""
+        """g′ by pieces, or N′ in the plane."""
         coarse = spline(_every_other(self._radius), _every_other(self._height), self._smoothing)
-        return SlopePieces.of(self.fit, resolved(self.fit, coarse))
+        slope_of = exact_load_slope if self.plane else exact_slope
+        return SlopePieces.of(self.fit, resolved(self.fit, coarse, slope_of), slope_of)
 
     @property
     def deviation(self) -> float:
@@ -144,23 +169,29 @@ class TabulatedProfile(Named):
 
     @cached_property
     def deepest(self) -> float:
-        """The depth up to which there is a full disc of contact within the table."""
+        """The depth, or N/N_0, up to which there is a full disc or strip of contact within the table."""
         falls, g = self._falls, self._sampled[2]
-        return float(g[falls[0]] if falls.size else g[-1])
+        return float(g[falls[0]] if falls.size else g[-1]) / (MEAN_LOAD if self.plane else 1.0)
 
     def refused_at(self, depth: float) -> str | None:
-        """Why there is no full disc of contact up to a depth, and the radius of it; or None."""
+        """Why there is no full disc of contact up to a depth, and the radius of it; or None.
+
+        In the plane no full strip up to a line load over the mean one.
+        """
         if depth <= self.deepest:
             return None
+        disc, at, slope, place = "disc", "depth", "g′", "radius"
+        if self.plane:
+            disc, at, slope, place = "strip", "load 4P/(πE*) =", "N′", "half-width"
         radius, falls = self._sampled[0], self._falls
         if falls.size:
             return (
-                f"{self.name} has no full disc of contact at the depth {depth:g}: g′ < 0 at the radius "
-                f"{radius[falls[0]]:.4g}; if its heights are noisy, ask for smoothing"
+                f"{self.name} has no full {disc} of contact at the {at} {depth:g}: {slope} < 0 at the "
+                f"{place} {radius[falls[0]]:.4g}; if its heights are noisy, ask for smoothing"
             )
         return (
-            f"the depth {depth:g} is beyond the table of {self.name}, which ends at the radius "
-            f"{radius[-1]:.4g}: the contact is as large as that at the depth {self.deepest:.4g}"
+            f"the {at} {depth:g} is beyond the table of {self.name}, which ends at the {place} "
+            f"{radius[-1]:.4g}: the contact is as large as that at the {at} {self.deepest:.4g}"
         )
 
     @cached_property
@@ -177,6 +208,11 @@ class TabulatedProfile(Named):
         """Where of these radii g falls."""
         slope = self._sampled[1]
         return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())
+
+
+def _wrong_geometry(name: object, geometry: object) -> Iterator[Mistake]:
+    if geometry not in GEOMETRIES:
+        yield Mistake(f"{name}.geometry", literal(geometry), f"one of {', '.join(GEOMETRIES)}")
 
 
 def _frozen(values: ArrayLike) -> FloatArray:

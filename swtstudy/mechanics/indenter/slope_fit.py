@@ -7,6 +7,7 @@ smooth also behind a flat face.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -101,9 +102,50 @@ def exact_slope(f: PPoly, radius: FloatArray) -> FloatArray:
     return result
 
 
+def exact_load_slope(f: PPoly, radius: FloatArray) -> FloatArray:
+    """N′ = ξ ∫ f″ dx/√(ξ² − x²) of a cubic spline with f′ = 0 at its begin, at half-widths ξ, (m,)."""
+    knots = f.x[:-1]
+    c3, c2 = f.c[:2]
+    jumps = np.diff(np.stack([2.0 * c2 - 6.0 * c3 * knots, 6.0 * c3]), axis=1, prepend=0.0)
+    result = np.empty_like(radius)
+    step = max(_SLAB // len(knots), 1)
+    for begin in range(0, len(radius), step):
+        ξ = radius[begin : begin + step, None]
+        ratio = np.minimum(knots / np.maximum(ξ, 1e-300), 1.0)
+        cosine = np.sqrt((1.0 - ratio) * (1.0 + ratio))
+        result[begin : begin + step] = ξ[:, 0] * (np.arccos(ratio) @ jumps[0] + (ξ * cosine) @ jumps[1])
+    return result
+
+
+#: From a spline f and radii, (m,), to g′ there, or to N′.
+SlopeOf = Callable[["PPoly", FloatArray], FloatArray]
+
+
+@dataclass(frozen=True)
+class Exact:
+    """The slope of a spline f over w = √(ξ² − b²), of any shape."""
+
+    f: PPoly
+    slope_of: SlopeOf
+
+    @property
+    def b(self) -> float:
+        """Where f begins to rise."""
+        return float(self.f.x[0])
+
+    def slope(self, w: FloatArray) -> FloatArray:
+        """g′ at w."""
+        return self.slope_of(self.f, np.hypot(w, self.b).ravel()).reshape(w.shape)
+
+    def over_radius(self, w: FloatArray) -> FloatArray:
+        """g′/ξ at w; on the axis as next to it."""
+        radius = np.maximum(np.hypot(w, self.b), 1e-6 * self.f.x[-1])
+        return self.slope_of(self.f, radius.ravel()).reshape(w.shape) / radius
+
+
 @dataclass(frozen=True)
 class SlopePieces:
-    """g′ as pieces of polynomials over w = √(ξ² − b²).
+    """g′, or in the plane N′, as pieces of polynomials over w = √(ξ² − b²).
 
     Attributes
     ----------
@@ -121,15 +163,16 @@ class SlopePieces:
     slope: FloatArray
 
     @classmethod
-    def of(cls, f: PPoly, missed: float) -> SlopePieces:
-        """The pieces that fit a spline to so much of g′; beyond its end g′/ξ is constant."""
+    def of(cls, f: PPoly, missed: float, slope_of: SlopeOf = exact_slope) -> SlopePieces:
+        """The pieces that fit a spline to so much of its g′; beyond its end g′/ξ is constant."""
         b, end = float(f.x[0]), float(f.x[-1])
         last = np.sqrt((end - b) * (end + b))
-        edges = _edges(f, b, last, missed)
+        exact = Exact(f, slope_of)
+        edges = _edges(exact, last, missed)
         start, width = edges[:-1], np.diff(edges)
-        over_radius = _fitted(lambda w: _over_radius(f, b, w), start, width, DEGREE, width < NARROW * last)
+        over_radius = _fitted(exact.over_radius, start, width, DEGREE, width < NARROW * last)
         if b > 0.0:
-            slope = _fitted(lambda w: _slope_at(f, b, w), start, width, DEGREE + 1, width < NARROW * last)
+            slope = _fitted(exact.slope, start, width, DEGREE + 1, width < NARROW * last)
         else:
             slope = _times_w(over_radius, start)
         at_end = (float(_horner(values[:, -1:], width[-1:])[0]) for values in (over_radius, slope))
@@ -166,44 +209,34 @@ class SlopePieces:
         return _horner_of(coefficients, piece, w - self.start.take(piece))
 
 
-def resolved(f: PPoly, coarse: PPoly) -> float:
+def resolved(f: PPoly, coarse: PPoly, slope_of: SlopeOf = exact_slope) -> float:
     """What may be missed of g′, from the splines through all points and through every other one."""
     radius = np.linspace(max(f.x[0], coarse.x[0]), min(f.x[-1], coarse.x[-1]), COMPARED)
-    fine = exact_slope(f, radius)
-    differs = np.abs(exact_slope(coarse, radius) - fine)
+    fine = slope_of(f, radius)
+    differs = np.abs(slope_of(coarse, radius) - fine)
     return float(max(TOLERANCE * np.abs(fine).max(), SHARE_OF_COARSE * np.quantile(differs, 0.9)))
 
 
-def _edges(f: PPoly, b: float, last: float, allowed: float) -> FloatArray:
+def _edges(exact: Exact, last: float, allowed: float) -> FloatArray:
     """Ends of the pieces, in w."""
     edges = np.linspace(0.0, last, FIRST_PIECES + 1)
-    narrowest = max(0.5 * float(np.diff(f.x).min()), SHORTEST * last)
+    narrowest = max(0.5 * float(np.diff(exact.f.x).min()), SHORTEST * last)
     settled: list[FloatArray] = []
     start, width = edges[:-1], np.diff(edges)
     between = (np.arange(DEGREE + 3) + 0.5) / (DEGREE + 3)
     while start.size:
-        over_radius = _fitted(lambda w: _over_radius(f, b, w), start, width, DEGREE, width < NARROW * last)
-        slope = _fitted(lambda w: _slope_at(f, b, w), start, width, DEGREE + 1, width < NARROW * last)
+        over_radius = _fitted(exact.over_radius, start, width, DEGREE, width < NARROW * last)
+        slope = _fitted(exact.slope, start, width, DEGREE + 1, width < NARROW * last)
         w = start[:, None] + width[:, None] * between
-        exact = _slope_at(f, b, w)
         found = np.stack([_horner(fit[:, :, None], w - start[:, None]) for fit in (over_radius, slope)])
-        missed = np.abs(found * np.stack([np.hypot(w, b), np.ones_like(w)]) - exact).max(axis=0)
+        missed = np.abs(found * np.stack([np.hypot(w, exact.b), np.ones_like(w)]) - exact.slope(w)).max(
+            axis=0
+        )
         bad = (missed.max(axis=1) > allowed) & (width > narrowest)
         settled.append(start[~bad])
         start, width = start[bad], 0.5 * width[bad]
         start, width = np.concatenate([start, start + width]), np.tile(width, 2)
     return np.append(np.sort(np.concatenate(settled)), last)
-
-
-def _slope_at(f: PPoly, b: float, w: FloatArray) -> FloatArray:
-    """g′ at w of any shape."""
-    return exact_slope(f, np.hypot(w, b).ravel()).reshape(w.shape)
-
-
-def _over_radius(f: PPoly, b: float, w: FloatArray) -> FloatArray:
-    """g′/ξ at w of any shape; on the axis as next to it."""
-    radius = np.maximum(np.hypot(w, b), 1e-6 * f.x[-1])
-    return exact_slope(f, radius.ravel()).reshape(w.shape) / radius
 
 
 def _fitted(  # type: ignore[no-untyped-def]

@@ -38,8 +38,11 @@ class InnerTable:
         radius2 = self.flat[..., None] ** 2 + self.gap[..., None] * np.sin(angle) ** 2
         weight = self.span * profile.weighted_slope(np.sqrt(radius2)) / position[..., None]
         weight = np.where(self.gap[..., None] > 0.0, weight, 0.0)
-        values = np.stack([weight, weight * radius2 / position[..., None] ** 2])
-        self.integrals = chebyshev.RunningIntegrals(values)
+        self.integrals = chebyshev.RunningIntegrals(self.densities(weight, radius2, position))
+
+    def densities(self, weight: FloatArray, radius2: FloatArray, position: FloatArray) -> FloatArray:
+        """What is integrated over α, from 2 m/r and the squares of the radii at the nodes."""
+        return np.stack([weight, weight * radius2 / position[..., None] ** 2])
 
     def __call__(self, radius: FloatArray) -> FloatArray:
         gap, flat = align(self.gap, radius), align(self.flat, radius)

@@ -81,14 +81,24 @@ class WavyParaboloid(Profile):
     @classmethod
     def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
         h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
-        return (h == 0.0) | (wavelength >= _smallest_wavelength(largest_depth, h, wavelength))
+        return (h == 0.0) | (wavelength >= cls.smallest_wavelength(largest_depth, h, wavelength))
 
     @classmethod
     def too_small(cls, largest_depth: float, **shape: float) -> tuple[str, float] | None:
         if cls.compact(largest_depth, **{name: np.array([value]) for name, value in shape.items()}):
             return None
         h, wavelength = (np.array(shape[name]) for name in ("waviness_amplitude", "wavelength"))
-        return "wavelength", float(_smallest_wavelength(largest_depth, h, wavelength))
+        return "wavelength", float(cls.smallest_wavelength(largest_depth, h, wavelength))
+
+    @classmethod
+    def smallest_wavelength(
+        cls, largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
+    ) -> FloatArray:
+        """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
+        with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
+            phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
+        # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
+        return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
     def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
         taken = copy(self)
@@ -187,16 +197,6 @@ class WavyParaboloid(Profile):
         largest = self.radius(self.largest_depth)
         nodes = int(NODES_PER_DIGIT * digits) + self.extra_nodes(digits)
         return TablePrimitives(self, position, nodes, nodes, largest)
-
-
-def _smallest_wavelength(
-    largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
-) -> FloatArray:
-    """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
-    with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
-        phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
-    # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
-    return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
 
 @lru_cache

@@ -49,10 +49,17 @@ class BulkStress(ABC):
         """Shape (n,): which change over the cycle."""
         return np.asarray(self.largest > self.least)
 
-    def far_field(self, poisson_ratio: FloatArray, walker_exponent: FloatArray | None) -> FloatArray:
-        """swt far from the contact, shape (n,): that of the bulk stress alone, on the x-normal."""
+    def far_field(
+        self, poisson_ratio: FloatArray, walker_exponent: FloatArray | None, plane: bool
+    ) -> FloatArray:
+        """swt far from the contact, shape (n,): that of the bulk stress alone, on the x-normal.
+
+        Alone it is uniaxial, or in a ``plane`` contact one of plane strain.
+        """
         modulus = 1.0 - poisson_ratio**2
-        amplitude = 0.5 * (self.largest - self.least) / modulus
+        amplitude = 0.5 * (self.largest - self.least)
+        if not plane:
+            amplitude = amplitude / modulus
         walker = None if walker_exponent is None else Walker(walker_exponent, modulus)
         return combined(self.largest, amplitude, walker)
 

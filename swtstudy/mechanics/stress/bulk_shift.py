@@ -3,14 +3,14 @@
 The strain of the body that carries an oscillating bulk stress drags its surface under the other body. For a
 Hertz contact of similar materials a stick circle off centre makes a uniform strain, which cancels that of
 the bulk stress along x if the shift is e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A
-is half the range of the bulk stress, as of an oscillation.
+is half the range of the bulk stress, as of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.families import PLAIN
+from swtstudy.families import PLAIN, PLAIN_STRIP
 from swtstudy.mechanics.contact.stick_zone import stick_coordinate
 from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.load.of_points import alike, load_of
@@ -20,17 +20,18 @@ from swtstudy.mechanics.points import FloatArray, Points
 def bulk_shift(points: Points) -> FloatArray:
     """e/a_H of n points, shape (n,).
 
-    NaN for other profiles than the paraboloid, without friction or a permanent stick zone, and where e is
-    larger than the width a − c of the ring between the permanent stick zone and the largest contact radius.
+    NaN for other profiles than the paraboloid and the cylinder, without friction or a permanent stick zone,
+    and where e is larger than the width a − c of the ring between that and the largest contact radius.
     """
-    if points.profile != PLAIN:
+    if points.profile not in (PLAIN, PLAIN_STRIP):
         return np.full(len(points), np.nan)
     ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
     if points.path is not None:
         course = points.path.bulk
         amplitude = amplitude * (0.0 if course is None else 0.5 * np.ptp(course.ends))
     with np.errstate(divide="ignore", invalid="ignore"):
-        shift = 2.0 * amplitude / (μ * (1.0 + ν) * (4.0 - 3.0 * ν))
+        stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)
+        shift = 2.0 * amplitude / (μ * stiffness)
     width = np.full(len(points), np.nan)
     for index in alike(points):
         some = points.take(index)

@@ -31,6 +31,8 @@ def circle_stress(
     angle
         Shape (n, k): θ from the x axis.
     """
+    assert history.mean_pressure is not None  # in the plane there are no circles
+    assert history.tangential_3 is not None
     ν, μ = poisson_ratio[:, None], friction[:, None]
     c, s = np.cos(angle)[..., None], np.sin(angle)[..., None]
     spread = 0.5 * (1.0 - 2.0 * ν) * history.mean_pressure

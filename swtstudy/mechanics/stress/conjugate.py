@@ -2,7 +2,7 @@
 
 Both are integrals over the memory diagram: ∫ o′ dC over the other coordinate C of the contact radius, on
 lines by its values at their ends. On growths o′ dC = Ṫ/Ṅ dC is integrated over the time of touch-down, where
-nothing is singular.
+nothing is singular. In the plane the way is known but for a constant share of the force.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from swtstudy.mechanics.contact.memory import GROWTH, Memory
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate
 from swtstudy.mechanics.control.normal_map import LEAST_RADIUS
+from swtstudy.mechanics.control.strip import StripDisplacement
 from swtstudy.mechanics.events.passages import split_at_breakpoints
+from swtstudy.mechanics.indenter.plane import PlaneProfile
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -49,7 +51,7 @@ class Conjugate:
 
     cycle: Cycle
     coordinate: Coordinate
-    other: Coordinate
+    other: Coordinate | StripDisplacement
     by_force: bool
     unit: FloatArray
     nodes: int
@@ -67,7 +69,11 @@ class Conjugate:
     def whole(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
         """Over the cycles of a scene, in their intervals."""
         by_force = isinstance(scene.coordinate, ForceCoordinate)
-        other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
+        other: Coordinate | StripDisplacement
+        if isinstance(scene.profile, PlaneProfile):
+            other = StripDisplacement(scene.profile)
+        else:
+            other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
         return cls(scene.cycle, scene.coordinate, other, by_force, unit, nodes)
 
     def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
@@ -157,11 +163,15 @@ class Conjugate:
             node, weight = self.rule()
             instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * node)
             radius = np.maximum(coordinate.radius(load.normal(instant)), LEAST_RADIUS)
-            unit = self.unit[index, None]
-            stiffness = unit / radius if self.by_force else radius / unit
-            rate = load.tangential_rate(instant) * stiffness
+            rate = load.tangential_rate(instant) * self._stiffness(radius, self.unit[index, None])
             result[grown] = 0.5 * (last - first) * (rate * weight).sum(axis=1)
         return result
+
+    def _stiffness(self, radius: FloatArray, unit: FloatArray) -> FloatArray:
+        """Derivative of the other coordinate by that of the diagram."""
+        if isinstance(self.other, StripDisplacement):
+            return self.other.compliance(radius)
+        return unit / radius if self.by_force else radius / unit
 
     def _other(self, coordinate: FloatArray) -> FloatArray:
         return self.other.of(self.coordinate.radius(coordinate))

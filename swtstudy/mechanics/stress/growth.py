@@ -92,10 +92,12 @@ class GrowthIntegrals:
         return taken
 
     def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
-        """Densities of T1 and T3 over the angle, shape (2, m, nodes)."""
+        """Densities of T1 and T3, or in the plane of A, over the angle, shape (2 or 1, m, nodes)."""
         r, b = self.position[at[:2]], self.flat[at[0], 0]
         radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
         # Under a flat face there are no springs inside r.
+        if self.coordinate.profile.plane:
+            return (np.where(r > b, 2.0 / radius, 0.0) * self._weighted_growth(at, radius))[None]
         first = np.where(r > b, 2.0 / r, 0.0) * self._weighted_growth(at, radius)
         return np.stack([first, first * (radius / r) ** 2])
 
@@ -120,7 +122,7 @@ class GrowthIntegrals:
         index: NDArray[np.intp],
         radius: FloatArray,
     ) -> FloatArray:
-        """Integrals T1, T3, Π over single growths, without `at_tip`, up to ``radius``, shape (3, m).
+        """The integrals over single growths, without `at_tip`, up to ``radius``, shape (3, m) or (2, m).
 
         Parameters
         ----------

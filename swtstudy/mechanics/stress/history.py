@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +21,10 @@ class History:
     pressure
         p in E* √(δ0/R).
     mean_pressure
-        Load inside r over π r², same unit.
+        Load inside r over π r², same unit; None in the plane.
     tangential_1, tangential_3
-        T1 and T3 with the springs' τ′: (1/π) ∫ 2 sin φ τ′ dφ and (1/π) ∫ 2 sin³φ τ′ dφ.
+        T1 and T3 with the springs' τ′: (1/π) ∫ 2 sin φ τ′ dφ and (1/π) ∫ 2 sin³φ τ′ dφ. In the plane A in
+        the place of the first, (1/π) ∫ 2 τ′ dξ/√(x²−ξ²), and None.
     traction
         (1/π) ∫ τ′ dξ/√(ξ²−r²) over the springs outside r: −q/μ.
     bulk
@@ -29,39 +32,46 @@ class History:
     """
 
     pressure: FloatArray
-    mean_pressure: FloatArray
+    mean_pressure: FloatArray | None
     tangential_1: FloatArray
-    tangential_3: FloatArray
+    tangential_3: FloatArray | None
     traction: FloatArray
     bulk: FloatArray | None = None
 
+    @classmethod
+    def of_strip(cls, pressure: FloatArray, tangential: FloatArray, traction: FloatArray) -> History:
+        """Those of a plane contact."""
+        return cls(pressure, None, tangential, None, traction)
+
+    @property
+    def plane(self) -> bool:
+        """Whether they are those of a plane contact."""
+        return self.mean_pressure is None
+
     def take(self, *index: NDArray[np.intp] | int) -> History:
         """The blocks at ``index`` of the leading axes."""
-        bulk = None if self.bulk is None else self.bulk[index]
-        return History(*(values[index] for values in self._blocks)).carrying(bulk)
+        return self._of(None if values is None else values[index] for values in vars(self).values())
 
     def with_tangential_sign(self, sign: float | FloatArray) -> History:
         """The same with the tangential load times ±1."""
-        tangential = (sign * v for v in (self.tangential_1, self.tangential_3, self.traction))
-        return History(self.pressure, self.mean_pressure, *tangential).carrying(self.bulk)
+        third = None if self.tangential_3 is None else sign * self.tangential_3
+        return replace(
+            self, tangential_1=sign * self.tangential_1, tangential_3=third, traction=sign * self.traction
+        )
 
     def joined(self, other: History) -> History:
         """These instants, then the other ones."""
-        both = zip(self._blocks, other._blocks, strict=True)
-        bulk = None
-        if self.bulk is not None and other.bulk is not None:
-            bulk = np.concatenate([self.bulk, other.bulk], axis=-1)
-        return History(*(np.concatenate(pair, axis=-1) for pair in both)).carrying(bulk)
+        both = zip(vars(self).values(), vars(other).values(), strict=True)
+        return self._of(None if one is None else np.concatenate((one, more), axis=-1) for one, more in both)
 
     def carrying(self, bulk: FloatArray | None) -> History:
         """The same with a bulk stress, shape (n, X, T)."""
         return replace(self, bulk=bulk)
 
-    @property
-    def _blocks(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-        """What the contact makes."""
-        of_traction = self.tangential_1, self.tangential_3, self.traction
-        return self.pressure, self.mean_pressure, *of_traction
+    @classmethod
+    def _of(cls, blocks: Iterable[Any]) -> History:
+        """From all blocks in order."""
+        return cls(*blocks)
 
 
 def stresses(
@@ -79,6 +89,8 @@ def stresses(
         Sign of x.
     """
     nu, mu = (v.reshape(v.shape + (1,) * (history.pressure.ndim - 1)) for v in (poisson_ratio, friction))
+    if history.mean_pressure is None or history.tangential_3 is None:
+        return _plane_stresses(history, nu, mu, side)
     spread = 0.5 * (1.0 - 2.0 * nu) * history.mean_pressure
     pull = side * mu
     sigma_xx = (
@@ -87,4 +99,15 @@ def stresses(
     if history.bulk is not None:
         sigma_xx = sigma_xx + history.bulk
     sigma_yy = -spread - 2.0 * nu * history.pressure + pull * nu * history.tangential_3
+    return sigma_xx, sigma_yy, -history.pressure, mu * history.traction
+
+
+def _plane_stresses(
+    history: History, nu: FloatArray, mu: FloatArray, side: float | FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """`stresses` of a plane contact: plane strain, of the bulk stress, too."""
+    sigma_xx = side * mu * history.tangential_1 - history.pressure
+    if history.bulk is not None:
+        sigma_xx = sigma_xx + history.bulk
+    sigma_yy = nu * (sigma_xx - history.pressure)
     return sigma_xx, sigma_yy, -history.pressure, mu * history.traction

@@ -2,7 +2,8 @@
 
 The stress at x is a short sum over the memory diagram: with the full-slip primitives A(r; ξ) of the profile
 (`swtstudy.mechanics.indenter.base.Primitives`) a piece of slope do/dG = s from ξ1 to ξ2 contributes
-−s [A(ξ2) − A(ξ1)], since τ′ = −o′. Nothing here depends on ν or μ; `stresses` brings them in.
+−s [A(ξ2) − A(ξ1)], since τ′ = −o′. Nothing here depends on ν or μ; `stresses` brings them in. Of a disc there
+are c = 3 such integrals, T1, T3 and Π, of a strip c = 2, A and B.
 """
 
 from __future__ import annotations
@@ -54,15 +55,15 @@ class SurfaceLine:
         self.cycle, self.coordinate, self.position, self.digits = cycle, coordinate, position, digits
         self.primitives, self.bulk = coordinate.profile.primitives(position, digits), bulk
         near = position if bulk is None else self._near_contact()
-        #: Shape (n, X, 1): half of the load inside r, were the contact larger.
-        self.inside = coordinate.profile.half_load(near)[:, :, None]
+        #: Shape (n, X, 1): half of the load inside r, were the contact larger; in the plane it is not needed.
+        self.inside = None if coordinate.profile.plane else coordinate.profile.half_load(near)[:, :, None]
         #: When edges and fronts pass r, or a radius outside of the contact that no edge reaches either.
         self.edges, self.fronts = Passing.of(cycle, coordinate, near)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
         #: Shape (n, m): do/dG of the distinct pieces, of growths the part that is a line's.
         self.slope = self._line_slope()
-        #: Shape (3, n, X, m): T1, T3, Π up to a front in each piece are base − slope · A(front), for lines.
+        #: Shape (c, n, X, m): integrals up to a front in each piece are base − slope · A(front), of lines.
         self.base = self._base()
 
     def _near_contact(self) -> FloatArray:
@@ -75,7 +76,8 @@ class SurfaceLine:
         taken = copy(self)
         taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
         taken.position, taken.base = self.position[index], self.base[:, index]
-        taken.inside, taken.bulk = self.inside[index], self.bulk and self.bulk.take(index)
+        taken.inside = None if self.inside is None else self.inside[index]
+        taken.bulk = self.bulk and self.bulk.take(index)
         taken.edges, taken.fronts = self.edges.take(index), self.fronts.take(index)
         taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
         taken.slope = self.slope[index]
@@ -101,8 +103,9 @@ class SurfaceLine:
         pieces, (n, columns) = self.pieces, self.position.shape
         breakpoints, number = distinct(pieces.start)
         radius = self.coordinate.radius(breakpoints)
-        at_start = np.empty((3, n, columns, pieces.start.shape[1]))
-        for component, values in zip(at_start, self._full_slip(radius[:, None]), strict=True):
+        full_slip = self._full_slip(radius[:, None])
+        at_start = np.empty((len(full_slip), n, columns, pieces.start.shape[1]))
+        for component, values in zip(at_start, full_slip, strict=True):
             component[...] = gather(values, number[:, None])
         slope = self.slope
         base = slope[:, None] * at_start
@@ -125,7 +128,7 @@ class SurfaceLine:
         Parameters
         ----------
         part
-            Shape (3, n, X, m).
+            Shape (c, n, X, m).
         start
             Shape (n, m): radius at which each piece begins.
         """
@@ -136,45 +139,56 @@ class SurfaceLine:
         many = np.broadcast_arrays(
             row[:, None], np.arange(columns), index[:, None], start[row, piece][:, None]
         )
-        found = self.growth.up_to(*(values.ravel() for values in many)).reshape(3, row.size, columns)
+        found = self.growth.up_to(*(values.ravel() for values in many)).reshape(len(part), row.size, columns)
         part[:, row, :, piece] += np.moveaxis(found, 0, 1)
 
     def _full_slip(self, radius: FloatArray) -> FloatArray:
-        """T1, T3 and Π up to ``radius`` (n, X or 1, …), shape (3, n, X, …)."""
+        """The integrals up to ``radius`` (n, X or 1, …), shape (c, n, X, …)."""
         return np.concatenate([self.primitives.inner(radius), self.primitives.pressure(radius)[None]])
 
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
-        edge, front, load = self._radii(nodes, states)
-        r = self.position[:, :, None]
+        edge, front = self._radii(nodes, states)
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, front, (*inner, outer[0]))
-        # What the springs inside r carry, and what those outside press on the inside.
-        inside = np.minimum(load, self.inside)
-        blocks = outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential
-        history = History(*blocks)
+        if self.inside is None:
+            history = History.of_strip(outer[0] / np.pi, *tangential)
+        else:
+            # What the springs inside r carry, and what those outside press on the inside.
+            inside, r = (
+                np.minimum(self._half_load(nodes, states, edge), self.inside),
+                self.position[:, :, None],
+            )
+            history = History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
         return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
 
-    def _radii(self, nodes: Nodes, states: SlipStates) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Radii of edges and fronts, and half of the loads, at the instants, each (n, X, T)."""
-        profile, radius = self.coordinate.profile, self.coordinate.radius(states.edge)
+    def _half_load(self, nodes: Nodes, states: SlipStates, edge: FloatArray) -> FloatArray:
+        """Half of the loads at the instants, from the edges as they are at the positions, (n, X, T)."""
+        profile = self.coordinate.profile
+        if self.edges.slower is None:
+            return nodes.spread(profile.half_load(self.coordinate.radius(states.edge)))
+        return profile.half_load(edge)
+
+    def _radii(self, nodes: Nodes, states: SlipStates) -> tuple[FloatArray, FloatArray]:
+        """Radii of edges and fronts at the instants, each (n, X, T)."""
+        radius = self.coordinate.radius(states.edge)
         of_front = nodes, self.coordinate.radius(states.front), states.front
         if self.edges.slower is None:
             edge = self.edges.spread(nodes, radius, states.edge)
-            return edge, self.fronts.spread(*of_front), nodes.spread(profile.half_load(radius))
+            return edge, self.fronts.spread(*of_front)
         # But for rounding the front is at the edge while all sticks, and nowhere while nothing does.
         rounding = COORDINATE * self.cycle.load.largest_normal[:, None]
         sticks, slides = states.front >= states.edge - rounding, states.front <= rounding
         edge = self.edges.spread(nodes, radius, states.edge, ~(sticks | slides))
         front = self.fronts.spread(*of_front)
         np.copyto(front, edge, where=nodes.spread(sticks))
-        return edge, front, profile.half_load(edge)
+        return edge, front
 
     def _tangential(
         self, nodes: Nodes, states: SlipStates, front: FloatArray, at_edge: tuple[FloatArray, ...]
     ) -> FloatArray:
-        """T1, T3 and the traction, each over π, from the full-slip integrals up to the edge, (3, n, X, T)."""
+        """The integrals with the springs' τ′, over π, from full-slip ones up to the edge, (c, n, X, T)."""
         pieces, (n, columns) = self.pieces, self.position.shape
         place = nodes.interval * pieces.index.shape[-1] + states.piece
         piece = gather(pieces.index.reshape(n, -1), place)

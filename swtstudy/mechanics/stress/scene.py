@@ -80,6 +80,15 @@ class Scene:
             return replace(self, bulk=bulk)
         return replace(self, bulk=bulk, cycle=split_at(self.cycle, bulk.turning_instants()))
 
+    def add_bulk(self, stress: FloatArray, instant: FloatArray) -> None:
+        """Add the bulk stress of a batch of one point to stresses (…, 6) at instants (…), in place."""
+        if self.bulk is None:
+            return
+        bulk = self.bulk.at(instant[None])[0]
+        stress[..., 0] += bulk
+        if self.profile.plane:
+            stress[..., 1] += float(self.poisson_ratio[0]) * bulk
+
     def split_at_breakpoints(self) -> Scene:
         """The same with the intervals of its cycles cut where a slip front passes a breakpoint."""
         return replace(self, cycle=split_at_breakpoints(self.cycle))

@@ -31,6 +31,8 @@ NO_CONTACT = 1e-9
 def dissipated_work(scene: Scene, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Work by friction in a cycle, ∮ F_x du_x over μF_0 · μE* δ0/G*, F_0 the normal force at the depth δ0.
 
+    In the plane per length, over μP_0 · μδ0.
+
     Parameters
     ----------
     scene

@@ -1,7 +1,9 @@
-"""The stress field beneath the contact: rigid flat punches superposed over all radii (eqs. 13–18).
+"""The stress field beneath the contact: flat punches or strips superposed over all radii (eqs. 13–18).
 
 punch           – the field of one punch, closed form
 primitives      – its integrals over the punch radius, closed form
+strip           – the field of one strip of a plane contact, and its integrals over the half-width
+kernels         – which of the two is superposed
 slope_cells     – the spring slopes as straight pieces on cells
 superposition   – the stress history at points of the body
 contact_states  – the memory diagram of a cycle as input of the superposition

@@ -14,6 +14,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.stress.field.kernels import Kernels, kernels_of
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells, graded_radii, slope_cells
 from swtstudy.mechanics.stress.field.superposition import stress_history
 
@@ -37,19 +38,21 @@ class ContactStates:
         Shape (T, m).
     tangential_slope
         Shape (T, k, m).
+    kernels
+        What is superposed.
     """
 
     cells: SlopeCells
     touching: FloatArray
     tangential_slope: FloatArray
+    kernels: Kernels
 
     def stress(
         self, x: ArrayLike, y: ArrayLike, z: ArrayLike, friction: float, poisson_ratio: float
     ) -> FloatArray:
         """Stress at points of shape S, shape S + (T, 6); see `superposition.stress_history`."""
-        return stress_history(
-            x, y, z, self.cells, self.touching, self.tangential_slope, friction, poisson_ratio
-        )
+        own = self.cells, self.touching, self.tangential_slope
+        return stress_history(x, y, z, *own, friction, poisson_ratio, self.kernels)
 
 
 def contact_states(
@@ -74,7 +77,8 @@ def contact_states(
     touching = at < states.edge[0, :, None]
     branches = np.unique(memory.branch[_grown(memory)])
     shares = _shares(memory, states, at, branches) * touching[:, None]
-    return ContactStates(_slopes(cycle, coordinate, radius, branches), touching.astype(float), shares)
+    cells_of = _slopes(cycle, coordinate, radius, branches)
+    return ContactStates(cells_of, touching.astype(float), shares, kernels_of(coordinate.profile))
 
 
 def resolving_cells(cycle: Cycle, coordinate: Coordinate, cells: int) -> tuple[SlopeCells, IntArray]:
@@ -163,7 +167,7 @@ def _resolving_radii(profile: Profile, end: float, cells: int) -> FloatArray:
     while True:
         radius = np.linspace(0.0, end, count + 1)
         middle = 0.5 * (radius[1:] + radius[:-1])
-        chord = np.diff(profile.depth(radius[None])[0]) * count / end
+        chord = np.diff(profile.slope_integral(radius[None])[0]) * count / end
         bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord).max()
         if bend < chord.max() / cells**2 or count > 8 * cells:
             return radius
@@ -175,7 +179,7 @@ def _adapted_radii(profile: Profile, end: float, cells: int) -> FloatArray:
     radius = np.linspace(0.0, end, 5)
     while True:
         width, middle = np.diff(radius), 0.5 * (radius[1:] + radius[:-1])
-        chord = np.diff(profile.depth(radius[None])[0]) / width
+        chord = np.diff(profile.slope_integral(radius[None])[0]) / width
         bend = np.abs(profile.weighted_slope(middle[None])[0] / middle - chord)
         bend *= np.sqrt(np.minimum(width * (cells / end), 1.0))
         bent = bend > chord.max() / (2 * cells) ** 2

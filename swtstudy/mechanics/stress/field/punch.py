@@ -75,7 +75,7 @@ def normal_components(
     ν = np.asarray(poisson_ratio)
     axial = 2.0 * ν * f.one_over_R - z * f.L_over_R + (1.0 - 2.0 * ν) * f.L
     radial = f.zD - (1.0 - 2.0 * ν) * f.L2_over_R
-    return _stack(
+    return stacked(
         axial + x * x * radial,
         axial + y * y * radial,
         f.one_over_R + f.zζ_over_R3,
@@ -98,7 +98,7 @@ def tangential_components(
     ν = np.asarray(poisson_ratio)
     z_L2_over_R = z * f.L2_over_R
     twist = 2.0 * ν * x * (x * x * f.L3_over_R - 1.5 * f.L2)
-    return _stack(
+    return stacked(
         x * (2.0 * (1.0 + ν) * f.L_over_R - 3.0 * z_L2_over_R + x * x * f.zB) + twist,
         x * (y * y * f.zB - z_L2_over_R) - twist,
         x * f.z_over_R3,
@@ -108,5 +108,6 @@ def tangential_components(
     )
 
 
-def _stack(*components: FloatArray) -> FloatArray:
+def stacked(*components: FloatArray) -> FloatArray:
+    """Components along the last axis."""
     return np.stack(np.broadcast_arrays(*components), axis=-1)

@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.field.primitives import primitives
-from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_components, tangential_components
+from swtstudy.mechanics.stress.field.kernels import DISC, Kernels
 from swtstudy.mechanics.stress.field.slope_cells import SlopeCells
 
 #: Points × radii evaluated at a time: the temporaries stay in the processor's cache. A sixteenth or 64 times:
@@ -23,7 +22,12 @@ BLOCK = 16384
 
 
 def cell_stress(
-    x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float
+    x: ArrayLike,
+    y: ArrayLike,
+    z: ArrayLike,
+    cells: SlopeCells,
+    poisson_ratio: float,
+    kernels: Kernels = DISC,
 ) -> FloatArray:
     """Stress due to each cell of springs: compressed by their full slope, and dragged by each slope function.
 
@@ -35,6 +39,8 @@ def cell_stress(
         k slope functions on m cells.
     poisson_ratio
         ν.
+    kernels
+        What is superposed.
 
     Returns
     -------
@@ -46,15 +52,15 @@ def cell_stress(
     x, y, z = (np.asarray(v, dtype=float) for v in (x, y, z))
     plain, weighted = (
         [np.diff(f, axis=0) for f in functions]
-        for functions in primitives(np.hypot(x, y), z, cells.radius[:, None])
+        for functions in kernels.primitives(kernels.distance(x, y), z, cells.radius[:, None])
     )
     stress = np.empty((1 + len(cells.intercept), len(cells.radius) - 1, x.size, 6))
     slopes = cells.intercept[..., None] / np.pi, cells.gradient[..., None] / np.pi
     for number, (intercept, gradient) in enumerate(zip(*slopes, strict=True)):
-        f = PunchFunctions(*(intercept * a + gradient * b for a, b in zip(plain, weighted, strict=True)))
+        f = kernels.functions(*(intercept * a + gradient * b for a, b in zip(plain, weighted, strict=True)))
         if number == 0:
-            stress[0] = normal_components(f, x, y, z, poisson_ratio)
-        stress[1 + number] = tangential_components(f, x, y, z, poisson_ratio)
+            stress[0] = kernels.normal(f, x, y, z, poisson_ratio)
+        stress[1 + number] = kernels.tangential(f, x, y, z, poisson_ratio)
     return stress
 
 
@@ -67,6 +73,7 @@ def stress_history(
     tangential_slope: ArrayLike,
     friction: float,
     poisson_ratio: float,
+    kernels: Kernels = DISC,
 ) -> FloatArray:
     """Stress at points of the body for a sequence of contact states.
 
@@ -84,6 +91,8 @@ def stress_history(
         τ = G* u/(μ E* δ0); for the first function that is dτ/dG in [−1, 1].
     friction, poisson_ratio
         μ, ν.
+    kernels
+        What is superposed.
 
     Returns
     -------
@@ -99,7 +108,7 @@ def stress_history(
     columns = max(1, BLOCK // len(cells.radius))
     for first in range(0, x.size, columns):
         part = slice(first, first + columns)
-        fields = cell_stress(x.flat[part], y.flat[part], z.flat[part], cells, poisson_ratio)
+        fields = cell_stress(x.flat[part], y.flat[part], z.flat[part], cells, poisson_ratio, kernels)
         sums = np.cumsum(fields, axis=1, out=fields).reshape(jumps.shape[1], -1)
         stress[part] = (jumps @ sums).reshape(jumps.shape[0], -1, 6).swapaxes(0, 1)
     return stress.reshape(*x.shape, *touching.shape[:-1], 6)
