@@ -237,6 +237,11 @@ def lives() -> None:
 def checks() -> None:
     kills = [numbers("kills.txt", phrase)[0] for phrase in ("{} kills, each", "{} kills around")]
     says("[{} kills of a run and {} of the archive's write]", *kills)
+    flips, other = (numbers("flips.txt", phrase)[0] for phrase in ("{} flips of", "{} other values"))
+    assert numbers("flips.txt", "{} a crash") == [0]
+    says(
+        "of [{} flips of a byte](../results/flips.txt) in the index of HDF5, which has none, {}", flips, other
+    )
     assert any("and never a saved one" in line for line in lines("kills.txt"))
     assert any("the whole old archive or the whole new one" in line for line in lines("kills.txt"))
     (megabytes,) = next(
