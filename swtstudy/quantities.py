@@ -112,7 +112,7 @@ QUANTITIES: dict[str, Quantity] = {
             "s_line",
             r"s_\mathrm{line}",
             "mean of swt along a line",
-            "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+            "mean of swt/SWT0 over twice the critical distance from the critical point",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),

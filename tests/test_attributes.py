@@ -58,7 +58,7 @@ def test_nonlocal_values():
     assert words == {
         "s_volume": "mean of swt/SWT0 over the half sphere of the critical distance about the critical point",
         "s_point": "swt/SWT0 at half the critical distance from the critical point (point method)",
-        "s_line": "mean of swt/SWT0 over twice the critical distance from the critical point (line method)",
+        "s_line": "mean of swt/SWT0 over twice the critical distance from the critical point",
     }
     assert not any("units" in found[name].attrs for name in (*words, "critical_distance"))
     assert found.critical_distance.attrs["symbol"] == r"\ell/a_H"
