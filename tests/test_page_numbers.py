@@ -273,7 +273,10 @@ def extremes() -> None:
         study = Study.from_toml(shown.ROOT / "studies" / f"{name}.toml")
         assert len(study.grid.axes[axis]) == int(points), name
         assert float(missed) <= 1e-3, name
-    says("miss their extremes by {} % at most", AtMost(max(100 * float(row[3]) for row in rows)))
+    says(
+        "[miss their extremes](../results/extremes.txt) by {} % at most",
+        AtMost(max(100 * float(row[3]) for row in rows)),
+    )
 
 
 def best_load() -> None:
