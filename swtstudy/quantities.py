@@ -105,8 +105,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_volume",
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
-            "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of plane "
-            "contacts half discs, about local maxima of swt, which is that about volume_x",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of "
+            "plane contacts half discs, about local maxima of swt, which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),
@@ -126,7 +126,7 @@ QUANTITIES: dict[str, Quantity] = {
             r"s_\mathrm{line}",
             "mean of swt along a line",
             "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is "
-            "that from line_x (line method)",
+            "that from line_x",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),

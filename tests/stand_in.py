@@ -29,6 +29,13 @@ def slow(points: Points, rtol: float) -> Solution:
     return smooth(points, rtol)
 
 
+def up_to(friction: float, gate: str, points: Points, rtol: float) -> Solution:
+    """Like `smooth`, but from a friction on it waits at a gate, a pipe into which nobody writes."""
+    if (points.friction > friction).any():
+        open(gate).close()
+    return smooth(points, rtol)
+
+
 def process(points: Points, rtol: float) -> Solution:
     """Like `slow`, but critical_x is the number of the process and s its number of BLAS threads."""
     solution = slow(points, rtol)

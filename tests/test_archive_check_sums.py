@@ -1,9 +1,11 @@
 """Damaged files are detected; results that a user changed and saved do not count as damaged."""
 
+import random
 import re
 import shutil
 import struct
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import netCDF4
@@ -14,8 +16,10 @@ import xarray as xr
 from click.testing import CliRunner
 
 from swtstudy import Study, open_results, run
+from swtstudy.archive.check_sums import has_its_own, write_check_sums
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.merge import merge
+from swtstudy.archive.read import load_file
 from swtstudy.cli import main
 
 NAMED = (
@@ -81,6 +85,82 @@ def test_damaged_values_are_named(tmp_path):
             damaged.update(re.findall(r"damaged file: wrong check sum of (\w+)", str(error)))
     assert damaged
     assert damaged <= {*dataset.variables}
+
+
+def index_of(content: bytes) -> list[int]:
+    """The places of HDF5's index of the chunks of arrays of two axes in a file."""
+    places = []
+    for node in re.finditer(rb"TREE\x01", content):
+        entries = int.from_bytes(content[node.start() + 6 : node.start() + 8], "little")
+        places += range(node.start(), node.start() + 24 + 48 * (entries + 1))
+    return places
+
+
+def test_a_flip_in_the_index_of_the_chunks_opens_with_no_other_value(tmp_path):
+    """HDF5 itself has no check sum of it."""
+    path = tmp_path / "small.nc"
+    text = NAMED.replace("[0.11, 1.3]", "{start = 0, stop = 3, num = 30}")
+    text += "friction = {start = 0.1, stop = 1, num = 20}\n"
+    study = Study.from_text(text.replace("friction = 0.37\n", ""))
+    dataset = run(study, path, solver=partial(stand_in.fail_at, 0.1), workers=1)
+    assert 0 < int(np.isnan(dataset.s).sum()) < dataset.s.size
+    content = path.read_bytes()
+    places, draw, refused = index_of(content), random.Random(6), 0
+    for _ in range(60):
+        changed = bytearray(content)
+        changed[draw.choice(places)] ^= draw.randrange(1, 256)
+        path.write_bytes(changed)
+        try:
+            xr.testing.assert_identical(open_results(path), dataset)
+        except ArchiveError as error:
+            refused += bool(re.search("wrong check sum of|not a readable", str(error)))
+    assert refused > 10
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda ds: ds.assign(s=ds.s.where(ds.phase > 0.2)),  # a value is NaN
+        lambda ds: ds.assign(s_error=ds.s_error.fillna(0.0)),  # a NaN is a value
+        lambda ds: ds.assign(s=("phase", ds.s.values[::-1])),  # in another place
+        lambda ds: ds.assign(regime=0 * ds.regime),
+        lambda ds: ds.assign(s=ds.s.astype("float32")),
+        lambda ds: ds.assign_coords(phase=ds.phase + 1.0),
+        lambda ds: ds.drop_vars("critical_angle"),
+    ],
+)
+def test_every_variable_and_axis_has_a_check_sum(tmp_path, change):
+    path = tmp_path / "small.nc"
+    text = 'title = "t"\nrtol = 1e-2\n[axes]\nphase = [0.11, 1.3, 2]\n'
+    run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    with xr.open_dataset(path) as opened:
+        dataset = opened.load()
+    dataset["s_error"][1] = np.nan
+    write_check_sums_of(dataset, dataset, path)
+    xr.testing.assert_identical(load_file(path), dataset)
+    write_check_sums_of(dataset, change(dataset), path)
+    with pytest.raises(ArchiveError, match="a damaged file: wrong check sum of"):
+        load_file(path)
+
+
+def write_check_sums_of(dataset: xr.Dataset, saved: xr.Dataset, path: Path) -> None:
+    """A file of one Dataset with the check sums of another."""
+    saved.to_netcdf(path)
+    write_check_sums(path, dataset)
+
+
+def test_an_archive_with_check_sums_of_single_values_alone_opens_as_ever(tmp_path):
+    """They were the only ones once."""
+    path = tmp_path / "small.nc"
+    dataset = run(Study.from_text(NAMED), path, solver=stand_in.smooth, workers=1)
+    with netCDF4.Dataset(path, "a") as file:
+        group = file.groups["check_sums"]
+        assert {*group.ncattrs()} == {*dataset.variables}
+        for name in group.ncattrs():
+            if has_its_own(dataset[name]):
+                group.delncattr(name)
+        assert {"friction", "profile"} <= {*group.ncattrs()}
+    xr.testing.assert_identical(open_results(path), dataset)
 
 
 def test_an_archive_without_check_sums_opens_as_ever(tmp_path):

@@ -61,7 +61,7 @@ def test_nonlocal_values():
         "s_point": "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that "
         "from point_x (point method)",
         "s_line": "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which "
-        "is that from line_x (line method)",
+        "is that from line_x",
     }
     assert found.volume_x.attrs["symbol"] == r"x_\mathrm{volume}/a_H"
     assert not any("units" in found[name].attrs for name in (*words, "critical_distance"))

@@ -1,5 +1,6 @@
 import json
 import re
+import signal
 import subprocess
 import sys
 from io import BytesIO
@@ -321,13 +322,18 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
     from swtstudy import mechanics
-    from swtstudy.runner.workers import LocalPool
+    from swtstudy.runner import job
 
-    def again(*_):
-        raise KeyboardInterrupt
+    def ctrl_c(*_):
+        signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
-    monkeypatch.setattr(LocalPool, "__exit__", again)
+    def saved(*arguments):
+        ctrl_c()  # where the words of the first are made
+        return before(*arguments)
+
+    before = job._saved
+    monkeypatch.setattr(mechanics, "solve_points", ctrl_c)
+    monkeypatch.setattr(job, "_saved", saved)
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr

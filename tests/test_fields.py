@@ -9,11 +9,13 @@ import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
 from scenes import PROFILE_NAMES, random_points
+from scenes import points as batch
 from scipy.integrate import simpson
 
 import swtstudy
 from swtstudy.fields import swt as swt_module
 from swtstudy.fields.one_point import read_scene
+from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body import body
 from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import _cartesian, _folded, _off_ring, _Search, body_maximum
@@ -355,6 +357,21 @@ def test_maximum_of_the_body():
     assert np.hypot(*found.position[:2]) == pytest.approx(abs(float(solved.critical_x)), rel=5e-3)
     assert abs(found.position[1]) > 0.1
     assert found.swt > 1.005 * float(solved.s)
+
+
+def test_maximum_of_the_body_off_the_line_close_to_the_edge_of_a_flat_face():
+    """Nearer to the edge than the search comes elsewhere: on the circle through the line's own maximum."""
+    point = batch(
+        "truncated_paraboloid", 0.4956, 0.10406, 0.90926, 0.59157, 0.498168, p=2, q=3, flat_radius=1.931156
+    )
+    solved = solve_points(point, 1e-5)
+    x = float(solved.critical_x[0])
+    assert 0.0 < abs(x) - 1.931156 < 1e-3
+    found, at_line = body_maximum(scene_of(point), x)
+    gain = float(solved.s_surface[0] / solved.s[0])
+    assert gain > 1.01
+    assert found.swt / float(at_line.swt) == pytest.approx(gain, abs=2e-3)
+    assert abs(found.position[1]) > 0.5
 
 
 CURVED = [

@@ -75,6 +75,34 @@ def test_the_cycle_of_the_paper_as_a_polygon_converges_to_it() -> None:
         assert abs(found / smooth - 1.0) < 12.0 / count**2
 
 
+@pytest.mark.parametrize(
+    ("ratio", "normal", "tangential", "phase", "quick"),
+    [
+        ((2, 1), 0.757, 0.989, 5.492, True),
+        ((1, 1), 0.591, 0.513, 3.470, True),
+        ((1, 2), 0.445, 0.486, 4.161, False),
+        ((1, 2), 0.582, 0.823, 3.579, False),
+    ],
+)
+def test_what_points_on_a_smooth_cycle_miss_of_it(ratio, normal, tangential, phase, quick) -> None:
+    """Some 10/k² as a rule, up to 2/k elsewhere; a function of the time misses nothing."""
+    p, q = ratio
+    load = {"normal_amplitude": normal, "tangential_amplitude": tangential, "rtol": 1e-5}
+
+    def course(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return np.sin(q * t + phase), np.sin(p * t)
+
+    whole = swtstudy.solve(phase=phase, frequency_ratio=f"{p}/{q}", **load).s.item()
+    smooth = swtstudy.solve(load=LoadPath.sampled("smooth", course), **load).s.item()
+    assert smooth == pytest.approx(whole, rel=1e-5)
+    missed = {}
+    for k in (64, 128):
+        at = 2.0 * np.pi * (np.arange(k) + 0.3) / k
+        missed[k] = abs(s_of(np.stack(course(at), axis=1), **load) / whole - 1.0)
+        assert missed[k] < (20.0 / k**2 if quick else 2.5 / k)
+    assert (missed[128] > 50.0 / 128**2) != quick
+
+
 @pytest.mark.parametrize("force", [True, False])
 def test_a_constant_normal_load_takes_mixed_control(force: bool) -> None:
     """To and fro in straight lines is what the harmonic load does there."""

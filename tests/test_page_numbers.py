@@ -11,7 +11,7 @@ import pytest
 import shown
 import xarray as xr
 
-from swtstudy import open_results, solve
+from swtstudy import Study, open_results, solve
 from swtstudy.audit.point import TOLERANCE
 from swtstudy.cli.run import POINTS_FAILED
 from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
@@ -239,6 +239,14 @@ def thresholds() -> None:
     says("half-widths from {} to {} mm", min(sizes), max(sizes))
 
 
+def polygons() -> None:
+    (table, _) = tables("loads.md")
+    count = int(table[0][-1].removeprefix("k = "))
+    worst = max(float(row[-1]) for row in table[1:]) / count**2
+    assert 0.5 / count < worst < 2.0 / count
+    says("{} % with {} points", 100 * worst, count)
+
+
 def lives() -> None:
     rows = [line.split() for line in lines("physical.txt") if re.match(r"\s*\d+°", line)]
     worst, mean = (np.array([float(row[column]) for row in rows]) for column in (2, 3))
@@ -254,6 +262,11 @@ def lives() -> None:
 def checks() -> None:
     kills = [numbers("kills.txt", phrase)[0] for phrase in ("{} kills, each", "{} kills around")]
     says("[{} kills of a run and {} of the archive's write]", *kills)
+    flips, other = (numbers("flips.txt", phrase)[0] for phrase in ("{} flips of", "{} other values"))
+    assert numbers("flips.txt", "{} a crash") == [0]
+    says(
+        "of [{} flips of a byte](../results/flips.txt) in the index of HDF5, which has none, {}", flips, other
+    )
     assert any("and never a saved one" in line for line in lines("kills.txt"))
     assert any("the whole old archive or the whole new one" in line for line in lines("kills.txt"))
     (megabytes,) = next(
@@ -267,6 +280,20 @@ def statements() -> None:
     said = "over all of the paper's studies {} % of the points slide as a whole once a cycle"
     says(said, *numbers("statements.md", "gross slip {}%"))
     assert solve(rtol=1e-2).regime == REGIMES.index("partial_slip")  # Table 1's own point
+
+
+def extremes() -> None:
+    """What the curves of the studies miss of their extremes, in all that is drawn and measured."""
+    rows = [line.split() for line in lines("extremes.txt") if re.match(r"(figure|other)", line)]
+    assert [row[0] for row in rows] == [*(f"figure{number}" for number in range(3, 9)), "other_frequencies"]
+    for name, axis, points, missed, *_ in rows:
+        study = Study.from_toml(shown.ROOT / "studies" / f"{name}.toml")
+        assert len(study.grid.axes[axis]) == int(points), name
+        assert float(missed) <= 1e-3, name
+    says(
+        "[miss their extremes](../results/extremes.txt) by {} % at most",
+        AtMost(max(100 * float(row[3]) for row in rows)),
+    )
 
 
 def best_load() -> None:
@@ -313,6 +340,8 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     lives,
     thresholds,
     checks,
+    extremes,
+    polygons,
     best_load,
     statements,
     limits,

@@ -1,11 +1,12 @@
 import json
 import os
 import re
+import select
 import shutil
 import signal
 import subprocess
 import sys
-import time
+from contextlib import contextmanager, suppress
 from functools import partial
 
 import numpy as np
@@ -29,8 +30,12 @@ LINE = (
     'title = "t"\nrtol = 1e-3\n[fixed]\nfrequency_ratio = "1/15"\n'
     '[axes]\nfriction = {start = "0.01", stop = 4, num = 400}\n'
 )
-#: So many that a run of the slow stand-in does not end before it is stopped.
+#: So many that a run can be stopped several times.
 LONG = LINE.replace("num = 400", "num = 3000")
+
+
+#: The seconds after which a process that has not ended counts as stuck, on whatever machine.
+STUCK = 3000
 
 
 def square(frictions, phases, rtol=1e-3):
@@ -286,21 +291,19 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypat
 
 @pytest.mark.parametrize("signals", [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM,)])
 def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
-    path = tmp_path / "line.nc"
-    with subprocess.Popen(command_of(tmp_path, LONG), stderr=subprocess.PIPE, text=True) as process:
-        wait_for(lambda: points_saved(parts_folder(path)))
+    first, *later = signals
+    with told_run(tmp_path, LONG, up_to=1.0) as process:
+        heard(process, "saved")
         children = workers_of(process.pid)
-        for each in signals:
+        process.send_signal(first)
+        heard(process, "leaving")
+        for each in later:
             process.send_signal(each)
-            time.sleep(0.05)
-        try:
-            _, words = process.communicate(timeout=60)
-        finally:
-            process.kill()
+        _, words = process.communicate("now leave\n")
     assert re.fullmatch(r"stopped; \d+ of 3000 distinct points are saved beside .*; the same .*\n", words)
     assert process.returncode == 130
     assert children
-    wait_for(lambda: not any(map(_alive, children)))
+    gone(children)
 
 
 @pytest.mark.parametrize(
@@ -335,35 +338,53 @@ def command_of(folder, text, before=""):
     return [sys.executable, "-c", code, os.path.dirname(__file__), str(folder / "line.toml"), str(folder)]
 
 
+@contextmanager
+def told_run(folder, text, up_to):
+    """A run of a study in a folder that says what it does (`told_run.py`), killed in the end."""
+    (folder / "line.toml").write_text(text)
+    gate = folder / "gate"
+    if not gate.exists():
+        os.mkfifo(gate)
+    script = os.path.join(os.path.dirname(__file__), "told_run.py")
+    command = [sys.executable, script, str(folder / "line.toml"), str(folder), str(up_to), str(gate)]
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with subprocess.Popen(command, **pipes, text=True) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def heard(process, word: str) -> None:
+    """Return once a process has said a word."""
+    assert any(line == f"{word}\n" for line in process.stdout), process.stderr.read()
+
+
 def workers_of(process: int) -> list[int]:
     with open(f"/proc/{process}/task/{process}/children") as file:
         return [int(word) for word in file.read().split()]
 
 
-def wait_for(condition) -> None:
-    deadline = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+def gone(processes: list[int]) -> None:
+    """Return once none of the processes is there any more."""
+    for each in processes:
+        with suppress(ProcessLookupError):
+            handle = os.pidfd_open(each)
+            assert select.select([handle], [], [], STUCK)[0], f"process {each} goes on"
+            os.close(handle)
 
 
 def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(tmp_path):
     path, line = tmp_path / "line.nc", Study.from_text(LONG)
     undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
-    code = (
-        "import sys; sys.path.insert(0, sys.argv[1])\nimport stand_in\nfrom swtstudy import Study, run\n"
-        "run(Study.from_text(sys.argv[2]), sys.argv[3], solver=stand_in.slow)"
-    )
-    command = [sys.executable, "-c", code, os.path.dirname(__file__), LONG, str(path)]
     saved = 0
-    for _ in range(3):
-        with subprocess.Popen(command) as process:
-            deadline = time.monotonic() + 60
-            while points_saved(parts_folder(path)) <= saved and time.monotonic() < deadline:
-                time.sleep(0.02)
+    for up_to in (1.0, 2.0, 3.0):
+        with told_run(tmp_path, LONG, up_to) as process:
+            heard(process, "saved")
             process.kill()
-        assert points_saved(parts_folder(path)) > saved
-        saved = points_saved(parts_folder(path))
+            process.wait()
+            assert points_saved(parts_folder(path)) > saved
+            saved = points_saved(parts_folder(path))
     assert not path.exists()
     same(run(line, path, solver=stand_in.smooth, workers=1), undisturbed)
 
@@ -406,18 +427,8 @@ def test_workers_end_with_their_parent(tmp_path):
         workers = [int(word) for word in parent.stdout.readline().split()]
         parent.kill()
         parent.wait()
-    deadline = time.monotonic() + 20
-    while time.monotonic() < deadline and any(map(_alive, workers)):
-        time.sleep(0.05)
-    assert not any(map(_alive, workers))
-
-
-def _alive(process: int) -> bool:
-    try:
-        with open(f"/proc/{process}/stat") as file:
-            return file.read().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
+    assert workers
+    gone(workers)
 
 
 def test_an_archive_of_before_a_quantity_came_says_so(line, tmp_path):

@@ -38,6 +38,24 @@ def test_figure_3_is_almost_a_factor_of_two():
     assert float(s.max() / s.min()) == pytest.approx(1.725, abs=0.005)
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "least"),
+    [
+        ("figure3", {"normal_amplitude": 8 / 9}, 2.68906),
+        ("figure3", {"normal_amplitude": 0.5}, 2.63081),
+    ],
+)
+def test_a_curve_has_its_least_value_among_its_points(name, place, least):
+    """Where two branches cross, which is where 145 phases missed 1.3 % of it."""
+    phases = np.array([float(phase) for phase in Study.from_toml(FOLDER / f"{name}.toml").grid.axes["phase"]])
+    drawn, fine = (
+        float(swtstudy.solve(phase=near, rtol=1e-4, **place).s.min())
+        for near in (phases[abs(phases - least) < 0.05], least + np.linspace(-0.002, 0.002, 81))
+    )
+    assert fine <= drawn * (1.0 + 1e-5)
+    assert drawn == pytest.approx(fine, rel=1e-3)
+
+
 def test_figure_3_hardly_depends_on_the_phase_at_small_amplitudes():
     s = few("figure3", normal_amplitude=[0.1], phase=[0, 90 * DEGREE, 125 * DEGREE]).s
     assert float(s.max() / s.min()) < 1.06
@@ -89,7 +107,7 @@ def test_figure_7_resolves_every_oscillation():
         * h**1.5
         / np.sqrt(1 + max(grid.axes["normal_amplitude"]))
     )
-    assert (period[:-1] / np.diff(h)).min() > 18
+    assert (period[:-1] / np.diff(h)).min() > 112
 
 
 def test_figure_8_phases_differ_most_at_one_half():

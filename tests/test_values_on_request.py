@@ -72,6 +72,17 @@ def test_a_loop_on_a_line_has_those_of_the_harmonic_load() -> None:
         assert float(found[name]) == pytest.approx(float(harmonic[name]), rel=1e-6)
 
 
+def test_the_force_ratio_of_two_prescribed_forces_is_known_at_every_instant() -> None:
+    """Between the samples, by a parabola: those alone are up to 1e-5 too low."""
+    phase = np.linspace(0.3, 1.3, 9)
+    loads = {"normal_force_amplitude": 0.5, "tangential_force_amplitude": 0.35}
+    found = swtstudy.solve(phase=phase, quantities=["force_ratio"], rtol=1e-2, **loads)
+    for ratio, ψ in zip(found.force_ratio.values, phase, strict=True):
+        t = np.linspace(0.0, 2.0 * np.pi, 400_001)
+        exact = np.max(np.abs(0.35 * np.sin(t)) / (1.0 + 0.5 * np.sin(t + ψ)))
+        assert ratio == pytest.approx(exact, rel=4e-6)
+
+
 def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple[float, float, float]:
     """Work, largest force ratio and contact radius from springs that are marched through two periods."""
     one = points.take(np.array([index]))

@@ -1,8 +1,9 @@
-"""Check sums of single values and names, for which HDF5 has none.
+"""Check sums of what an archive's variables hold as they are read.
 
-HDF5 has them for arrays of numbers (fletcher32) and for attributes. The others are stored in a separate
-group, which xarray does not copy: whoever changes an archive and saves it with xarray leaves one without
-these check sums, not one with outdated ones.
+HDF5 has check sums of the chunks of an array (fletcher32) and of attributes, but none of the index that says
+where the chunks are: a flipped bit there turns values into NaN, or into those of another place. So the values
+of every variable have one here. They are stored in a separate group, which xarray does not copy: whoever
+changes an archive and saves it with xarray leaves one without these check sums, not one with outdated ones.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 if TYPE_CHECKING:
     import netCDF4
@@ -19,7 +22,7 @@ _GROUP = "check_sums"
 
 
 def has_its_own(variable: xr.Variable | xr.DataArray) -> bool:
-    """Whether HDF5 can keep a check sum of the values."""
+    """Whether HDF5 can keep check sums of the chunks of the values."""
     return bool(variable.ndim) and variable.dtype.kind in "biuf"
 
 
@@ -29,19 +32,19 @@ def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
 
     with netCDF4.Dataset(path, "a") as file:
         file.createGroup(_GROUP).setncatts(
-            {str(name): _check_sum(each) for name, each in dataset.variables.items() if not has_its_own(each)}
+            {str(name): _check_sum(each) for name, each in dataset.variables.items()}
         )
 
 
 def damaged(file: netCDF4.Dataset, dataset: xr.Dataset) -> list[str]:
-    """Names of the variables read from a file that do not match their check sums in it, if there are any."""
+    """Names of the variables read from a file that do not match their check sums in it, if there are any.
+
+    Archives from before arrays had check sums here have only those of single values and texts.
+    """
     group = file.groups.get(_GROUP)
     written = {} if group is None else {name: group.getncattr(name) for name in group.ncattrs()}
-    return [
-        str(name)
-        for name, each in dataset.variables.items()
-        if name in written and not has_its_own(each) and written[str(name)] != _check_sum(each)
-    ]
+    read = dataset.variables
+    return [name for name in written if name not in read or _check_sum(read[name]) != written[name]]
 
 
 def unreadable(file: netCDF4.Dataset) -> list[str]:
@@ -56,5 +59,12 @@ def unreadable(file: netCDF4.Dataset) -> list[str]:
 
 
 def _check_sum(variable: xr.Variable) -> str:
-    values = variable.values.ravel().tolist()
-    return f"{zlib.crc32(repr(values).encode()):08x}"
+    """Of an array of numbers the axes, the type and the bytes, NaN being one; else the values in words."""
+    values = variable.values
+    if not has_its_own(variable):
+        return f"{zlib.crc32(repr(values.ravel().tolist()).encode()):08x}"
+    begin = zlib.crc32(repr((variable.dims, values.shape, values.dtype.kind, values.itemsize)).encode())
+    if values.dtype.kind == "f":
+        values = np.where(np.isnan(values), np.asarray(np.nan, values.dtype), values)
+    little = np.ascontiguousarray(values, values.dtype.newbyteorder("<"))
+    return f"{zlib.crc32(little.data, begin):08x}"

@@ -61,17 +61,8 @@ class _Commands(click.Group):
             sys.exit(BAD_INPUT)
         except KeyboardInterrupt as error:
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing
-            click.echo(_words_of(error), err=True)
+            click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
-
-
-def _words_of(stop: BaseException | None) -> str:
-    """What the first Ctrl-C has to say: a second one comes while what it stopped is left."""
-    while isinstance(stop, KeyboardInterrupt):
-        if str(stop):
-            return str(stop)
-        stop = stop.__context__
-    return "stopped"
 
 
 def _log_to_terminal() -> None:

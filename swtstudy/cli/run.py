@@ -9,7 +9,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import click
 
@@ -109,23 +109,36 @@ def run(
             click.echo(str(target.with_suffix(f".{ending}")))
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
-    with _terminable():
+    with _stopped_once():
         run_and_draw(pairs, formats, done, width, workers=workers, client=client, retry_failed=retry_failed)
     if any(failed):
         sys.exit(POINTS_FAILED)
 
 
 @contextmanager
-def _terminable() -> Iterator[None]:
-    """SIGTERM, which batch systems send before they kill, stops a run as Ctrl-C does."""
+def _stopped_once() -> Iterator[None]:
+    """Ctrl-C and SIGTERM, which batch systems send before they kill, stop a run; what comes later, nothing.
+
+    A second one must not find what the first has to say, or to end, half done.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+
+    def stop(*_: object) -> NoReturn:
+        for each in before:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
+    for each in before:
+        signal.signal(each, stop)
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for each, handler in before.items():
+            if signal.getsignal(each) is stop:
+                signal.signal(each, handler)
 
 
 def _connect(address: str) -> Client:

@@ -86,7 +86,7 @@ class FatigueConstants:
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
         averages over a volume, or from a critical distance (`swtstudy.solve` with critical_distance), whose
         size depends on the material. The SWT parameter also has one fixed sensitivity to the mean stress,
-        about 0.29, which a material need not have.
+        σ_a(R = −1)/σ_a(R = 0) − 1 = 0.41, which a material need not have.
 
         Parameters
         ----------

@@ -1,9 +1,9 @@
-"""swt not at a point but over a critical distance ℓ: volume average and the theory of critical distances.
+"""swt not at a point but over a critical distance ℓ: means over a volume or a line, and the point method.
 
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
 about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
-(point method), or as the mean over the depths 0 … 2ℓ (line method), straight down or along the critical
-plane.
+(point method), or as the mean over the depths 0 … 2ℓ, straight down or along the critical plane. These are
+means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and line methods are.
 
 With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
 that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
