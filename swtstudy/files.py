@@ -1,13 +1,111 @@
-"""Files that are either complete or absent."""
+"""Files of users, read with care, and files that are either complete or absent."""
 
 from __future__ import annotations
 
+import csv
+import io
 import os
+import stat
 import tempfile
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
+from typing import Any
+
+#: Larger files, in bytes, are no texts that someone wrote, and no tables; those of a million points have 60 MB.
+LARGEST_TEXT, LARGEST_TABLE = 2**24, 2**28
+#: More columns than these are no table of parameters.
+MOST_COLUMNS = 1000
+
+
+def read_file(path: str | PathLike[str], largest: int) -> bytes:
+    """The content of a regular file; a device or a pipe may never end.
+
+    Raises
+    ------
+    OSError
+        If it cannot be read, is no regular file, or has more bytes than the ``largest``.
+    """
+
+    def at_once(name: str, flags: int) -> int:
+        return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))  # opening a pipe waits for its writer
+
+    with open(path, "rb", opener=at_once) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(None, "not a regular file", str(path))
+        pieces, size = [], 0
+        while piece := file.read(2**20):
+            pieces.append(piece)
+            size += len(piece)
+            if size > largest:
+                raise OSError(None, f"more than {largest} bytes", str(path))
+    return b"".join(pieces)
+
+
+def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
+    """The text in a file of UTF-8, with or without a byte order mark; raises as `read_file`, and ValueError."""
+    try:
+        return read_file(path, largest).decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise ValueError("bytes that are not UTF-8") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The tables in a TOML text.
+
+    Raises
+    ------
+    ValueError
+        With the reason only.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"a syntax error: {error}") from None
+    except RecursionError:
+        raise ValueError("a syntax error: nested too deeply") from None
+    except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
+        raise ValueError("an integer with too many digits") from None
+
+
+def read_table(path: str | PathLike[str], most: int) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """The header of a CSV file, and its other rows that are not empty, with the number of the line of each.
+
+    Raises
+    ------
+    OSError
+        As `read_file`.
+    ValueError
+        With the reason only, if it is no table, or has more than ``most`` rows.
+    """
+    reader = csv.reader(io.StringIO(read_text(path, LARGEST_TABLE), newline=""), skipinitialspace=True)
+    rows: list[tuple[int, list[str]]] = []
+    try:
+        for row in reader:
+            if len(row) > MOST_COLUMNS:
+                raise ValueError(f"more than {MOST_COLUMNS} columns in line {reader.line_num}")
+            if any(map(str.strip, row)):
+                rows.append((reader.line_num, [cell.strip() for cell in row]))
+            if len(rows) > most + 1:
+                raise ValueError(f"more than {most} rows")
+    except csv.Error as error:
+        raise ValueError(f"line {reader.line_num}: {error}") from None
+    return (rows[0][1] if rows else []), rows[1:]
+
+
+def plain_float(cell: str) -> float:
+    """The number in a cell; Python would also read 1_0 as 10.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    if "_" in cell:
+        raise ValueError("not a number")
+    return float(cell)
 
 
 def check_writable(path: str | PathLike[str]) -> None:

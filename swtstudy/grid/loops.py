@@ -33,14 +33,22 @@ def check_amplitudes(
 def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """With a force and a displacement the straight sides of a loop are curved in the memory diagram.
 
-    Nor does a bulk stress oscillate with a loop that has no course of it.
+    Nor does a bulk stress oscillate with a loop that has no course of it. And a normal load that stays far
+    from 0 is the load itself, where its deviation from the mean is asked for.
     """
     _check_bulk_stress(grid, keys, report)
-    if not grid.control.mixed or not any(grid.values(grid.control.given_for("normal_amplitude"))):
+    if not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
     from swtstudy.mechanics.load.loop import Loop
 
-    moving = [load for load in grid.values("load") if isinstance(load, Loop) and not load.is_steady]
+    loops = [load for load in grid.values("load") if isinstance(load, Loop)]
+    for load in loops:
+        if load.is_absolute:
+            low, high = load.normal_ends
+            found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
+            allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
+            report(keys("load"), found, allowed)
+    moving = [load for load in loops if grid.control.mixed and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"

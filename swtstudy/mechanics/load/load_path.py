@@ -152,12 +152,8 @@ class LoadPath(Loop):
         return 1 + len(self.vertices) // SIDES_PER_OSCILLATION
 
     @property
-    def reach(self) -> float:
-        return float(self.vertices[:, 0].max())
-
-    @property
-    def is_steady(self) -> bool:
-        return bool(np.ptp(self.vertices[:, 0]) == 0.0)
+    def normal_ends(self) -> tuple[float, float]:
+        return float(self.vertices[:, 0].min()), float(self.vertices[:, 0].max())
 
     @cached_property
     def bulk(self) -> PolygonCourse | None:

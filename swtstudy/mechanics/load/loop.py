@@ -12,6 +12,9 @@ from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 
+#: How many times as far from 0 as half of its range the middle of a column of deviations may be.
+FAR = 2.0
+
 
 class BulkCourse(Protocol):
     """Course of a bulk stress over the angle φ of a loop."""
@@ -39,13 +42,25 @@ class Loop(Named):
 
     @property
     @abstractmethod
-    def reach(self) -> float:
-        """Largest c_n."""
+    def normal_ends(self) -> tuple[float, float]:
+        """Least and largest c_n."""
 
     @property
-    @abstractmethod
+    def reach(self) -> float:
+        """Largest c_n."""
+        return self.normal_ends[1]
+
+    @property
     def is_steady(self) -> bool:
         """Whether the normal load is constant."""
+        low, high = self.normal_ends
+        return low == high
+
+    @property
+    def is_absolute(self) -> bool:
+        """Whether c_n looks like a load itself, not like its deviation from the mean: it stays far from 0."""
+        low, high = self.normal_ends
+        return abs(low + high) > FAR * (high - low)
 
     @property
     @abstractmethod

@@ -48,13 +48,8 @@ class SmoothPath(Loop):
         return 1 + self._order
 
     @property
-    def reach(self) -> float:
-        one = self._sums[0]
-        return float(one.value(np.append(one.turns, 0.0)).max())
-
-    @property
-    def is_steady(self) -> bool:
-        return self._sums[0].is_constant
+    def normal_ends(self) -> tuple[float, float]:
+        return self._sums[0].ends
 
     @property
     def turn_count(self) -> int:
