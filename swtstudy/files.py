@@ -14,7 +14,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-#: Larger files, in bytes, are no texts that someone wrote, and no tables; those of a million points have 60 MB.
+#: Larger files, in bytes, are no texts that someone wrote, and no tables: a million points take 60 MB.
 LARGEST_TEXT, LARGEST_TABLE = 2**24, 2**28
 #: More columns than these are no table of parameters.
 MOST_COLUMNS = 1000
@@ -45,7 +45,7 @@ def read_file(path: str | PathLike[str], largest: int) -> bytes:
 
 
 def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
-    """The text in a file of UTF-8, with or without a byte order mark; raises as `read_file`, and ValueError."""
+    """The text in a file in UTF-8, with or without a byte order mark; a ValueError if it is none."""
     try:
         return read_file(path, largest).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:

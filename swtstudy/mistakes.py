@@ -11,8 +11,8 @@ from decimal import Decimal
 from numbers import Real
 from typing import TypeGuard
 
+from swtstudy.axes import SYMBOLS
 from swtstudy.parameter import spelled
-from swtstudy.parameters import SYMBOLS
 
 #: Called with key, found and allowed of a mistake; knows the source of the input.
 Report = Callable[[str, str, str], None]
