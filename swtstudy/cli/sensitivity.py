@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -57,9 +58,10 @@ def sensitivity(
     from swtstudy.results.sensitivity import sensitivity as indices_of
     from swtstudy.runner.run import run
     from swtstudy.statements.influence import table
+    from swtstudy.study.shipped import shipped_studies
 
     indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
-    text = table(indices)
+    text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
     save(indices, targets[".nc"])
     with replacing(targets[".md"]) as temporary:
         temporary.write_text(text, encoding="utf-8")
