@@ -152,5 +152,6 @@ def _work(grid: PhysicalGrid) -> xr.DataArray:
 
 def _cycles(swt: xr.DataArray, grid: PhysicalGrid) -> xr.DataArray:
     """Cycles at SWT, with the constants of each body."""
-    one, two = (swt.copy(data=each.cycles(swt.values)) for each in grid.materials)
+    # Runs of before have means that are below 0 by rounding.
+    one, two = (swt.copy(data=each.cycles(np.maximum(swt.values, 0.0))) for each in grid.materials)
     return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]
