@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
+import re
 import stat
 import tempfile
 import tomllib
@@ -116,9 +117,7 @@ def check_writable(path: str | PathLike[str]) -> None:
     OSError
         If it cannot be written; the message names the folder.
     """
-    path = Path(path)
-    if path.is_dir():
-        raise IsADirectoryError(f"{path} is a folder, not a file")
+    path = _target(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = _temporary(path, path.parent)
@@ -133,10 +132,18 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     """A temporary file that replaces the file at `path` when the block ends without an error.
 
     The temporary file is in the same folder, or in `folder`, which must be on the same file system. Its data
-    is on the disk before it gets its name, so that neither a kill nor a power cut leaves half a file.
+    is on the disk before it gets its name, so that neither a kill nor a power cut leaves half a file. A link
+    stays one: what it points to is replaced.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written, or there is a device or the like; the message names the file.
     """
-    path = Path(path)
-    handle, name = _temporary(path, folder or path.parent)
+    target = _target(path)
+    if Path(path).is_symlink():
+        folder = None  # it may point to another file system
+    handle, name = _temporary(target, folder or target.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -144,11 +151,42 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
         # mkstemp creates files that only their owner can read.
         temporary.chmod(0o666 & ~_umask())
         _sync(temporary)
-        os.replace(temporary, path)
+        os.replace(temporary, target)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        if error.errno is None or error.filename not in (None, name):
+            raise
+        raise type(error)(error.errno, error.strerror, str(path)) from error
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _sync(path.parent)
+    _sync(target.parent)
+
+
+def write_text(path: str | PathLike[str], text: str) -> None:
+    """Write a text in UTF-8, in full or not at all; raises as `replacing`."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _target(path: str | PathLike[str]) -> Path:
+    """The file that would be written at a path, through links; an OSError if something else is there."""
+    path = Path(path)
+    if path.is_dir():
+        raise IsADirectoryError(f"{path} is a folder, not a file")
+    if path.exists() and not path.is_file():
+        raise OSError(f"{path} is not a regular file")
+    return Path(os.path.realpath(path)) if path.is_symlink() else path
+
+
+#: Ends of the names of unfinished files, as `tempfile` makes them.
+_RANDOM = r"-[a-z0-9_]{8}"
+
+
+def unfinished(folder: Path, stem: str) -> list[Path]:
+    """The unfinished files that a kill of `replacing` leaves in a folder, with names that match the stem."""
+    name = re.compile(rf"\.(?:{stem}){_RANDOM}(?:\.\w+)?")
+    return [path for path in folder.glob(".*") if name.fullmatch(path.name)]
 
 
 def _temporary(path: Path, folder: Path) -> tuple[int, str]:

@@ -34,7 +34,7 @@ def sensitivity(
     NAME_indices.
     """
     from swtstudy.archive.names import archive_paths
-    from swtstudy.files import check_writable, replacing
+    from swtstudy.files import check_writable, write_text
     from swtstudy.study.several import read_studies
 
     defined = read_studies([study])
@@ -63,8 +63,7 @@ def sensitivity(
     indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
     text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
     save(indices, targets[".nc"])
-    with replacing(targets[".md"]) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
     click.echo(text)
     for path in (target, *targets.values()):

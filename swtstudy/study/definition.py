@@ -145,9 +145,11 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)
+    of_structure = {mistake.key for mistake in mistakes}
 
     def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed, source))
+        if key not in of_structure:  # told once
+            mistakes.append(Mistake(key, found, allowed, source))
 
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
