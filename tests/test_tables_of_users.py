@@ -172,3 +172,21 @@ def test_a_study_with_a_byte_order_mark(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_bytes(b'\xef\xbb\xbftitle = "t"\r\n')
     study = Study.from_toml(tmp_path / "mine.toml")
     assert (study.title, study.text) == ("t", 'title = "t"\n')
+
+
+def test_what_would_take_minutes_to_read_is_refused_at_once(tmp_path: Path) -> None:
+    axes = "\n".join(
+        f"{name} = {{start = 0.1, stop = 0.9, num = 1_000_000}}" for name in ("friction", "phase")
+    )
+    (line,) = mistakes_of(f'title = "t"\n[axes]\n{axes}\n', tmp_path)
+    assert line == (
+        "s: axes.friction, axes.phase: found 2000000 values, 1e+12 points; "
+        "allowed: at most 1000000 values along all axes"
+    )
+    rows = "".join(f"{r},{r * r}\n" for r in range(100_000))
+    (tmp_path / "worn.csv").write_text(f"radius,height\n{rows}")
+    (line,) = mistakes_of(PROFILE, tmp_path)
+    assert "found 100000 points (mine.radius, mine.height); allowed: at most 10000: every 10th, or" in line
+    (tmp_path / "points.csv").write_text(",".join(f"a{n}" for n in range(50_000)) + "\n1\n")
+    (line,) = mistakes_of(POINTS, tmp_path)
+    assert "more than 1000 columns in line 1" in line

@@ -122,12 +122,31 @@ def read_values(
         value = _read(rows[name], single, keys(name), report, known) if name in rows else None
         if value is not None:
             good_fixed[name] = value
-    for name, raw in axes.items():
+    for name, raw in () if _too_many(axes, keys, report, rows) else axes.items():
         if name in rows and raw is not None:
             good_axes[name] = _read_axis(rows[name], raw, keys(name), report, known)
     for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
         report(key, found, allowed)
     return good_fixed, good_axes
+
+
+def _too_many(
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    rows: Mapping[str, Parameter],
+) -> bool:
+    """Whether axes that are not too long one by one are so together: to read them takes a minute."""
+    sizes = [
+        raw.num if isinstance(raw, Range) else len(raw)
+        for name, raw in axes.items()
+        if name in rows and raw is not None
+    ]
+    if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
+        return False
+    found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
+    report(", ".join(map(keys, axes)), found, f"at most {LONGEST_AXIS} values along all axes")
+    return True
 
 
 def read_distances(

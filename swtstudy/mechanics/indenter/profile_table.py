@@ -18,6 +18,8 @@ from swtstudy.parameters import PARAMETERS
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
+#: Most points of a table: a rough one of so many takes 20 s to be fitted, a smooth one 1 s.
+MOST = 10_000
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6
 #: Radii at which compactness is looked at, and of the first guess of the contact radius.
@@ -36,7 +38,7 @@ class TabulatedProfile(Named):
     name
         Its name on axes, in archives and in figures.
     radius, height
-        Shape (k,), at least 8 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
+        Shape (k,), 8 to 10,000 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
         in a depth δ0, the mean one of a study; in `swtstudy.physical` both in the unit of its lengths.
         Heights of 0 at the begin are a flat face.
     smoothing
@@ -207,6 +209,10 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
     if radius.size != height.size or radius.size < FEWEST:
         found = f"{radius.size} radii and {height.size} heights"
         yield Mistake(f"{name}.radius, {name}.height", found, f"as many of each, at least {FEWEST}")
+        return
+    if radius.size > MOST:
+        allowed = f"at most {MOST}: every {-(-radius.size // MOST)}th, or the mean of so many"
+        yield Mistake(f"{name}.radius, {name}.height", f"{radius.size} points", allowed)
         return
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
