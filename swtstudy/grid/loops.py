@@ -11,6 +11,11 @@ from swtstudy.named import Named
 from swtstudy.parameters import HARMONIC, PARAMETERS
 from swtstudy.prescribed import replaced_by
 
+#: What scales the columns of a loop.
+AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
+#: Largest load of a loop over the mean one: at 1e12 of them s has an error of 1 %.
+LARGEST_LOAD = 1e9
+
 
 def check_amplitudes(
     fixed: Mapping[str, Value],
@@ -53,6 +58,25 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
         report(keys("load"), found, "two displacements or two forces")
+
+
+def check_largest(
+    grid: Grid, amplitudes: Mapping[str, float], keys: Callable[[str], str], report: Report
+) -> None:
+    """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
+    from swtstudy.mechanics.load.loop import Loop
+
+    for load in grid.values("load"):
+        if not isinstance(load, Loop):
+            continue
+        bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
+        for name, ends in zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True):
+            size = amplitudes.get(name, 0.0) * max(map(abs, ends))
+            if not size <= LARGEST_LOAD:
+                found = (
+                    f"{literal(load.name)} with a {name.rpartition('_')[0].replace('_', ' ')} of {size:.3g}"
+                )
+                report(keys("load"), found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
 
 
 def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from swtstudy.axes import AXES
 from swtstudy.families import family_of
 from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.grid.loops import check_largest
 from swtstudy.grid.shapes import largest_depths, largest_reach
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
@@ -45,6 +46,7 @@ def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
             report(keys(mistake.key), f"{mistake.found} at {there}{more}", mistake.allowed)
         return
     if all([_in_range(grid, column, keys, report) for column in grid.numbers]):
+        check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, keys, report)
         for profile in dict.fromkeys(grid.values("profile")):
             _check_shapes(grid, profile, keys, report)
 

@@ -13,11 +13,14 @@ from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
+from swtstudy.numbers import read_numbers
 from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
+#: How small and large a table may be, in any unit: the seventh power of that is a number still.
+SMALLEST, LARGEST = 1e-20, 1e20
 #: Most points of a table: a rough one of so many takes 20 s to be fitted, a smooth one 1 s.
 MOST = 10_000
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
@@ -184,8 +187,8 @@ class TabulatedProfile(Named):
 def _frozen(values: ArrayLike) -> FloatArray:
     """A copy that cannot be changed, empty if it is not of numbers."""
     try:
-        array = np.array(values, dtype=float)
-    except (TypeError, ValueError):
+        array = np.array(read_numbers("", values, ""))
+    except StudyError:
         array = np.empty((0, 0))
     array.flags.writeable = False
     return array
@@ -205,6 +208,11 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1 or not np.all(np.isfinite(values)):
             yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")
+            return
+        largest = np.abs(values).max(initial=0.0)
+        if largest > 0.0 and not SMALLEST <= largest <= LARGEST:
+            allowed = f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
+            yield Mistake(f"{name}.{key}", f"up to {largest:g}", allowed)
             return
     if radius.size != height.size or radius.size < FEWEST:
         found = f"{radius.size} radii and {height.size} heights"

@@ -12,6 +12,9 @@ from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 
+#: Largest number of a loop: squares of it are numbers still, whatever its unit.
+LARGEST = 1e100
+FINITE = f"finite numbers, in magnitude up to {LARGEST:g}"
 #: How many times as far from 0 as half of its range the middle of a column of deviations may be.
 FAR = 2.0
 
@@ -44,6 +47,11 @@ class Loop(Named):
     @abstractmethod
     def normal_ends(self) -> tuple[float, float]:
         """Least and largest c_n."""
+
+    @property
+    @abstractmethod
+    def tangential_ends(self) -> tuple[float, float]:
+        """Least and largest c_t."""
 
     @property
     def reach(self) -> float:
