@@ -75,6 +75,15 @@ def literal(value: object, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+#: What is allowed where a text is none that can be stored.
+STORABLE = "a text that an archive can hold, without a null character"
+
+
+def storable(text: str) -> bool:
+    """Whether an archive gives a text back: netCDF ends it at a null character, and holds UTF-8 alone."""
+    return "\0" not in text and not any("\ud800" <= c <= "\udfff" for c in text)
+
+
 def plain(value: object) -> object:
     """The value in a NumPy scalar or zero-dimensional array; anything else, or a masked value, unchanged."""
     array = getattr(value, "ndim", None) == 0 and hasattr(value, "item")

@@ -11,7 +11,8 @@ from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS, Style, styled
 from swtstudy.figures.wrap import wrap_texts, wrap_title
-from swtstudy.wording import place_words
+from swtstudy.study.figure_check import wrong_formula
+from swtstudy.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,7 +53,8 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
                 where = {name: columns[name] for name in axes} if row == 0 else {}
                 places = [place_words(name, each.values[column], each.attrs) for name, each in where.items()]
                 panel.set_title(", ".join(places), loc="left")
-        figure.suptitle(indices.attrs["title"])
+        title = str(indices.attrs["title"])
+        figure.suptitle(as_text(title) if wrong_formula(title) else title)
         add_legend(figure, panels)
         wrap_texts(figure)
         wrap_title(figure)  # also on a screen: few parameters make a narrow figure

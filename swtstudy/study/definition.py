@@ -12,7 +12,7 @@ from swtstudy.axes import AXES
 from swtstudy.files import parse_toml, read_text
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
-from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.study.contacts import every_name, read_given, rows_of
@@ -151,6 +151,8 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
         if key not in of_structure:  # told once
             mistakes.append(Mistake(key, found, allowed, source))
 
+    if not storable(str(raw.get("title", ""))):
+        report("title", literal(raw["title"]), STORABLE)
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
     mistakes += found

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.named import Named
+from swtstudy.named import Named, wrong_name
 from swtstudy.numbers import read_numbers
-from swtstudy.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -200,11 +199,9 @@ def _every_other(values: FloatArray) -> FloatArray:
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
     """What is wrong with a table."""
-    if not isinstance(name, str) or not name.strip():
-        yield Mistake("name", literal(name), "a text that is not empty")
+    if mistake := wrong_name(name, "profile"):
+        yield mistake
         name = "profile"
-    if name in PARAMETERS["profile"].names:
-        yield Mistake("name", literal(name), "another one: this is a built-in profile")
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1 or not np.all(np.isfinite(values)):
             yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")

@@ -7,9 +7,8 @@ from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
+from swtstudy.mistakes import StudyError
+from swtstudy.named import Named, wrong_name
 from swtstudy.prescribed import PAIRS
 
 #: Largest number of a loop: squares of it are numbers still, whatever its unit.
@@ -97,8 +96,6 @@ def checked_name(name: object) -> str:
     StudyError
         A ValueError, if it is none, or that of a built-in load.
     """
-    if not isinstance(name, str) or not name.strip():
-        raise StudyError([Mistake("name", literal(name), "a text that is not empty")])
-    if name in PARAMETERS["load"].names:
-        raise StudyError([Mistake("name", literal(name), "another one: this is a built-in load")])
-    return name
+    if mistake := wrong_name(name, "load"):
+        raise StudyError([mistake])
+    return str(name)
