@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 SMALLEST, LARGEST = 1e-20, 1e20
 #: Most points of a table: a rough one of so many takes 20 s to be fitted, a smooth one 1 s.
 MOST = 10_000
+#: Least step of its radii over the largest: the rounding of such a step is 1e-4 of it.
+LEAST_STEP = 1e-12
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6
 #: Radii at which compactness is looked at, and of the first guess of the contact radius.
@@ -222,10 +224,11 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
         yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
-    falls = np.flatnonzero(np.diff(radius) <= 0.0)
+    falls = np.flatnonzero(np.diff(radius) < LEAST_STEP * radius.max())
     if falls.size:
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"
-        yield Mistake(f"{name}.radius", found, "ascending radii")
+        allowed = f"ascending radii, by {LEAST_STEP:g} of the largest at least"
+        yield Mistake(f"{name}.radius", found, allowed)
     if not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
         yield Mistake(f"{name}.height", "a flat face alone", f"at least {FEWEST - 2} points beside it")
     if not 0.0 <= plain_number(smoothing) < np.inf:
