@@ -19,6 +19,7 @@ from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics import quantities
+from swtstudy.mechanics.body.around import Estimate
 from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
 from swtstudy.runner import chunk
 from swtstudy.runner.cutting import chunks
@@ -239,6 +240,8 @@ critical_distance = [3, 30, 300]
     assert means[1] <= means[0]
     assert means[2] <= means[1] + found.SWT_volume_error[1] + found.SWT_volume_error[2]
     assert found.cycles_volume.notnull().all()
+    both = Estimate(np.array([-3.0, 2.0]), np.array([0.5, 0.5]), np.array([1.0, 1.0])).not_negative
+    assert (both.value.tolist(), both.error.tolist()) == ([0.0, 2.0], [4.0, 1.0])
     # Of a run of before.
     stored = found.s_volume.copy(data=[-1e-7, 0.0, 1e-3])
     grid = study.grid

@@ -106,6 +106,9 @@ def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
     write_text(tmp_path / "text", "x")
     assert (far / "new").read_text() == "x"
     assert {each.name for each in far.iterdir()} == {"kept.nc", "mine.nc", "new"}
+    # What it points to may be on another file system than the folder for unfinished files.
+    with replacing(tmp_path / "text", tmp_path) as temporary:
+        assert temporary.parent == far
 
 
 def full(*_: object, **__: object) -> None:

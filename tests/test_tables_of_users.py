@@ -76,7 +76,8 @@ def test_a_normal_column_that_is_no_deviation_is_refused(kind: str) -> None:
     assert mistake.found == "'rig' with a normal column from 140 to 160, far from 0"
     assert mistake.allowed == "deviations from the mean normal load: take its mean, 150, off"
     smooth = LoadPath.harmonic_sum("smooth", [(0, 150, np.pi / 2), (1, 10, 0)], [(1, 60, 0)])
-    for loop in (smooth, LoadPath("still", [[150, -60], [150, 60]])):
+    beyond = LoadPath("just", [[0.26, -0.5], [0.75, 0.5]])
+    for loop in (smooth, beyond, LoadPath("still", [[150, -60], [150, 60]])):
         with pytest.raises(StudyError, match="far from 0; allowed: deviations from the mean"):
             swtstudy.solve(load=loop, **moving)
     # At twice half of the range it still may be meant; and without an amplitude it does not matter.
