@@ -6,7 +6,7 @@ from collections import ChainMap
 from collections.abc import Mapping
 from math import inf
 
-from swtstudy.parameter import Parameter
+from swtstudy.parameter import Parameter, spelled
 from swtstudy.parameters import PARAMETERS
 
 #: Into the body from the critical point: straight down, or along the critical plane.
@@ -58,3 +58,10 @@ CONTACT_AXES: dict[str, Parameter] = {
 }
 
 AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)
+
+#: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
+SYMBOLS: dict[str, tuple[str, str]] = {
+    spelled(symbol): (row.name, row.letter)
+    for row in (*CONTACT_AXES.values(), *reversed(PARAMETERS.values()))
+    for symbol in (row.letter, row.symbol, row.symbol.split("/")[0])
+}

@@ -1,13 +1,112 @@
-"""Files that are either complete or absent."""
+"""Files of users, read with care, and files that are either complete or absent."""
 
 from __future__ import annotations
 
+import csv
+import io
 import os
+import re
+import stat
 import tempfile
+import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
+from typing import Any
+
+#: Larger files, in bytes, are no texts that someone wrote, and no tables: a million points take 60 MB.
+LARGEST_TEXT, LARGEST_TABLE = 2**24, 2**28
+#: More columns than these are no table of parameters.
+MOST_COLUMNS = 1000
+
+
+def read_file(path: str | PathLike[str], largest: int) -> bytes:
+    """The content of a regular file; a device or a pipe may never end.
+
+    Raises
+    ------
+    OSError
+        If it cannot be read, is no regular file, or has more bytes than the ``largest``.
+    """
+
+    def at_once(name: str, flags: int) -> int:
+        return os.open(name, flags | getattr(os, "O_NONBLOCK", 0))  # opening a pipe waits for its writer
+
+    with open(path, "rb", opener=at_once) as file:
+        if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+            raise OSError(None, "not a regular file", str(path))
+        pieces, size = [], 0
+        while piece := file.read(2**20):
+            pieces.append(piece)
+            size += len(piece)
+            if size > largest:
+                raise OSError(None, f"more than {largest} bytes", str(path))
+    return b"".join(pieces)
+
+
+def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
+    """The text in a file in UTF-8, with or without a byte order mark; a ValueError if it is none."""
+    try:
+        return read_file(path, largest).decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise ValueError("bytes that are not UTF-8") from None
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """The tables in a TOML text.
+
+    Raises
+    ------
+    ValueError
+        With the reason only.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"a syntax error: {error}") from None
+    except RecursionError:
+        raise ValueError("a syntax error: nested too deeply") from None
+    except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
+        raise ValueError("an integer with too many digits") from None
+
+
+def read_table(path: str | PathLike[str], most: int) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """The header of a CSV file, and its other rows that are not empty, with the number of the line of each.
+
+    Raises
+    ------
+    OSError
+        As `read_file`.
+    ValueError
+        With the reason only, if it is no table, or has more than ``most`` rows.
+    """
+    reader = csv.reader(io.StringIO(read_text(path, LARGEST_TABLE), newline=""), skipinitialspace=True)
+    rows: list[tuple[int, list[str]]] = []
+    try:
+        for row in reader:
+            if len(row) > MOST_COLUMNS:
+                raise ValueError(f"more than {MOST_COLUMNS} columns in line {reader.line_num}")
+            if any(map(str.strip, row)):
+                rows.append((reader.line_num, [cell.strip() for cell in row]))
+            if len(rows) > most + 1:
+                raise ValueError(f"more than {most} rows")
+    except csv.Error as error:
+        raise ValueError(f"line {reader.line_num}: {error}") from None
+    return (rows[0][1] if rows else []), rows[1:]
+
+
+def plain_float(cell: str) -> float:
+    """The number in a cell; Python would also read 1_0 as 10.
+
+    Raises
+    ------
+    ValueError
+        If it is none.
+    """
+    if "_" in cell:
+        raise ValueError("not a number")
+    return float(cell)
 
 
 def check_writable(path: str | PathLike[str]) -> None:
@@ -18,9 +117,7 @@ def check_writable(path: str | PathLike[str]) -> None:
     OSError
         If it cannot be written; the message names the folder.
     """
-    path = Path(path)
-    if path.is_dir():
-        raise IsADirectoryError(f"{path} is a folder, not a file")
+    path = _target(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = _temporary(path, path.parent)
@@ -35,10 +132,18 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     """A temporary file that replaces the file at `path` when the block ends without an error.
 
     The temporary file is in the same folder, or in `folder`, which must be on the same file system. Its data
-    is on the disk before it gets its name, so that neither a kill nor a power cut leaves half a file.
+    is on the disk before it gets its name, so that neither a kill nor a power cut leaves half a file. A link
+    stays one: what it points to is replaced.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written, or there is a device or the like; the message names the file.
     """
-    path = Path(path)
-    handle, name = _temporary(path, folder or path.parent)
+    target = _target(path)
+    if Path(path).is_symlink():
+        folder = None  # it may point to another file system
+    handle, name = _temporary(target, folder or target.parent)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -46,11 +151,42 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
         # mkstemp creates files that only their owner can read.
         temporary.chmod(0o666 & ~_umask())
         _sync(temporary)
-        os.replace(temporary, path)
+        os.replace(temporary, target)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        if error.errno is None or error.filename not in (None, name):
+            raise
+        raise type(error)(error.errno, error.strerror, str(path)) from error
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _sync(path.parent)
+    _sync(target.parent)
+
+
+def write_text(path: str | PathLike[str], text: str) -> None:
+    """Write a text in UTF-8, in full or not at all; raises as `replacing`."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _target(path: str | PathLike[str]) -> Path:
+    """The file that would be written at a path, through links; an OSError if something else is there."""
+    path = Path(path)
+    if path.is_dir():
+        raise IsADirectoryError(f"{path} is a folder, not a file")
+    if path.exists() and not path.is_file():
+        raise OSError(f"{path} is not a regular file")
+    return Path(os.path.realpath(path)) if path.is_symlink() else path
+
+
+#: Ends of the names of unfinished files, as `tempfile` makes them.
+_RANDOM = r"-[a-z0-9_]{8}"
+
+
+def unfinished(folder: Path, stem: str) -> list[Path]:
+    """The unfinished files that a kill of `replacing` leaves in a folder, with names that match the stem."""
+    name = re.compile(rf"\.(?:{stem}){_RANDOM}(?:\.\w+)?")
+    return [path for path in folder.glob(".*") if name.fullmatch(path.name)]
 
 
 def _temporary(path: Path, folder: Path) -> tuple[int, str]:

@@ -11,8 +11,8 @@ from decimal import Decimal
 from numbers import Real
 from typing import TypeGuard
 
+from swtstudy.axes import SYMBOLS
 from swtstudy.parameter import spelled
-from swtstudy.parameters import SYMBOLS
 
 #: Called with key, found and allowed of a mistake; knows the source of the input.
 Report = Callable[[str, str, str], None]
@@ -73,6 +73,15 @@ def literal(value: object, longest: int = 60) -> str:
     except Exception:  # a failing repr of foreign code must not hide the mistake
         text = f"{type(value).__name__} that cannot be shown"
     return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+#: What is allowed where a text is none that can be stored.
+STORABLE = "a text that an archive can hold, without a null character"
+
+
+def storable(text: str) -> bool:
+    """Whether an archive gives a text back: netCDF ends it at a null character, and holds UTF-8 alone."""
+    return "\0" not in text and not any("\ud800" <= c <= "\udfff" for c in text)
 
 
 def plain(value: object) -> object:

@@ -9,8 +9,22 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar
 
+from swtstudy.mistakes import STORABLE, Mistake, literal, storable
+from swtstudy.parameters import PARAMETERS
+
 #: Bits of a code for the content; above them is the cost, so that the whole is an exact double.
 CONTENT_BITS = 40
+
+
+def wrong_name(name: object, parameter: str) -> Mistake | None:
+    """What is wrong with the name of something that a user defines, as a value of a parameter."""
+    if not isinstance(name, str) or not name.strip():
+        return Mistake("name", literal(name), "a text that is not empty")
+    if not storable(name):
+        return Mistake("name", literal(name), STORABLE)
+    if name in PARAMETERS[parameter].names:
+        return Mistake("name", literal(name), f"another one: this is a built-in {parameter}")
+    return None
 
 
 class Named(ABC):

@@ -7,7 +7,7 @@ it; none of them repeats a name, a symbol, a default or a range.
 from __future__ import annotations
 
 from swtstudy.families import FAMILIES
-from swtstudy.parameter import Parameter, spelled
+from swtstudy.parameter import Parameter
 
 #: The load of the paper.
 HARMONIC = "harmonic"
@@ -201,10 +201,3 @@ PARAMETERS: dict[str, Parameter] = {
 
 #: Names by letter, the first one of those that share it.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
-
-#: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
-SYMBOLS: dict[str, tuple[str, str]] = {
-    spelled(symbol): (parameter.name, parameter.letter)
-    for parameter in reversed(PARAMETERS.values())
-    for symbol in (parameter.letter, parameter.symbol, parameter.symbol.split("/")[0])
-}

@@ -39,7 +39,18 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
     units = attributes.get("units", AXES[name].units)
-    return parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({units})")
+    return parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
+
+
+def as_text(words: str) -> str:
+    """Words of a user's own in a figure, in which a dollar begins no formula.
+
+    Examples
+    --------
+    >>> print(as_text("US$"))
+    US\\$
+    """
+    return words.replace("$", r"\$")
 
 
 def value_words(name: str, value: float | str) -> str:
@@ -81,7 +92,8 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     """
     symbol = "" if AXES[name].kind == "name" else f"{parameter_words(name, attributes)} = "
     units = attributes.get("units", "1")
-    return symbol + value_words(name, value) + ("" if units in ("1", "rad", "") else f" {units}")
+    units = "" if units in ("1", "rad", "") else f" {units}"
+    return symbol + as_text(value_words(name, value) + units)
 
 
 def pi_words(multiple: Fraction) -> str:

@@ -75,3 +75,8 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
             return file if file in TOGETHER else nodeid
 
     return Scheduling(config, log)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    words = "How many studies test_fuzz.py changes; 8700 take some ten minutes."
+    parser.addoption("--changed-studies", type=int, default=150, help=words)

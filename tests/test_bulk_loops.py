@@ -326,7 +326,7 @@ def test_of_a_real_contact_its_column_is_one_of_stresses() -> None:
         "friction": 0.5, "tangential_amplitude": 0.002, "load": still,
     }  # fmt: skip
     contact = swtstudy.physical(**given, bulk_stress_mean=10.0)
-    own, other = contact.parameters(0), contact.parameters(1)
+    own, other = contact.parameters(1), contact.parameters(2)
     assert own["bulk_stress_amplitude"] == pytest.approx(1.0 / contact.stress_scale)
     assert own["bulk_stress_mean"] == pytest.approx(10.0 / contact.stress_scale)
     # Said, since it would be 1 otherwise.

@@ -19,10 +19,12 @@ from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics import quantities
+from swtstudy.mechanics.body.around import Estimate
 from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
 from swtstudy.runner import chunk
 from swtstudy.runner.cutting import chunks
 from swtstudy.runner.estimate import estimate
+from swtstudy.units.variables import variables
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
 
@@ -205,3 +207,45 @@ def test_archives_with_damaged_quantities_are_refused(damage, words: str, tmp_pa
     save(damage(found), path)
     with pytest.raises(ArchiveError, match=words):
         open_results(path)
+
+
+def test_a_mean_far_beyond_the_contact_is_not_negative(tmp_path):
+    """ℓ = 30 µm typed in mm: the mean over 30 mm is almost 0, and interpolation may be below that."""
+    study = Study.from_text(
+        """
+title = "A distance in the wrong unit"
+rtol = 1e-3
+units = { length = "mm", force = "N", stress = "MPa" }
+[material]
+strength = 927
+strength_exponent = -0.113
+ductility = 0.409
+ductility_exponent = -0.713
+[fixed]
+young_modulus = 73e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 200
+tangential_force_amplitude = 47.7
+bulk_stress_mean = -53.8
+phase = 1.26
+body = 1
+[axes]
+critical_distance = [3, 30, 300]
+"""
+    )
+    found = run(study, tmp_path / "a.nc", workers=1)
+    means = found.SWT_volume
+    assert (means >= 0.0).all()
+    # The larger the volume beyond the contact, the less: the error holds what was below 0.
+    assert means[1] <= means[0]
+    assert means[2] <= means[1] + found.SWT_volume_error[1] + found.SWT_volume_error[2]
+    assert found.cycles_volume.notnull().all()
+    both = Estimate(np.array([-3.0, 2.0]), np.array([0.5, 0.5]), np.array([1.0, 1.0])).not_negative
+    assert (both.value.tolist(), both.error.tolist()) == ([0.0, 2.0], [4.0, 1.0])
+    # Of a run of before.
+    stored = found.s_volume.copy(data=[-1e-7, 0.0, 1e-3])
+    grid = study.grid
+    (life,) = (each for each in variables(grid, study.asked) if each.name == "cycles_volume")
+    assert life.values(found.assign(s_volume=stored), grid)[:2].values.tolist() == [np.inf, np.inf]

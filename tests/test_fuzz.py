@@ -14,12 +14,15 @@ import stand_in
 from click.testing import CliRunner
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mutated import mutated
 
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import PartsWriter, parts_folder, read_parts
 from swtstudy.cli import main
+from swtstudy.solving import solve_grid
 from swtstudy.study.definition import _study_from
+from swtstudy.study.writing import to_toml
 
 NAMES = ["title", "rtol", "fixed", "axes", "figure", "x", "hue", "panels", "y", "start", "stop", "num"]
 NAMES += [
@@ -90,6 +93,30 @@ def test_a_mangled_study_is_a_study_or_a_study_error(position, removed, inserted
         assert error.mistakes
     else:
         assert tomllib.loads(text)
+
+
+#: Points of a study that are solved, and how many of the changed studies are.
+FEW, SOLVED = 4, 10
+
+
+def test_changed_studies_are_studies_or_study_errors(request):
+    """From a seed; `pytest tests/test_fuzz.py -k changed --changed-studies 8700` makes many."""
+    count, sound = request.config.getoption("--changed-studies"), 0
+    for number, text in enumerate(mutated(20240508, count)):
+        try:
+            study = Study.from_text(text)
+        except StudyError as error:
+            assert error.mistakes, text
+            continue
+        except Exception as error:
+            raise AssertionError(f"{error!r} of the study\n{text}") from error
+        sound += 1
+        assert study.title in study._repr_html_()
+        again = to_toml(study.title, study.rtol, study.grid, study.figure, study.asked)
+        assert Study.from_text(again).grid == study.grid, text
+        if study.grid.size <= FEW and number % SOLVED == 0:
+            assert solve_grid(study.grid, 1e-2).s.size == study.grid.size
+    assert sound > 0.1 * count
 
 
 SMALL = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\nphase = [0, 1]\n'

@@ -18,7 +18,7 @@ from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.units.given import SIMILAR
+from swtstudy.units.rows import SIMILAR
 
 RESULTS = shown.ROOT / "results"
 PAGES = {

@@ -213,7 +213,10 @@ def test_a_real_contact_takes_forces() -> None:
     assert contact.with_parameters(normal_force_amplitude=0.1).normal_force_amplitude == pytest.approx(20.0)
     for wrong, words in (
         ({"normal_amplitude": 0.001}, "normal_amplitude, normal_force_amplitude: found both"),
-        ({"tangential_force_amplitude": -1.0}, "tangential_force_amplitude: found -1.0; allowed: a force"),
+        (
+            {"tangential_force_amplitude": -1.0},
+            "tangential_force_amplitude: found -1.0 .out of range.; allowed: a force",
+        ),
     ):
         given = {"normal_force_amplitude": 80.0, "tangential_force_amplitude": 30.0, **wrong}
         with pytest.raises(StudyError, match=words):

@@ -178,11 +178,11 @@ def test_a_real_contact_of_a_table() -> None:
     [
         (
             {"depth": 0.1},
-            "profile: found pad; allowed: the depth 0.1001 is beyond the table of pad, which ends at",
+            "profile: found pad at depth = 0.1; allowed: the depth 0.1 is beyond the table of pad, which",
         ),
         ({"normal_force": 1e5}, "is beyond the table of pad, which ends at the radius 1.5"),
-        ({"depth": 0.006, "radius": 50.0}, "radius: found 50.0; allowed: nothing: the table"),
-        ({"depth": 0.006, "exponent": 3}, "exponent: found 3, which the profile does not have (pad)"),
+        ({"depth": 0.006, "radius": 50.0}, "radius: found a radius; allowed: nothing: the table"),
+        ({"depth": 0.006, "exponent": 3}, "exponent: found 3, which no profile here has (pad)"),
     ],
 )
 def test_mistakes_about_a_real_contact_of_a_table(given: dict[str, float], message: str) -> None:

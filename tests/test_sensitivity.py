@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import stand_in
+import xarray as xr
 from click.testing import CliRunner
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
@@ -163,7 +164,7 @@ def test_the_bars_are_the_indices(indices):
 
 
 def test_the_table_has_what_the_paper_says(indices):
-    lines = table(indices).splitlines()
+    lines = table(indices, of_paper=True).splitlines()
     of_s = indices.sel(quantity="s").isel(normal_amplitude=0)
     line = next(line for line in lines if "ν poisson_ratio" in line)
     assert f"| {float(of_s.first_order[1]):.3f} |" in line
@@ -171,7 +172,7 @@ def test_the_table_has_what_the_paper_says(indices):
     assert "## critical_x, normal_amplitude = 0.5" in lines
     # Of a parameter that it does not have it says nothing.
     other = table(
-        indices.assign_coords(parameter=["friction", "poisson_ratio", "walker_exponent"])
+        indices.assign_coords(parameter=["friction", "poisson_ratio", "walker_exponent"]), of_paper=True
     ).splitlines()
     assert next(line for line in other if "walker_exponent" in line).endswith("|  |")
 
@@ -183,9 +184,55 @@ def test_the_command_computes_and_writes(tmp_path):
     result = CliRunner().invoke(main, [*command, "--y", "s", "--y", "s_surface"])
     assert result.exit_code == 0, result.output
     assert "| μ friction |" in result.output
+    assert "the paper says" not in result.output  # of a study that is not its
     for name in ("mine.nc", "mine_indices.nc", "mine_indices.md", "mine_indices.png"):
         assert (tmp_path / name).stat().st_size > 0
     (tmp_path / "mine.toml").write_text(text.replace("saltelli", "sobol"))
     result = CliRunner().invoke(main, command)
     assert result.exit_code == 2
     assert 'found the design sobol; allowed: "saltelli"' in result.output
+
+
+RIG = """
+title = "What matters for the life of a rig, of which the names of all that varies make a very long title"
+rtol = 1e-2
+units = {length = "mm", force = "N", stress = "MPa"}
+fixed = {young_modulus = 73e3, poisson_ratio = 0.33, radius = 50, friction = 0.5, bulk_stress_amplitude = 5}
+[sample]
+design = "saltelli"
+size = 2
+[sample.ranges]
+normal_force = [100, 200]
+tangential_force_amplitude = [20, 40]
+[axes]
+normal_force_amplitude = [0, 20]
+"""
+
+
+def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
+    drawn = []
+    (tmp_path / "mine.toml").write_text(RIG)
+    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path: drawn.append(figure))
+    command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
+    result = CliRunner().invoke(main, [*command, "--y", "SWT"])
+    assert result.exit_code == 0, result.output
+    assert "## SWT, normal_force_amplitude = 20 N, body = 2\n" in result.output
+    assert "| F0 normal_force |" in result.output
+    (figure,) = drawn
+    figure.draw_without_rendering()
+    axes = figure.axes[0]
+    assert [text.get_text() for text in axes.get_xticklabels()] == ["$F_0$", "$Q_A$"]
+    assert figure.axes[-1].get_title(loc="left") == r"$F_A$ = 20 N, $\mathrm{body}$ = 2"
+    box = figure._suptitle.get_window_extent()
+    assert box.x0 >= 0.0
+    assert box.x1 <= figure.bbox.width
+    narrow = draw_sensitivity(open_indices(tmp_path).isel(normal_force_amplitude=0, body=0))
+    narrow.draw_without_rendering()
+    box = narrow._suptitle.get_window_extent()
+    assert box.x0 >= 0.0
+    assert box.x1 <= narrow.bbox.width
+
+
+def open_indices(folder):
+    with xr.open_dataset(folder / "mine_indices.nc") as file:
+        return file.load()

@@ -60,7 +60,7 @@ def read_definitions(text: object) -> dict[str, dict[str, Named]]:
     for raw in _json(text, list):
         try:
             defined = kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
-        except (KeyError, TypeError, ValueError) as error:
+        except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
     return found

@@ -29,6 +29,7 @@ def locked(folder: Path) -> Iterator[None]:
     LockedError
         If another process holds it; the message says which.
     """
+    refuse_link(folder)
     path = folder / "lock"
     handle = _acquire(path)
     try:
@@ -41,6 +42,12 @@ def locked(folder: Path) -> Iterator[None]:
             path.unlink()
             folder.rmdir()
         os.close(handle)
+
+
+def refuse_link(folder: Path) -> None:
+    """Raise an OSError if a folder of ours is a link: what it points to is not ours to clear."""
+    if folder.is_symlink():
+        raise OSError(f"{folder} is a link; allowed: a folder that swtstudy makes")
 
 
 def is_locked(path: Path) -> bool:

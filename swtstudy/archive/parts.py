@@ -14,6 +14,7 @@ import hashlib
 import io
 import json
 import logging
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields
@@ -21,7 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.files import replacing
+from swtstudy.archive.lock import refuse_link
+from swtstudy.files import replacing, unfinished
 from swtstudy.grid.canonical import COLUMNS, group_rows
 from swtstudy.grid.codes import NAMES
 from swtstudy.mechanics.points import Solution
@@ -34,6 +36,9 @@ _ARRAYS = tuple(item.name for item in fields(Solution))
 _OWN = ("meta", "table", "status", "run")
 
 _CHECK_SUM_SIZE = hashlib.sha256().digest_size
+
+#: Names of parts: another file is not ours.
+_NAME = re.compile(r"[0-9]{6,}\.npz")
 
 #: So many parts are joined into one: a long run does not leave thousands of files.
 _JOINED = 32
@@ -96,7 +101,7 @@ def keeping(folder: Path, records: Records) -> Iterator[None]:
     yield
     _remove(old)
     clear_unfinished(folder)
-    if folder.exists() and not len(records):
+    if folder.exists() and not any(folder.iterdir()):
         folder.rmdir()
 
 
@@ -126,8 +131,10 @@ def clear_parts(folder: Path) -> None:
 
 
 def clear_unfinished(folder: Path) -> None:
-    """Remove unfinished files of killed runs."""
-    _remove(folder.glob(".*"))
+    """Remove unfinished files of killed runs: parts, and the archive whose parts they are."""
+    refuse_link(folder)
+    archive = re.escape(Path(folder.stem).stem)
+    _remove(unfinished(folder, rf"\d{{6,}}|{archive}"))
 
 
 def _next_number(folder: Path) -> int:
@@ -135,7 +142,8 @@ def _next_number(folder: Path) -> int:
 
 
 def _paths(folder: Path) -> list[Path]:
-    return sorted(path for path in folder.glob("*.npz") if path.stem.isdecimal())
+    refuse_link(folder)
+    return sorted(path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
 
 
 def _remove(paths: Iterable[Path]) -> None:

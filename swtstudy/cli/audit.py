@@ -25,7 +25,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     """
     from swtstudy.archive.names import archive_paths
     from swtstudy.audit import AUDIT_PREFIX
-    from swtstudy.files import check_writable, replacing
+    from swtstudy.files import check_writable, write_text
     from swtstudy.study.several import read_studies
 
     defined = read_studies(studies)
@@ -41,7 +41,6 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
         with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
             dataset = audit_study(study, target, points, seed, workers, dense, progress=bar.update)
         text = report(dataset)
-        with replacing(target.with_suffix(".md")) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_text(target.with_suffix(".md"), text)
         click.echo(text)
         click.echo(f"{target}\n{target.with_suffix('.md')}")

@@ -23,7 +23,7 @@ def check(results: str, output: str | None) -> None:
     is 0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing
     or have gaps.
     """
-    from swtstudy.files import check_writable, replacing
+    from swtstudy.files import check_writable, write_text
     from swtstudy.statements.check import check as check_statements
     from swtstudy.statements.report import markdown, summary, terminal_table
 
@@ -38,6 +38,5 @@ def check(results: str, output: str | None) -> None:
     if problems:
         raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
     check_writable(target)
-    with replacing(target) as temporary:
-        temporary.write_text(markdown(outcomes), encoding="utf-8")
+    write_text(target, markdown(outcomes))
     click.echo(str(target))

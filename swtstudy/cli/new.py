@@ -19,7 +19,7 @@ def new(name: str, units: bool) -> None:
     Beside it goes the schema that editors use to complete and check studies. An existing study is never
     replaced.
     """
-    from swtstudy.files import check_writable
+    from swtstudy.files import check_writable, write_text
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template, template_with_units
 
@@ -28,12 +28,16 @@ def new(name: str, units: bool) -> None:
     target = Path(name if name.endswith(".toml") else f"{name}.toml")
     check_writable(target)
     try:
-        with open(target, "x", encoding="utf-8") as file:
-            file.write((template_with_units if units else template)(target.stem.replace("_", " ")))
+        open(target, "x").close()
     except FileExistsError:
         raise FileExistsError(f"{target} already exists; choose another name") from None
+    try:
+        write_text(target, (template_with_units if units else template)(target.stem.replace("_", " ")))
+    except BaseException:
+        target.unlink()  # empty still, and in the way of another try
+        raise
     click.echo(str(target))
     schema = target.with_name(SCHEMA_FILE)
     if not schema.exists():
-        schema.write_text(schema_text(), encoding="utf-8")
+        write_text(schema, schema_text())
         click.echo(str(schema))

@@ -15,13 +15,12 @@ def schema(output: str | None) -> None:
     Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
     a study whose first line is "#:schema study.schema.json".
     """
-    from swtstudy.files import check_writable, replacing
+    from swtstudy.files import check_writable, write_text
     from swtstudy.study.schema import schema_text
 
     if output is None:
         click.echo(schema_text(), nl=False)
         return
     check_writable(output)
-    with replacing(output) as temporary:
-        temporary.write_text(schema_text(), encoding="utf-8")
+    write_text(output, schema_text())
     click.echo(output)

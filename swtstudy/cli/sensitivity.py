@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -33,7 +34,7 @@ def sensitivity(
     NAME_indices.
     """
     from swtstudy.archive.names import archive_paths
-    from swtstudy.files import check_writable, replacing
+    from swtstudy.files import check_writable, write_text
     from swtstudy.study.several import read_studies
 
     defined = read_studies([study])
@@ -57,12 +58,12 @@ def sensitivity(
     from swtstudy.results.sensitivity import sensitivity as indices_of
     from swtstudy.runner.run import run
     from swtstudy.statements.influence import table
+    from swtstudy.study.shipped import shipped_studies
 
     indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
-    text = table(indices)
+    text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
     save(indices, targets[".nc"])
-    with replacing(targets[".md"]) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
     click.echo(text)
     for path in (target, *targets.values()):

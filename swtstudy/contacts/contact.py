@@ -1,21 +1,76 @@
-"""A real contact that can be solved and shown."""
+"""Real contacts: one, or all on the grid that sequences of values span."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.families import family_of, is_profile
+from swtstudy.grid.reading import read_distances, read_grid
+from swtstudy.grid.values import as_number
+from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
-from swtstudy.units.bodies import LABELS, SWT_ATTRIBUTES
+from swtstudy.prescribed import PAIRS
+from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
+from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.moduli import Moduli
+from swtstudy.units.reading import completed
+from swtstudy.units.scales import length_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.units.bodies import Values
+    from swtstudy.units.life import FatigueConstants
 
-class PhysicalContact(Contact):
-    __doc__ = Contact.__doc__
+#: What a contact is at rest.
+AT_REST = (
+    *("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure", "length_scale"),
+    *("slip_scale", "stress_scale", "swt_scale", "force_factor"),
+)
+
+
+@lru_cache(maxsize=8)
+def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
+    """`TabulatedProfile.scaled`, whose fit takes time."""
+    return table.scaled(length, depth)
+
+
+@dataclass(frozen=True, repr=False)
+class PhysicalContact:
+    """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
+
+    Each parameter is an attribute, None where another one is given in its place; so is what the contact is
+    at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
+    at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
+    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)² and ``force_factor``, the force over E* δ0 a_H. Of
+    several contacts these are DataArrays over the dimensions on which they depend.
+
+    Attributes
+    ----------
+    grid
+        Their parameters; the bodies, 1 and 2, are the last dimension unless one of them is asked for.
+    """
+
+    grid: PhysicalGrid
+
+    def __repr__(self) -> str:
+        several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
+        words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
+        count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
+        return f"<PhysicalContact: {count}{words}>"
 
     def _repr_html_(self) -> str:
         """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
@@ -23,47 +78,223 @@ class PhysicalContact(Contact):
 
         return as_html(self)
 
-    def solve(self, rtol: float = 1e-4) -> xr.Dataset:
-        """s and SWT of both bodies.
+    def __getattr__(self, name: str) -> Any:
+        if name in AT_REST:
+            return self._plain(self.grid.seats.each(lambda contact: getattr(contact, name)))
+        if name == "grid" or name not in self.grid.rows:
+            raise AttributeError(f"a contact has no {name!r}")
+        values = self.grid.values(name)
+        if name == "bulk_stress_mean" and self.grid.values("bulk_stress_ratio"):
+            ratio, amplitude = map(self.grid.along, ("bulk_stress_ratio", "bulk_stress_amplitude"))
+            return self._plain(mean_of_bulk(ratio, amplitude, *self.grid.ends_of_bulk()))
+        if len(values) < 2:
+            return values[0] if values else None
+        if self.grid.row(name).kind == "name":
+            return self._plain(self.grid.over_dimension(name, np.array(values, object)))
+        return self._plain(self.grid.along(name))
+
+    def _plain(self, values: xr.DataArray) -> Any:
+        """A number that does not vary as one of Python's, others with the values of their dimensions."""
+        names = {dim: self.grid.values(str(dim)) for dim in values.dims}
+        labels = {
+            dim: [str(value) if isinstance(value, str | Named) else as_number(value) for value in several]
+            for dim, several in names.items()
+        }
+        return values.assign_coords(labels) if labels else values.item()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *AT_REST, *self.grid.rows]
+
+    @property
+    def moduli(self) -> Moduli:
+        """Those of the two bodies."""
+        return next(iter(self.grid.seats.contacts.flat)).moduli
+
+    @property
+    def shape(self) -> dict[str, Any]:
+        """What the profile has of flat_radius, waviness_amplitude and wavelength, lengths, and exponent."""
+        profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
+        return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
+
+    @cached_property
+    def _one(self) -> Contact:
+        """The contact at rest; a StudyError if there are several."""
+        several = [name for name in self.grid.dims if name != "body"]
+        if several:
+            raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
+        return self.grid.seats.contacts.item()
+
+    def parameters(self, body: int = 1) -> dict[str, Any]:
+        """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
+
+        Parameters
+        ----------
+        body
+            1 or 2. The bodies share all parameters but the Poisson ratio and the bulk stress: the tractions
+            do not depend on these, and the stress beneath them on those of the body itself alone.
+        """
+        contact, grid = self._one, self._with_bodies((float(checked_body(body)),))
+        control, shape = grid.control, family_of(contact.profile).shape
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in ("frequency_ratio", "load")}
+        own["profile"] = contact.pure_profile
+        for column, values in grid.numbers.items():
+            if PARAMETERS[column].part != "shape" or column in shape:
+                own[control.given_for(column)] = float(values.squeeze())
+        # What scales a loop is 1 unless it is given.
+        scaling = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        return {
+            name: own[name]
+            for name, row in PARAMETERS.items()
+            if name in own and (name in scaling or not row.goes_without_saying(own[name]))
+        }
+
+    def _with_bodies(self, bodies: tuple[float, ...]) -> PhysicalGrid:
+        axes = {name: values for name, values in self.grid.axes.items() if name != "body"}
+        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
+        return replace(self.grid, fixed=fixed, axes={**axes, "body": bodies})
+
+    def with_parameters(self, **parameters: Any) -> PhysicalContact:
+        """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake in the parameters.
+        """
+        if "poisson_ratio" in parameters:
+            raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
+        rest, grid = self._one, self.grid
+        profile = parameters.get("profile", rest.profile)
+        kept = family_of(profile).shape if isinstance(profile, Named) or is_profile(profile) else ()
+        every = self.parameters(grid.bulk_stress_body + 1)
+        own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
+        replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
+        own = {name: value for name, value in own.items() if name not in replaced}
+        found, mistakes = read_grid({**own, **parameters}, {})
+        if found is None:
+            raise StudyError(mistakes)
+        fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
+        if "profile" not in parameters:
+            fixed["profile"] = rest.profile
+        elif isinstance(fixed["profile"], TabulatedProfile):
+            fixed["profile"] = _scaled(fixed["profile"], 1.0 / rest.length_scale, 1.0 / rest.depth)
+        contact = replace(rest, friction=fixed["friction"], profile=fixed["profile"], shape={})
+        shape = family_of(contact.profile).shape
+        # In the order of the table: a length may be measured in the one before it.
+        for name in sorted(fixed, key=[*PARAMETERS].index):
+            if PARAMETERS[name].scale:
+                fixed[name] = length_of(name, fixed[name], contact)
+            if name in shape:
+                contact = replace(contact, shape={**contact.shape, name: fixed[name]})
+        bodies = ("young_modulus", "poisson_ratio", "radius", "body")
+        fixed |= {name: value for name, value in grid.fixed.items() if name in bodies}
+        axes = {name: values for name, values in grid.axes.items() if name == "body"}
+        return PhysicalContact(completed(fixed | {"depth": rest.depth}, axes, {}, grid.about))
+
+    def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
+        """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
+
+        Parameters
+        ----------
+        s
+            From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
+            DataArray with the coordinate ``body``, such as `solve` gives, each value is that of its body.
+            Of several contacts a DataArray over their dimensions.
+        body
+            1 or 2, the body that has this s. Needed where the bodies differ and s does not say it.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not said which body has this s, or s is negative or no number.
+        """
+        return swt_from(s, self.swt_scale, self.moduli, bodies_of(s, self.moduli.alike, body))
+
+    def cycles(
+        self,
+        constants: FatigueConstants | Sequence[FatigueConstants],
+        s: ArrayLike | xr.DataArray,
+        body: int | None = None,
+        counted: xr.Dataset | None = None,
+    ) -> Values:
+        """Rounds of the load to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+
+        Parameters
+        ----------
+        constants
+            Of both bodies, or a pair for bodies of different materials.
+        s, body
+            As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+        counted
+            Results with counted and counted_number, as of `solve` with constants, with which s is a
+            DataArray; unless it is given a round counts as one strain cycle.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, as of `swt`, or if the constants are none.
+        """
+        one, two = constants_of_both(constants)
+        bodies = bodies_of(s, self.moduli.alike and one == two, body)
+        return cycles_from((one, two), swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
+
+    def solve(
+        self,
+        rtol: float = DEFAULT_RTOL,
+        *,
+        quantities: Sequence[str] = (),
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+    ) -> xr.Dataset:
+        """s, SWT and, with constants, cycles of both bodies.
+
+        Parameters
+        ----------
+        rtol
+            Relative accuracy asked of s.
+        quantities
+            Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
+        critical_distance
+            One or several lengths, for nonlocal values.
+        constants
+            Of both bodies, or a pair for bodies of different materials: for cycles.
 
         Returns
         -------
         xarray.Dataset
-            What `swtstudy.solve` gives, over the dimension body (1, 2), and SWT with its SWT_error in the
-            unit of stress of the moduli and critical_position in that of the lengths.
+            As of a study with units. Its dimensions are the sequences, in the order given, and ``body``, 1
+            and 2, unless the contact is given as that of one body.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
         """
-        import xarray as xr
+        fixed, axes, mistakes = spanned({} if critical_distance is None else {DISTANCE: critical_distance})
 
-        from swtstudy.solving import solve
+        def report(key: str, found: str, allowed: str) -> None:
+            mistakes.append(Mistake(key, found, allowed))
 
-        bodies = [solve(rtol=rtol, **self.parameters(body)) for body in (0, 1)]
-        bodies = [_completed(bodies[0], bodies[1]), _completed(bodies[1], bodies[0])]
-        dataset = xr.concat(
-            bodies, xr.DataArray(list(LABELS), dims="body", name="body"), coords="different", compat="equals"
-        )
-        swt, swt_error = self.swt(dataset.s), self.swt(dataset.s_error)
-        own = {
-            "SWT": (swt, SWT_ATTRIBUTES | {"ancillary_variables": "SWT_error regime"}),
-            "SWT_error": (
-                swt_error,
-                SWT_ATTRIBUTES
-                | {"long_name": "estimated absolute error of SWT", "symbol": r"\Delta \mathrm{SWT}"},
-            ),
-            "critical_position": (
-                dataset.critical_x * self.length_scale,
-                {"long_name": "position of the critical point", "units": "unit of length", "symbol": "x"},
-            ),
-        }
-        for name, (values, attributes) in own.items():
-            values.attrs = attributes  # not those of what they come from
-            dataset[name] = values
-        return dataset
-
-
-def _completed(own: xr.Dataset, other: xr.Dataset) -> xr.Dataset:
-    """Single values with those that only the other body has: parameters at their default, or none."""
-    for name in sorted({*map(str, other.variables)} - {*map(str, own.variables)}):
-        fill = PARAMETERS[name].default if name in PARAMETERS else np.nan
-        values = other[name].variable.copy(data=np.asarray(fill))
-        own = own.assign_coords({name: values}) if name in other.coords else own.assign({name: values})
-    return own
+        if not is_rtol(rtol):
+            report("rtol", literal(rtol), ALLOWED_RTOL)
+        distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
+        names = read_quantities(quantities, "quantities", report)
+        asked = Request(names, *distances, counts=constants is not None)
+        materials: tuple[FatigueConstants, ...] = ()
+        try:
+            materials = () if constants is None else constants_of_both(constants)
+        except StudyError as error:
+            mistakes += error.mistakes
+        if mistakes:
+            raise StudyError(mistakes)
+        return solve_grid(replace(self.grid, materials=materials), float(rtol), asked)

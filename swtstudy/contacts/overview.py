@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.axes import AXES
+import numpy as np
+
 from swtstudy.parameters import PARAMETERS
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.rows import rows
@@ -37,18 +38,19 @@ def as_html(contact: PhysicalContact) -> str:
 
 
 def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
+    grid = contact.grid
     table = rows(Units(*(f"the unit of {kind}" for kind in KINDS)))
-    two = {"young_modulus": contact.moduli.young, "poisson_ratio": contact.moduli.poisson}
-    for name, values in two.items():
-        yield "given", name, ", ".join(map(_value, dict.fromkeys(values))), AXES[name].meaning
-    for name, value in ({"radius": contact.radius} | vars(contact) | dict(contact.shape)).items():
-        row = table.get(name)
-        if row is None or value is None or name in _AT_REST or row.goes_without_saying(value):
+    values = {name: grid.pairs.get(name) or grid.values(name) for name in table}
+    for name, each in values.items():
+        if name in _AT_REST or name == "body" or not each or all(map(table[name].goes_without_saying, each)):
             continue
-        yield "given", name, _value(value), row.meaning
+        yield "given", name, ", ".join(map(_value, each)), table[name].meaning
     for name, meaning in _AT_REST.items():
-        yield "at rest", name, _value(getattr(contact, name)), meaning
-    for name, value in contact.parameters(contact.bulk_stress_body).items():
+        found = np.unique(getattr(contact, name))
+        yield "at rest", name, " to ".join(map(_value, dict.fromkeys((found[0], found[-1])))), meaning
+    if grid.dims not in ((), ("body",)):
+        return
+    for name, value in contact.parameters(grid.bulk_stress_body + 1).items():
         if PARAMETERS[name].scale:
             yield "without units", name, _value(value), PARAMETERS[name].notation
 

@@ -2,47 +2,19 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from typing import Any, overload
+from typing import Any
 
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.contacts.contacts import PhysicalContacts, contacts_from
+from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
-from swtstudy.solving import dimensions_of
-from swtstudy.units.given import SIMILAR
-from swtstudy.units.keywords import contact_from
+from swtstudy.quantities import DISTANCE
+from swtstudy.solving import dimensions_of, spanned
+from swtstudy.units.bodies import LABELS, checked_body
+from swtstudy.units.reading import Given, read_contacts
+from swtstudy.units.rows import SIMILAR, SIMILAR_KEY
 
-
-@overload
-def physical(
-    *,
-    young_modulus: float | tuple[float, float] | None = None,
-    poisson_ratio: float | tuple[float, float] | None = None,
-    radius: float | None = None,
-    depth: float | None = None,
-    normal_force: float | None = None,
-    similar: float = SIMILAR,
-    bulk_stress_ratio: float | None = None,
-    contact_length: float | None = None,
-    bulk_stress_body: int = 0,
-    **parameters: float | str | Fraction | Named,
-) -> PhysicalContact: ...
-
-
-@overload
-def physical(
-    *,
-    young_modulus: float | tuple[float, float] | None = None,
-    poisson_ratio: float | tuple[float, float] | None = None,
-    radius: object = None,
-    depth: object = None,
-    normal_force: object = None,
-    similar: float = SIMILAR,
-    bulk_stress_ratio: object = None,
-    contact_length: object = None,
-    bulk_stress_body: int = 0,
-    **parameters: Any,
-) -> Any: ...
+#: What is asked of contacts, not given of them.
+_ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
 def physical(
@@ -55,13 +27,13 @@ def physical(
     similar: Any = SIMILAR,
     bulk_stress_ratio: Any = None,
     contact_length: Any = None,
-    bulk_stress_body: Any = 0,
+    bulk_stress_body: Any = 1,
     **parameters: Any,
-) -> PhysicalContact | PhysicalContacts:
+) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
-    sequence of values.
+    sequence of values: then it is all contacts on the grid that these span.
 
     Parameters
     ----------
@@ -78,7 +50,7 @@ def physical(
     bulk_stress_ratio
         Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
     bulk_stress_body
-        0 or 1: the body that carries the bulk stress; the other one has none.
+        1 or 2: the body that carries the bulk stress; the other one has none.
     contact_length
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
@@ -94,9 +66,8 @@ def physical(
 
     Returns
     -------
-    PhysicalContact or PhysicalContacts
-        One contact; or, where some values are sequences, the contacts on the grid that these span: their
-        ``solve`` gives the Dataset of a study with units.
+    PhysicalContact
+        Its ``solve`` gives the Dataset of a study with units, of both bodies.
 
     Raises
     ------
@@ -117,30 +88,43 @@ def physical(
     ...     friction=0.5, tangential_amplitude=0.002,
     ... )
     >>> contacts
-    <PhysicalContacts: 2 = 2 normal_force>
-    >>> contacts.solve(rtol=1e-2).SWT.round(2).values.tolist()
+    <PhysicalContact: 2 normal_force>
+    >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """
+    of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
     sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
-    several = {
-        **sizes,
-        "bulk_stress_ratio": bulk_stress_ratio,
-        "contact_length": contact_length,
-        **parameters,
-    }
-    if any(dimensions_of(value) == 1 for value in several.values() if not isinstance(value, Named)):
-        of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
-        return contacts_from(of_bodies, several, similar, bulk_stress_body)
-    return contact_from(
-        PhysicalContact,
-        parameters,
-        young_modulus=young_modulus,
-        poisson_ratio=poisson_ratio,
-        radius=radius,
-        depth=depth,
-        normal_force=normal_force,
-        similar=similar,
-        bulk_stress_ratio=bulk_stress_ratio,
-        contact_length=contact_length,
-        bulk_stress_body=bulk_stress_body,
-    )
+    sizes |= {"bulk_stress_ratio": bulk_stress_ratio, "contact_length": contact_length}
+    parameters = {name: value for name, value in sizes.items() if value is not None} | parameters
+    mistakes = [
+        Mistake(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
+        for name in _ASKED
+        if name in parameters
+    ]
+    fixed, axes, wrong = spanned({n: value for n, value in parameters.items() if n not in _ASKED})
+    fixed |= {n: _pair(value) for n, value in of_bodies.items() if value is not None}
+    try:
+        about = Given(bulk_stress_body=checked_body(bulk_stress_body, "bulk_stress_body") - 1)
+    except StudyError as error:
+        about, mistakes = Given(), [*mistakes, *error.mistakes]
+    if "body" not in parameters:
+        axes = {**axes, "body": LABELS}
+    grid, found = read_contacts({**fixed, SIMILAR_KEY: similar}, axes, about, known=_defined(parameters))
+    if grid is None or mistakes or wrong:
+        raise StudyError([*mistakes, *wrong, *found])
+    return PhysicalContact(grid)
+
+
+def _pair(value: object) -> object:
+    """A value, or a list of one for each body."""
+    return list(value) if dimensions_of(value) == 1 else value  # type: ignore[call-overload]
+
+
+def _defined(parameters: dict[str, Any]) -> dict[str, dict[str, Named]]:
+    """The loops and tables among the values, by parameter and name."""
+    found: dict[str, dict[str, Named]] = {}
+    for name in ("load", "profile"):
+        given = parameters.get(name)
+        several = given if isinstance(given, list | tuple) else [given]
+        found[name] = {each.name: each for each in several if isinstance(each, Named)}
+    return found

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS, Style, styled
-from swtstudy.figures.wrap import wrap_texts
-from swtstudy.wording import parameter_words, place_words
+from swtstudy.figures.wrap import wrap_texts, wrap_title
+from swtstudy.study.figure_check import wrong_formula
+from swtstudy.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,13 +50,14 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
         for row, line in enumerate(panels):
             for column, panel in enumerate(line):
                 _draw_one(panel, columns.isel(quantity=row, place=column), column % sheet.across == 0)
-                places = (
-                    [place_words(name, columns[name].values[column]) for name in axes] if row == 0 else []
-                )
+                where = {name: columns[name] for name in axes} if row == 0 else {}
+                places = [place_words(name, each.values[column], each.attrs) for name, each in where.items()]
                 panel.set_title(", ".join(places), loc="left")
-        figure.suptitle(indices.attrs["title"])
+        title = str(indices.attrs["title"])
+        figure.suptitle(as_text(title) if wrong_formula(title) else title)
         add_legend(figure, panels)
         wrap_texts(figure)
+        wrap_title(figure)  # also on a screen: few parameters make a narrow figure
     return figure
 
 
@@ -71,7 +74,9 @@ def _draw_one(axes: Axes, indices: xr.Dataset, first: bool) -> None:
             at, value, error, linestyle="none", marker="", color="black", elinewidth=1.2, capsize=2.5
         )
     axes.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
-    axes.set_xticks(places, [parameter_words(name) for name in names])
+    # Indices of before do not say how their study, which may have units, calls them.
+    symbols = indices.symbol.values if "symbol" in indices.coords else [AXES[name].symbol for name in names]
+    axes.set_xticks(places, [f"${symbol}$" for symbol in symbols])
     axes.grid(False, axis="x")
     if first:
         axes.set_ylabel(f"share of the variance of {indices.quantity.item()}".replace("_", " "))

@@ -21,7 +21,7 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.parameters import PARAMETERS
-from swtstudy.wording import place_words, value_words
+from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -120,4 +120,4 @@ def _headline(dataset: xr.Dataset) -> str:
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if not math.isfinite(float(dataset.s)):
         found = "$s$ is not finite: swt grows without bound towards the edge"
-    return f"{value_words('profile', profile)},  {',  '.join(values)}\n{found}"
+    return f"{place_words('profile', profile)},  {',  '.join(values)}\n{found}"

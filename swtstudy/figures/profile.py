@@ -17,7 +17,7 @@ from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.parameters import PARAMETERS
-from swtstudy.wording import place_words, value_words
+from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,7 +75,7 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
         _draw_springs(springs, profile, edge)
         if isinstance(given, TabulatedProfile):
             sketch.plot(given.radius, given.height - 1.0, ".", ms=3, color="C1", label="table")
-        words = [value_words("profile", str(given)), *(place_words(n, float(v[0])) for n, v in shape.items())]
+        words = [place_words("profile", str(given)), *(place_words(n, float(v[0])) for n, v in shape.items())]
         if isinstance(given, TabulatedProfile):
             words.append(f"{given.radius.size} points, missed by {given.deviation:.1e} δ0 at most")
         figure.suptitle(",  ".join(words))

@@ -10,7 +10,7 @@ from swtstudy.grid.values import as_number
 from swtstudy.quantities import attributes_of, every_variable
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
-from swtstudy.wording import place_words
+from swtstudy.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     known = {**ATTRIBUTES, **{name: attributes_of(name) for name in every_variable()}}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
-    return words if units in (None, "1") else f"{words} ({_UNITS.get(units, units)})"
+    return words if units in (None, "1") else f"{words} ({as_text(_UNITS.get(units, units))})"
 
 
 def title_words(values: xr.DataArray, y: str) -> str:

@@ -15,7 +15,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.parameters import PARAMETERS
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import axis_words, value_words
+from swtstudy.wording import axis_words, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -131,7 +131,7 @@ def _numbers(values: xr.DataArray) -> tuple[NDArray[Any], list[str] | None]:
     if values.dtype.kind in "fiu":
         return values.values, None
     names, places = np.unique(values.values.astype(str), return_inverse=True)
-    return places, [value_words(str(values.name), str(name)) for name in names]
+    return places, [place_words(str(values.name), str(name)) for name in names]
 
 
 def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:

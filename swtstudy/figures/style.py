@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -11,6 +12,9 @@ from typing import Any
 import matplotlib
 from cycler import cycler
 from matplotlib import rcParamsDefault
+
+from swtstudy.files import read_text
+from swtstudy.mistakes import Mistake, StudyError, literal
 
 #: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
@@ -95,8 +99,14 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
     ------
     OSError
         If there is no such style.
+    ValueError
+        If a file is none.
     """
     import matplotlib.style
+
+    for each in style if isinstance(style, list) else [style]:
+        if isinstance(each, str | Path) and each not in matplotlib.style.library and Path(each).exists():
+            _check_file(each)
 
     wanted = STYLE if width is None else STYLE | PRINT
     own: Any = {name: value for name, value in wanted.items() if _untouched(name)}
@@ -105,6 +115,19 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
         if style is not None:
             stack.enter_context(matplotlib.style.context(style))
         yield
+
+
+def _check_file(path: str | Path) -> None:
+    """Raise unless each line of a file is one of a style: matplotlib itself only warns of others."""
+    for number, line in enumerate(read_text(path).splitlines(), 1):
+        words = re.sub(r'("[^"]*")|#.*', r"\1", line).strip()  # without the comment
+        name, _, value = (part.strip() for part in words.partition(":"))
+        try:
+            if words:
+                matplotlib.RcParams({name: value.strip('"')})
+        except (KeyError, ValueError):
+            allowed = "a line of a matplotlib style, such as lines.linewidth: 2"
+            raise StudyError([Mistake(f"line {number}", literal(line), allowed, str(path))]) from None
 
 
 def _untouched(name: Any) -> bool:

@@ -14,7 +14,7 @@ from swtstudy.axes import AXES
 from swtstudy.figures.loci import jumps, lowest
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
-from swtstudy.wording import value_words
+from swtstudy.wording import as_text, value_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -213,6 +213,6 @@ def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
     mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
     axes.grid(False)
     for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
-        tick_cells(axis, [value_words(name, value) for value in surface[name].values.tolist()], most)
+        tick_cells(axis, [as_text(value_words(name, value)) for value in surface[name].values.tolist()], most)
     axes.tick_params(axis="y", labelsize="small")
     return mesh

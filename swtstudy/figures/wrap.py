@@ -19,9 +19,8 @@ def wrap_texts(figure: Figure) -> None:
     if figure.width is None:
         return
     figure.draw_without_rendering()
+    wrap_title(figure)
     room = figure.bbox.width
-    if figure._suptitle is not None:  # type: ignore[attr-defined]
-        _wrap(figure._suptitle, 0.98 * room, False)  # type: ignore[attr-defined]
     for axes in figure.axes:
         ticks = axes.xaxis.get_tightbbox()
         wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
@@ -29,6 +28,12 @@ def wrap_texts(figure: Figure) -> None:
             _wrap(text, min(wide, room - axes.bbox.x0), False)
         _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
         _wrap(axes.yaxis.label, 1.15 * axes.bbox.height, True)
+
+
+def wrap_title(figure: Figure) -> None:
+    """Break the title of a figure that is longer than the figure."""
+    if figure._suptitle is not None:  # type: ignore[attr-defined]
+        _wrap(figure._suptitle, 0.98 * figure.bbox.width, False)  # type: ignore[attr-defined]
 
 
 def _wrap(text: Text, room: float, upright: bool) -> None:

@@ -11,6 +11,11 @@ from swtstudy.named import Named
 from swtstudy.parameters import HARMONIC, PARAMETERS
 from swtstudy.prescribed import replaced_by
 
+#: What scales the columns of a loop.
+AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
+#: Largest load of a loop over the mean one: at 1e12 of them s has an error of 1 %.
+LARGEST_LOAD = 1e9
+
 
 def check_amplitudes(
     fixed: Mapping[str, Value],
@@ -33,18 +38,45 @@ def check_amplitudes(
 def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """With a force and a displacement the straight sides of a loop are curved in the memory diagram.
 
-    Nor does a bulk stress oscillate with a loop that has no course of it.
+    Nor does a bulk stress oscillate with a loop that has no course of it. And a normal load that stays far
+    from 0 is the load itself, where its deviation from the mean is asked for.
     """
     _check_bulk_stress(grid, keys, report)
-    if not grid.control.mixed or not any(grid.values(grid.control.given_for("normal_amplitude"))):
+    if not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
     from swtstudy.mechanics.load.loop import Loop
 
-    moving = [load for load in grid.values("load") if isinstance(load, Loop) and not load.is_steady]
+    loops = [load for load in grid.values("load") if isinstance(load, Loop)]
+    for load in loops:
+        if load.is_absolute:
+            low, high = load.normal_ends
+            found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
+            allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
+            report(keys("load"), found, allowed)
+    moving = [load for load in loops if grid.control.mixed and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
         report(keys("load"), found, "two displacements or two forces")
+
+
+def check_largest(
+    grid: Grid, amplitudes: Mapping[str, float], keys: Callable[[str], str], report: Report
+) -> None:
+    """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
+    from swtstudy.mechanics.load.loop import Loop
+
+    for load in grid.values("load"):
+        if not isinstance(load, Loop):
+            continue
+        bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
+        for name, ends in zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True):
+            size = amplitudes.get(name, 0.0) * max(map(abs, ends))
+            if not size <= LARGEST_LOAD:
+                found = (
+                    f"{literal(load.name)} with a {name.rpartition('_')[0].replace('_', ' ')} of {size:.3g}"
+                )
+                report(keys("load"), found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
 
 
 def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:

@@ -35,6 +35,8 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = TOLERANCE) 
     if isinstance(value, str | Named):
         names = [str(each) for each in axis]
         return names.index(str(value)) if str(value) in names else None
+    if not len(axis):
+        return None  # its values are wrong, which is reported
     known, asked = np.array(axis, float), float(value)
     distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
     allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)

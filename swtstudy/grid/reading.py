@@ -14,7 +14,7 @@ from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
-from swtstudy.grid.loops import check_amplitudes, check_loops
+from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
@@ -93,6 +93,9 @@ def read_grid(
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)
     check_loops(grid, keys, report)
+    given = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
+    largest = {name: max(map(as_number, values), default=0.0) for name, values in given.items()}
+    check_largest(grid, largest, keys, report)
     check_shapes(grid, keys, report)
     return (None if mistakes else grid), mistakes
 
@@ -124,12 +127,31 @@ def read_values(
         value = _read(rows[name], single, keys(name), report, known) if name in rows else None
         if value is not None:
             good_fixed[name] = value
-    for name, raw in axes.items():
+    for name, raw in () if _too_many(axes, keys, report, rows) else axes.items():
         if name in rows and raw is not None:
             good_axes[name] = _read_axis(rows[name], raw, keys(name), report, known)
     for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
         report(key, found, allowed)
     return good_fixed, good_axes
+
+
+def _too_many(
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    rows: Mapping[str, Parameter],
+) -> bool:
+    """Whether axes that are not too long one by one are so together: to read them takes a minute."""
+    sizes = [
+        raw.num if isinstance(raw, Range) else len(raw)
+        for name, raw in axes.items()
+        if name in rows and raw is not None
+    ]
+    if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
+        return False
+    found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
+    report(", ".join(map(keys, axes)), found, f"at most {LONGEST_AXIS} values along all axes")
+    return True
 
 
 def read_distances(

@@ -81,13 +81,16 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
     ValueError
         With the reason, if it cannot be read.
     """
-    raw: Any = json.loads(str(text))
+    try:
+        raw: Any = json.loads(str(text))
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
     try:
         units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
         given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
-    except (KeyError, TypeError, IndexError, AttributeError) as error:
+    except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
     if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
         raise ValueError(f"not a contact: {literal(raw)}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.axes import AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import Mistake, StudyError, is_number, literal
 from swtstudy.results.quantity import quantity
@@ -93,8 +94,10 @@ def sensitivity(
             "mean": (axes, both.mean(-1), {"long_name": "mean of the quantity"}),
             "variance": (axes, both.var(-1), {"long_name": "variance of the quantity"}),
         }
-        coordinates = {axis: each[axis] for axis in axes}
-        parts.append(xr.Dataset({**indices, **moments}, {"parameter": names, **coordinates}))
+        coordinates: dict[str, Any] = {axis: each[axis] for axis in axes}
+        symbols = ("parameter", [dataset[name].attrs.get("symbol", AXES[name].symbol) for name in names])
+        coordinates |= {"parameter": names, "symbol": symbols}
+        parts.append(xr.Dataset({**indices, **moments}, coordinates))
     whole = xr.concat(parts, xr.Variable("quantity", quantities))
     title = f"Sobol indices: {dataset.attrs['title']}" if "title" in dataset.attrs else "Sobol indices"
     return whole.assign_attrs(title=title, size=size, confidence=float(confidence), seed=seed)

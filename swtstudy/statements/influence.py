@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from swtstudy.parameters import PARAMETERS
+from swtstudy.axes import AXES
 from swtstudy.wording import value_words
 
 if TYPE_CHECKING:
@@ -25,18 +25,20 @@ SAYS = {
 }
 
 
-def table(indices: xr.Dataset) -> str:
+def table(indices: xr.Dataset, of_paper: bool = False) -> str:
     """Sobol indices as Markdown.
 
     Parameters
     ----------
     indices
         From `swtstudy.sensitivity`.
+    of_paper
+        Whether they are those of a study of the paper, with what that says.
     """
-    return "\n".join(_lines(indices)) + "\n"
+    return "\n".join(_lines(indices, of_paper)) + "\n"
 
 
-def _lines(indices: xr.Dataset) -> Iterator[str]:
+def _lines(indices: xr.Dataset, of_paper: bool) -> Iterator[str]:
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     places = indices.stack(place=axes) if axes else indices.expand_dims("place")
     level = f"{100 * indices.attrs['confidence']:g} %"
@@ -44,20 +46,27 @@ def _lines(indices: xr.Dataset) -> Iterator[str]:
     for quantity in indices["quantity"].values:
         for number in range(places.sizes["place"]):
             one = places.sel(quantity=quantity).isel(place=number)
-            where = [f"{name} = {value_words(name, one[name].item())}" for name in axes]
+            where = [_place(name, one[name]) for name in axes]
             yield ""
             yield f"## {', '.join([str(quantity), *where])}"
             yield ""
             yield f"mean {float(one['mean']):.4g}, standard deviation {float(one['variance']) ** 0.5:.4g}"
             yield ""
-            yield f"| parameter | alone | {level} | with others | {level} | the paper says |"
-            yield "|---|---|---|---|---|---|"
+            yield f"| parameter | alone | {level} | with others | {level} |{' the paper says |' * of_paper}"
+            yield "|---|---|---|---|---|" + "---|" * of_paper
             for name in indices["parameter"].values:
                 row = one.sel(parameter=name)
                 cells = [_cells(row, key) for key in ("first_order", "total")]
                 # Of other quantities than s the paper says nothing here.
                 says = SAYS.get(name, "") if quantity == "s" else ""
-                yield f"| {PARAMETERS[name].letter} {name} | {cells[0]} | {cells[1]} | {says} |"
+                line = f"| {AXES[name].letter} {name} | {cells[0]} | {cells[1]} |"
+                yield line + f" {says} |" * of_paper
+
+
+def _place(name: str, at: xr.DataArray) -> str:
+    """A value of an axis, with its unit."""
+    units = at.attrs.get("units", "1")
+    return f"{name} = {value_words(name, at.item())}{'' if units in ('1', 'rad', '') else f' {units}'}"
 
 
 def _cells(row: xr.Dataset, key: str) -> str:

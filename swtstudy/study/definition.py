@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
@@ -10,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.axes import AXES
+from swtstudy.files import parse_toml, read_text
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
-from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.study.contacts import every_name, read_given, rows_of
@@ -103,16 +103,12 @@ class Study:
         source = str(path)
         file = find_study(source)
         try:
-            text = file.read_text(encoding="utf-8")
+            text = read_text(file)
         except FileNotFoundError:
             allowed = "a study file (TOML)"
             if not Path(path).suffix:
                 allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
             raise StudyError([Mistake("", "no such file", allowed, source)]) from None
-        except UnicodeDecodeError:
-            raise StudyError(
-                [Mistake("", "bytes that are not UTF-8", "a study file (TOML)", source)]
-            ) from None
         except (OSError, ValueError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise StudyError([Mistake("", reason, "a readable study file (TOML)", source)]) from None
@@ -139,13 +135,9 @@ class Study:
         if not isinstance(text, str):
             raise StudyError([Mistake("text", literal(text), "the text of a study file")])
         try:
-            raw = tomllib.loads(text)
-        except (tomllib.TOMLDecodeError, RecursionError) as error:
-            message = f"a syntax error: {error or 'nested too deeply'}"
-            raise StudyError([Mistake("", message, "TOML", source)]) from None
-        except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
-            message = "an integer with too many digits"
-            raise StudyError([Mistake("", message, "TOML with shorter ones", source)]) from None
+            raw = parse_toml(text)
+        except ValueError as error:
+            raise StudyError([Mistake("", str(error), "TOML", source)]) from None
         return _study_from(raw, text, source, Path(folder))
 
 
@@ -153,10 +145,14 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)
+    of_structure = {mistake.key for mistake in mistakes}
 
     def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed, source))
+        if key not in of_structure:  # told once
+            mistakes.append(Mistake(key, found, allowed, source))
 
+    if not storable(str(raw.get("title", ""))):
+        report("title", literal(raw["title"]), STORABLE)
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
     mistakes += found

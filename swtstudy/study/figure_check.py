@@ -25,7 +25,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield from _wrong_roles(layout)
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
-    problem = _wrong_formula(layout.title or "")
+    problem = wrong_formula(layout.title or "")
     if problem:
         yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
 
@@ -141,7 +141,7 @@ def _sizes(
     return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
 
 
-def _wrong_formula(text: str) -> str | None:
+def wrong_formula(text: str) -> str | None:
     """Reason why matplotlib cannot draw the formulae in a text, if there is one."""
     if "$" not in text:
         return None

@@ -16,11 +16,10 @@ from swtstudy.quantities import DISTANCE, NAMED
 from swtstudy.sampling.distribution import KINDS
 from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.tables import StudyTable
-from swtstudy.units.given import SIMILAR
 from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
 from swtstudy.units.material import KEYS
-from swtstudy.units.rows import OF_BODIES, SIMILAR_KEY, kind_of
+from swtstudy.units.rows import OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"

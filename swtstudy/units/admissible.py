@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.axes import AXES
 from swtstudy.families import family_of
 from swtstudy.grid.canonical import SHAPE_COLUMNS
+from swtstudy.grid.loops import check_largest
 from swtstudy.grid.shapes import largest_depths, largest_reach
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
@@ -44,6 +46,7 @@ def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
             report(keys(mistake.key), f"{mistake.found} at {there}{more}", mistake.allowed)
         return
     if all([_in_range(grid, column, keys, report) for column in grid.numbers]):
+        check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, keys, report)
         for profile in dict.fromkeys(grid.values("profile")):
             _check_shapes(grid, profile, keys, report)
 
@@ -67,14 +70,19 @@ def _in_range(grid: PhysicalGrid, column: str, keys: Keys, report: Report) -> bo
     number = float(values.values[first])
     words = _words(grid, {name: here[name] for name in SEAT_NAMES if name in here and name != source})
     more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
-    scale = row.scale if source == column else PARAMETERS[source].scale or row.scale
+    scale = AXES[source].scale or row.scale
+    found = f"{own:g} {unit}".strip()
     if not np.isfinite(number):
+        friction = f"friction = {as_number(here['friction']):g}"
         allowed = "0: without friction the contact slides at once"
-        report(keys(source), f"{own:g} {unit} at {words}{more}".strip(), allowed)
+        report(keys(source), f"{found} at {words}, {friction}{more}", allowed)
         return False
     bound = row.upper if high[first] else row.lower
+    if not AXES[source].scale:  # a ratio, to which the number is not in proportion
+        allowed = f"a mean of {'at most' if high[first] else 'at least'} {bound:g} {scale}"
+        report(keys(source), f"{own:g} at {words}, a mean of {number:.4g} {scale}{more}", allowed)
+        return False
     most = f"{'at most' if high[first] else 'at least'} {bound * own / number:.4g} {unit}".strip()
-    found = f"{own:g} {unit}".strip()
     report(keys(source), f"{found} at {words}, {number:.4g} {scale}{more}", f"{most}, {bound:g} {scale}")
     return False
 
@@ -142,7 +150,7 @@ def _largest(
     every = xr.broadcast(grid.numbers["normal_amplitude"], xr.DataArray(own, dims=seats.dims), pure, *parts)
     amplitude, is_own, pure, *shapes = every
     rows = np.flatnonzero(is_own.values)
-    index = np.unravel_index(rows, is_own.shape)
+    index = np.argwhere(is_own.values).T
     places = dict(zip(map(str, is_own.dims), index, strict=True))
     numbers: dict[str, Any] = {n: v.values.reshape(-1)[rows] for n, v in zip(names, shapes, strict=True)}
     numbers["pure"] = pure.values.reshape(-1)[rows]

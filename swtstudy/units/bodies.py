@@ -31,8 +31,8 @@ SWT_ATTRIBUTES = {
 _CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
 
 
-def checked_body(body: object) -> int:
-    """0 or 1.
+def checked_body(body: object, key: str = "body") -> int:
+    """One of the labels.
 
     Raises
     ------
@@ -40,27 +40,30 @@ def checked_body(body: object) -> int:
         If it is neither.
     """
     number = plain_number(body)
-    if number not in (0.0, 1.0):
-        raise StudyError([Mistake("body", literal(body), "0 or 1")])
+    if number not in LABELS:
+        raise StudyError([Mistake(key, literal(body), "1 or 2")])
     return int(number)
 
 
-def swt_from(s: ArrayLike | xr.DataArray, scale: float, moduli: Moduli, body: int | None) -> Values:
-    """SWT of the bodies from s, with the SWT scale of the half-space with E*."""
-    bodies = bodies_of(s, moduli, body)
-    shares = np.array([moduli.swt_share(0), moduli.swt_share(1)])
+def swt_from(s: ArrayLike | xr.DataArray, scale: Any, moduli: Moduli, bodies: NDArray[np.intp]) -> Values:
+    """SWT of the bodies from s, with the SWT scale of the half-space with E*: a number, or a DataArray."""
+    import xarray as xr
+
+    shares = np.array([moduli.swt_share(0), moduli.swt_share(1)])[bodies]
     with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
-        swt = not_negative("s", s) * (scale * shares[bodies])
-    return _labelled("SWT", swt, s, SWT_ATTRIBUTES)
+        swt = _labelled("SWT", not_negative("s", s) * shares, s, SWT_ATTRIBUTES) * scale
+    if isinstance(s, xr.DataArray) and np.ndim(scale):
+        return swt.transpose(*s.dims, ...).rename("SWT").assign_attrs(SWT_ATTRIBUTES)
+    return swt
 
 
-def bodies_of(s: ArrayLike | xr.DataArray, moduli: Moduli, body: int | None) -> NDArray[np.intp]:
-    """The body of each value, broadcastable to the shape of the values.
+def bodies_of(s: ArrayLike | xr.DataArray, alike: bool, body: object) -> NDArray[np.intp]:
+    """The index of the body of each value, 0 or 1, broadcastable to the shape of the values.
 
     Raises
     ------
     StudyError
-        If `body` and the coordinate ``body`` name it both, or neither and the bodies differ.
+        If `body` and the coordinate ``body`` name it both, or neither and the bodies are not `alike`.
     """
     import xarray as xr
 
@@ -72,10 +75,10 @@ def bodies_of(s: ArrayLike | xr.DataArray, moduli: Moduli, body: int | None) -> 
             raise StudyError([Mistake("body", found, "1 and 2")])
         return (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
     if body is not None:
-        return np.array(checked_body(body))
-    if moduli.alike:
+        return np.array(checked_body(body) - 1)
+    if alike:
         return np.array(0)
-    allowed = "0 or 1, since the bodies differ; or s over the dimension body, as solve() gives it"
+    allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
     raise StudyError([Mistake("body", "nothing", allowed)])
 
 

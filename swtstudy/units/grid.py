@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +70,12 @@ class PhysicalGrid(Grid):
         """Whether all its contacts are plane ones."""
         return all(map(is_plane, self.values("profile")))
 
+    @property
+    def about(self) -> dict[str, Any]:
+        """What there is to know beside the values of the parameters."""
+        names = ("units", "pairs", "materials", "bulk_stress_body", "similar")
+        return {name: getattr(self, name) for name in names}
+
     @cached_property
     def rows(self) -> dict[str, Parameter]:
         """The rows of the parameters, with their units."""
@@ -98,9 +104,9 @@ class PhysicalGrid(Grid):
 
     def along(self, name: str) -> xr.DataArray:
         """The numbers of a parameter, over its dimension if it has one."""
-        return self._over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
+        return self.over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
 
-    def _over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
+    def over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
         """Numbers that go with the values of a parameter."""
         import xarray as xr
 
@@ -124,7 +130,7 @@ class PhysicalGrid(Grid):
                 found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
-            found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self._ends_of_bulk())
+            found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
         carries = self.bodies == self.bulk_stress_body
         return found | {
             name: values.where(carries, 0.0)
@@ -132,10 +138,10 @@ class PhysicalGrid(Grid):
             if PARAMETERS[name].part == "bulk" and self.values("body")
         }
 
-    def _ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
+    def ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
         """See `ends_of_bulk`, over the loads."""
         ends = np.array([ends_of_bulk(load) for load in self.values("load")])
-        least, largest = (self._over_dimension("load", each) for each in ends.T)
+        least, largest = (self.over_dimension("load", each) for each in ends.T)
         return least, largest
 
     def of_body(self, name: str) -> xr.DataArray:

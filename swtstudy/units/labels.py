@@ -55,7 +55,8 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
         sound = False
     for kind in KINDS:
         label = raw.get(kind)
-        if not isinstance(label, str) or not label.strip() or label.strip() in ("1", "rad"):
+        named = isinstance(label, str) and label.strip() not in ("", "1", "rad")
+        if not named or not str(label).isprintable():
             found = literal(label) if kind in raw else "nothing"
             report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
             sound = False

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from swtstudy.files import parse_toml, read_text
 from swtstudy.grid.values import read_exact
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.units.labels import Units
@@ -105,8 +105,8 @@ def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[st
         )
         return []
     try:
-        materials = tomllib.loads((folder / file).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:  # a syntax error is a ValueError
+        materials = parse_toml(read_text(folder / file))
+    except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         report("material.file", f"{literal(file)} ({reason})", _FILE)
         return []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,19 +12,20 @@ from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
 from swtstudy.grid.shapes import check_shapes_given
-from swtstudy.grid.values import Value, read_value
-from swtstudy.mistakes import Mistake, Report, literal, plain_number
+from swtstudy.grid.values import Value, as_number, read_value
+from swtstudy.mechanics.load.loop import Loop
+from swtstudy.mistakes import Mistake, Report, literal, meant, plain_number
 from swtstudy.named import Named
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
-from swtstudy.units.given import SIMILAR, pair_of_numbers, wrong_bodies
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
+from swtstudy.units.moduli import Moduli
+from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 
 
@@ -71,7 +72,7 @@ def read_contacts(
     _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
     check_amplitudes(good_fixed, along, keys, report)
     check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
-    if mistakes or len(good_samples) < len(samples):
+    if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, mistakes
     extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
     extra["similar"] = plain_number(similar)
@@ -162,12 +163,12 @@ def _pairs(
             rows={f"{name}[{i}]": own[name] for i in range(2)},
         )
         if len(read) == 2:
-            pairs[name] = pair_of_numbers((read[f"{name}[0]"], read[f"{name}[1]"]))
+            pairs[name] = tuple(map(as_number, read.values()))
     return pairs, {name: value for name, value in fixed.items() if name not in pairs}
 
 
 def _check_given(
-    everything: Mapping[str, object],
+    everything: Collection[str],
     good: Mapping[str, tuple[Value, ...]],
     own: Mapping[str, Parameter],
     keys: Callable[[str], str],
@@ -175,6 +176,8 @@ def _check_given(
 ) -> None:
     """What a contact needs, and what cannot be given together."""
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
+    # What is misspelt is not lacking, too.
+    everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
             report(keys(name), "nothing", own[name].allowed)
@@ -182,12 +185,13 @@ def _check_given(
         report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
     if wrong := wrong_mean_load(everything):
         report(", ".join(map(keys, MEAN_LOADS)), *wrong)
-    if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything.keys():
+    if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")
-    if any(value not in (1.0, 2.0) for value in good.get("body", ())):
-        report(keys("body"), literal(list(good["body"])), "1 or 2")
-    scaling = {name for load in good.get("load", ()) if isinstance(load, Named) for name in load.scaled_by}
+    loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
+    scaling = {name for load in loops for name in load.scaled_by}
+    if all(load.normal_ends == (0.0, 0.0) for load in loops):
+        scaling.discard("normal_amplitude")  # it scales nothing
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
         named = {*everything, *still_load(profiles, {*everything, *scaling})}
@@ -209,11 +213,14 @@ def _check_given(
 def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report) -> None:
     """Bodies that are not similar."""
     young, poisson = (
-        [grid.pairs[name]] if name in grid.pairs else [(value, value) for value in grid.values(name)]
+        [grid.pairs[name]] if name in grid.pairs else [(as_number(value),) * 2 for value in grid.values(name)]
         for name in OF_BODIES
     )
     for one in young:
         for other in poisson:
-            for mistake in wrong_bodies(one, other, grid.similar):
-                report(", ".join(map(keys, OF_BODIES)), mistake.found, mistake.allowed)
+            beta = Moduli(one, other).mismatch
+            if abs(beta) > grid.similar:
+                allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
+                found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
+                report(", ".join(map(keys, OF_BODIES)), found, allowed)
                 return

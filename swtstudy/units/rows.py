@@ -17,8 +17,8 @@ from swtstudy.units.sizes import LARGEST, SMALLEST
 WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
 #: Parameters that each of the two bodies has.
 OF_BODIES = ("young_modulus", "poisson_ratio")
-#: A fixed value that is no parameter: it says which bodies are similar.
-SIMILAR_KEY = "similar"
+#: A fixed value that is no parameter: Dundurs' |β| up to which the bodies count as similar, and what that is.
+SIMILAR_KEY, SIMILAR = "similar", 0.05
 #: What is 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
 #: The kinds of what has a unit.

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -101,7 +100,7 @@ def seats_of(grid: PhysicalGrid) -> Seats:
 
 def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
     """The contact with values of `SEAT_NAMES`."""
-    from swtstudy.units.keywords import depth_at, refuse_beyond
+    from swtstudy.units.depth import depth_at, refuse_beyond
 
     numbers = {name: as_number(value) for name, value in own.items() if not isinstance(value, str | Named)}
     young, poisson = (
@@ -113,10 +112,6 @@ def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
         radius=numbers.get("radius"),
         depth=numbers.get("depth", 1.0),
         friction=numbers["friction"],
-        normal_amplitude=None,
-        tangential_amplitude=None,
-        frequency_ratio=Fraction(1),
-        phase=0.0,
         profile=profile,
         shape={name: numbers[name] for name in family_of(profile).shape},
         contact_length=numbers.get("contact_length"),

@@ -175,6 +175,8 @@ def _work(grid: PhysicalGrid) -> xr.DataArray:
 
 def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset) -> xr.DataArray:
     """Rounds to a crack at SWT, with the constants of each body, of strain cycles if they are counted."""
+    # Runs of before have means that are below 0 by rounding.
+    swt = swt.clip(min=0.0)
     if COUNTED.keys() <= {*dataset.data_vars}:
         counted = [dataset[name] for name in COUNTED]
         one, two = (each.rounds(swt, *counted) for each in grid.materials)

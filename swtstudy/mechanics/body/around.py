@@ -78,6 +78,12 @@ class Estimate(NamedTuple):
         """From what instants may be missing in the values."""
         return cls(value, of_places, of_places + np.abs(missing) + OF_VALUE * np.abs(value))
 
+    @property
+    def not_negative(self) -> Estimate:
+        """The same of means of swt, which is never below 0: where interpolation is, that is in the error."""
+        below = np.maximum(-self.value, 0.0)
+        return Estimate(self.value + below, self.of_places, self.error + below)
+
     def allowed(self, rtol: float) -> FloatArray:
         """The error that places may make: half of all, or more if instants make less."""
         size = np.maximum((rtol - OF_VALUE) * np.abs(self.value), TINY)
@@ -127,7 +133,7 @@ class Around:
             lines = self.on_lines()
             finer = self._refine_spheres(spheres, of_axes, rtol)
             if not (self._refine_lines(lines, rtol) | finer):
-                return spheres, lines
+                return spheres.not_negative, lines.not_negative
 
     def in_spheres(self) -> tuple[Estimate, FloatArray]:
         """Means over half spheres, and what distances and inclinations have in their errors, (2, k)."""

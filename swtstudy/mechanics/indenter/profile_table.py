@@ -14,12 +14,18 @@ from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
+from swtstudy.named import Named, wrong_name
+from swtstudy.numbers import read_numbers
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
 
+#: How small and large a table may be, in any unit: the seventh power of that is a number still.
+SMALLEST, LARGEST = 1e-20, 1e20
+#: Most points of a table: a rough one of so many takes 20 s to be fitted, a smooth one 1 s.
+MOST = 10_000
+#: Least step of its radii over the largest: the rounding of such a step is 1e-4 of it.
+LEAST_STEP = 1e-12
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6
 #: Radii at which compactness is looked at, and of the first guess of the contact radius.
@@ -38,7 +44,7 @@ class TabulatedProfile(Named):
     name
         Its name on axes, in archives and in figures.
     radius, height
-        Shape (k,), at least 8 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
+        Shape (k,), 8 to 10,000 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
         in a depth δ0, the mean one of a study; in `swtstudy.physical` both in the unit of its lengths.
         Heights of 0 at the begin are a flat face.
     smoothing
@@ -218,8 +224,8 @@ def _wrong_geometry(name: object, geometry: object) -> Iterator[Mistake]:
 def _frozen(values: ArrayLike) -> FloatArray:
     """A copy that cannot be changed, empty if it is not of numbers."""
     try:
-        array = np.array(values, dtype=float)
-    except (TypeError, ValueError):
+        array = np.array(read_numbers("", values, ""))
+    except StudyError:
         array = np.empty((0, 0))
     array.flags.writeable = False
     return array
@@ -231,26 +237,34 @@ def _every_other(values: FloatArray) -> FloatArray:
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
     """What is wrong with a table."""
-    if not isinstance(name, str) or not name.strip():
-        yield Mistake("name", literal(name), "a text that is not empty")
+    if mistake := wrong_name(name, "profile"):
+        yield mistake
         name = "profile"
-    if name in PARAMETERS["profile"].names:
-        yield Mistake("name", literal(name), "another one: this is a built-in profile")
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1 or not np.all(np.isfinite(values)):
             yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")
+            return
+        largest = np.abs(values).max(initial=0.0)
+        if largest > 0.0 and not SMALLEST <= largest <= LARGEST:
+            allowed = f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
+            yield Mistake(f"{name}.{key}", f"up to {largest:g}", allowed)
             return
     if radius.size != height.size or radius.size < FEWEST:
         found = f"{radius.size} radii and {height.size} heights"
         yield Mistake(f"{name}.radius, {name}.height", found, f"as many of each, at least {FEWEST}")
         return
+    if radius.size > MOST:
+        allowed = f"at most {MOST}: every {-(-radius.size // MOST)}th, or the mean of so many"
+        yield Mistake(f"{name}.radius, {name}.height", f"{radius.size} points", allowed)
+        return
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
         yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
-    falls = np.flatnonzero(np.diff(radius) <= 0.0)
+    falls = np.flatnonzero(np.diff(radius) < LEAST_STEP * radius.max())
     if falls.size:
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"
-        yield Mistake(f"{name}.radius", found, "ascending radii")
+        allowed = f"ascending radii, by {LEAST_STEP:g} of the largest at least"
+        yield Mistake(f"{name}.radius", found, allowed)
     if not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
         yield Mistake(f"{name}.height", "a flat face alone", f"at least {FEWEST - 2} points beside it")
     if not 0.0 <= plain_number(smoothing) < np.inf:

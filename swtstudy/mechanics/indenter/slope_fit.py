@@ -93,7 +93,7 @@ def exact_slope(f: PPoly, radius: FloatArray) -> FloatArray:
     step = max(_SLAB // len(knots), 1)
     for begin in range(0, len(radius), step):
         ξ = radius[begin : begin + step, None]
-        ratio = np.minimum(knots / np.maximum(ξ, 1e-300), 1.0)
+        ratio = np.minimum(knots / np.maximum(ξ, 1e-200), 1.0)
         cosine = np.sqrt((1.0 - ratio) * (1.0 + ratio))
         rest = np.arccos(ratio)
         # Integrals of rᵏ/√(ξ² − r²) from the knot to ξ.

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.loop import Loop, checked_name
+from swtstudy.mechanics.load.loop import FINITE, LARGEST, Loop, checked_name
 from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
 from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.numbers import read_numbers
 
 #: Most vertices of a loop: a value with so many takes 30 s and 5 GB.
 MOST_VERTICES = 2000
@@ -155,12 +156,12 @@ class LoadPath(Loop):
         return 1 + len(self.vertices) // SIDES_PER_OSCILLATION
 
     @property
-    def reach(self) -> float:
-        return float(self.vertices[:, 0].max())
+    def normal_ends(self) -> tuple[float, float]:
+        return float(self.vertices[:, 0].min()), float(self.vertices[:, 0].max())
 
     @property
-    def is_steady(self) -> bool:
-        return bool(np.ptp(self.vertices[:, 0]) == 0.0)
+    def tangential_ends(self) -> tuple[float, float]:
+        return float(self.vertices[:, 1].min()), float(self.vertices[:, 1].max())
 
     @cached_property
     def bulk(self) -> PolygonCourse | None:
@@ -185,22 +186,17 @@ class LoadPath(Loop):
 def _checked(vertices: ArrayLike, name: str) -> FloatArray:
     key = f"vertices of {name}"
     try:
-        found = np.asarray(vertices)
-    except (TypeError, ValueError):
-        found = np.array("")
-    if found.dtype.kind not in "iuf":
-        allowed = "a list of pairs of numbers, or of triples with the bulk stress"
-        raise StudyError([_of_another_length(vertices, key) or Mistake(key, literal(vertices), allowed)])
-    found = found.astype(np.float64)
+        found = read_numbers(key, vertices, "a list of pairs of numbers, or of triples with the bulk stress")
+    except StudyError as error:
+        raise StudyError([_of_another_length(vertices, key) or error.mistakes[0]]) from None
     if found.ndim != 2 or found.shape[1] not in (2, 3):
         allowed = "pairs of numbers, shape (k, 2), or triples with the bulk stress, (k, 3)"
         raise StudyError([Mistake(key, f"an array of shape {found.shape}", allowed)])
-    wrong = np.flatnonzero(~np.isfinite(found).all(axis=1))
+    wrong = np.flatnonzero(~(np.abs(found) <= LARGEST).all(axis=1))
     if wrong.size:
         row = int(wrong[0])
-        raise StudyError(
-            [Mistake(f"{key}, number {row + 1}", literal(found[row].tolist()), "finite numbers")]
-        )
+        found_words = literal(found[row].tolist())
+        raise StudyError([Mistake(f"{key}, number {row + 1}", found_words, FINITE)])
     return found
 
 

@@ -7,10 +7,15 @@ from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
+from swtstudy.mistakes import StudyError
+from swtstudy.named import Named, wrong_name
 from swtstudy.prescribed import PAIRS
+
+#: Largest number of a loop: squares of it are numbers still, whatever its unit.
+LARGEST = 1e100
+FINITE = f"finite numbers, in magnitude up to {LARGEST:g}"
+#: How many times as far from 0 as half of its range the middle of a column of deviations may be.
+FAR = 2.0
 
 
 class BulkCourse(Protocol):
@@ -39,13 +44,30 @@ class Loop(Named):
 
     @property
     @abstractmethod
-    def reach(self) -> float:
-        """Largest c_n."""
+    def normal_ends(self) -> tuple[float, float]:
+        """Least and largest c_n."""
 
     @property
     @abstractmethod
+    def tangential_ends(self) -> tuple[float, float]:
+        """Least and largest c_t."""
+
+    @property
+    def reach(self) -> float:
+        """Largest c_n."""
+        return self.normal_ends[1]
+
+    @property
     def is_steady(self) -> bool:
         """Whether the normal load is constant."""
+        low, high = self.normal_ends
+        return low == high
+
+    @property
+    def is_absolute(self) -> bool:
+        """Whether c_n looks like a load itself, not like its deviation from the mean: it stays far from 0."""
+        low, high = self.normal_ends
+        return abs(low + high) > FAR * (high - low)
 
     @property
     @abstractmethod
@@ -74,8 +96,6 @@ def checked_name(name: object) -> str:
     StudyError
         A ValueError, if it is none, or that of a built-in load.
     """
-    if not isinstance(name, str) or not name.strip():
-        raise StudyError([Mistake("name", literal(name), "a text that is not empty")])
-    if name in PARAMETERS["load"].names:
-        raise StudyError([Mistake("name", literal(name), "another one: this is a built-in load")])
-    return name
+    if mistake := wrong_name(name, "load"):
+        raise StudyError([mistake])
+    return str(name)

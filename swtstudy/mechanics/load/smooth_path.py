@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -12,10 +11,10 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.loop import Loop, checked_name
+from swtstudy.mechanics.load.loop import LARGEST, Loop, checked_name
 from swtstudy.mechanics.load.smooth import SmoothLoad
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, is_number, literal
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
 
 #: Highest harmonic of a loop: that of the frequency ratio of two.
 HIGHEST_ORDER = 64
@@ -48,13 +47,12 @@ class SmoothPath(Loop):
         return 1 + self._order
 
     @property
-    def reach(self) -> float:
-        one = self._sums[0]
-        return float(one.value(np.append(one.turns, 0.0)).max())
+    def normal_ends(self) -> tuple[float, float]:
+        return self._sums[0].ends
 
     @property
-    def is_steady(self) -> bool:
-        return self._sums[0].is_constant
+    def tangential_ends(self) -> tuple[float, float]:
+        return self._sums[1].ends
 
     @property
     def turn_count(self) -> int:
@@ -125,7 +123,7 @@ def _checked(rows: object, key: str) -> list[list[float]]:
         sound = (
             isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(is_number(each) for each in row)
         )
-        sound = sound and all(math.isfinite(each) for each in row)
+        sound = sound and all(abs(plain_number(each)) <= LARGEST for each in row)
         if not (sound and row[0] == int(row[0]) and 0 <= row[0] <= HIGHEST_ORDER):
             raise StudyError([Mistake(key, literal(row), allowed)])
     return [[int(row[0]), float(row[1]), float(row[2])] for row in rows]

@@ -1,0 +1,107 @@
+"""Names and units are a user's own: an archive gives them back, and figures write them as they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stand_in
+from matplotlib.figure import Figure
+
+from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
+from swtstudy.figures.bars import draw_sensitivity
+from swtstudy.figures.draw import draw
+from swtstudy.results.sensitivity import sensitivity
+
+R = np.linspace(0.0, 3.0, 9).tolist()
+LOOPS = """
+title = "t"
+rtol = 1e-2
+[axes]
+load = ["harmonic", {name}]
+friction = [0.1, 0.2]
+[fixed]
+normal_amplitude = 0.5
+tangential_amplitude = 0.5
+[loads.{name}]
+vertices = [[0, 1], [0.5, 0], [0, -1]]
+[figure]
+x = "friction"
+{role} = "load"
+{more}
+"""
+NAMES = ["$$", "US$", "$x", "a$b$", r"\\$", "_^{", "%", "öü"]
+
+
+@pytest.mark.parametrize("name", ["a\0b", "\0", "\ud800"])
+def test_a_name_that_no_archive_can_hold(name: str) -> None:
+    with pytest.raises(StudyError, match=r"name: found .*; allowed: a text that an archive can hold"):
+        LoadPath(name, [[0, 1], [0, -1]])
+    with pytest.raises(StudyError, match=r"name: found .*; allowed: a text that an archive can hold"):
+        TabulatedProfile(name, R, R)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ('title = "a\\u0000b"', "title"),
+        ('title = "t"\n[loads."a\\u0000b"]\nvertices = [[0, 1], [0, -1]]', "loads.a\0b.vertices"),
+        (
+            f'title = "t"\n[profiles."a\\u0000b"]\nradius = {R}\nheight = {R}',
+            "profiles.a\0b",
+        ),
+        ('title = "t"\nunits = {length = "m\\u0000", force = "N", stress = "Pa"}', "units.length"),
+    ],
+)
+def test_a_null_character_in_a_study_is_a_mistake(text: str, key: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(text)
+    assert key in [mistake.key for mistake in caught.value.mistakes]
+
+
+def drawn(figure: Figure) -> str:
+    """All words of a figure, which can be drawn."""
+    figure.draw_without_rendering()
+    return " ".join(text.get_text() for text in figure.findobj(lambda each: hasattr(each, "get_text")))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
+    words = name.replace("\\\\", "\\")
+    for role, more in (("hue", ""), ("panels", ""), ("vertical", 'kind = "heatmap"')):
+        text = LOOPS.format(name=f'"{name}"', role=role, more=more)
+        found = run(Study.from_text(text), tmp_path / f"{role}.nc", workers=1, solver=stand_in.smooth)
+        assert open_results(tmp_path / f"{role}.nc")["load"].values.tolist() == ["harmonic", words]
+        assert words.replace("$", r"\$").replace("_", " ") in drawn(draw(found))
+
+
+@pytest.mark.parametrize("unit", ["$$", "US$", "$x"])
+def test_units_are_written_as_they_are(tmp_path: Path, unit: str) -> None:
+    study = Study.from_text(
+        f"""
+title = "a $$ title"
+rtol = 1e-2
+units = {{length = "{unit}", force = "N", stress = "MPa"}}
+fixed = {{young_modulus = 7e4, poisson_ratio = 0.3, radius = 50, friction = 0.5, body = 1}}
+[sample]
+design = "saltelli"
+size = 2
+[sample.ranges]
+depth = [0.01, 0.02]
+tangential_amplitude = [1e-3, 2e-3]
+[axes]
+normal_amplitude = [0, 1e-3]
+[figure]
+kind = "scatter"
+x = "sample"
+hue = "normal_amplitude"
+y = ["critical_position", "SWT"]
+"""
+    )
+    found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    label = unit.replace("$", r"\$")
+    words = drawn(draw(found))
+    for each in (f"$x$ ({label})", f"$u_A$ ({label})", f"0.001 {label}"):
+        assert each in words, words
+    assert rf"$\delta_A$ = 0.001 {label}" in drawn(draw_sensitivity(sensitivity(found, "critical_x")))

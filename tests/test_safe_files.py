@@ -1,0 +1,174 @@
+"""Files and folders that are not the package's own are left as they are; its own are whole or absent."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+import stand_in
+from click.testing import CliRunner
+
+from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.known import known_records
+from swtstudy.archive.parts import PartsWriter, kept_folder, parts_folder
+from swtstudy.cli import main
+from swtstudy.files import replacing, write_text
+
+STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
+FIGURE = '[figure]\nx = "friction"\n'
+
+
+def computed(folder: Path, text: str = STUDY, **kwargs: object) -> Path:
+    path = folder / "mine.nc"
+    run(Study.from_text(text), path, workers=1, solver=stand_in.smooth, **kwargs)
+    return path
+
+
+def refused(*arguments: object) -> str:
+    result = CliRunner().invoke(main, [*map(str, arguments)])
+    assert result.exit_code == 2, (result.output, result.exception)
+    assert isinstance(result.exception, SystemExit)
+    return result.output
+
+
+@pytest.mark.parametrize("folder_of", [parts_folder, kept_folder])
+def test_a_link_in_the_place_of_a_folder_is_refused(tmp_path: Path, folder_of) -> None:
+    other = tmp_path / "other"
+    other.mkdir()
+    for name in (".profile", "000001.npz", "1.npz"):
+        (other / name).write_text("mine")
+    folder_of(tmp_path / "mine.nc").symlink_to(other)
+    with pytest.raises(OSError, match="is a link; allowed: a folder that swtstudy makes"):
+        computed(tmp_path)
+    assert {path.name: path.read_text() for path in other.iterdir()} == dict.fromkeys(
+        (".profile", "000001.npz", "1.npz"), "mine"
+    )
+
+
+def test_files_of_the_users_own_in_a_folder_of_parts_stay(tmp_path: Path) -> None:
+    path = computed(tmp_path)
+    parts = parts_folder(path)
+    parts.mkdir()
+    PartsWriter(parts).add(known_records(path))
+    path.unlink()
+    kept = kept_folder(path)
+    kept.mkdir()
+    own = [
+        parts / name
+        for name in (".mine", "1.npz", "notes-12345678.npz", ".mine-abc.nc", ".other-a1b2c3d4.nc")
+    ]
+    own.append(kept / ".mine")
+    ours = [parts / ".mine-a1b2c3d4.nc", parts / ".000002-_1b2c3d4.npz", kept / ".000001-_1b2c3d4.npz"]
+    for each in (*own, *ours):
+        each.write_text("x")
+    computed(tmp_path)
+    assert all(each.read_text() == "x" for each in own)
+    assert not any(each.exists() for each in ours)
+    assert not list(parts.glob("0*.npz"))
+    assert open_results(path).s.notnull().all()
+
+
+def test_nothing_but_a_regular_file_is_replaced(tmp_path: Path) -> None:
+    path = computed(tmp_path, STUDY + FIGURE)
+    os.mkfifo(tmp_path / "pipe.png")
+    os.mkfifo(tmp_path / "pipe.nc")
+    (tmp_path / "null.png").symlink_to("/dev/null")
+    assert "pipe.nc: not a regular file" in refused("info", tmp_path / "pipe.nc")
+    for arguments in (
+        ["plot", path, "-o", tmp_path / "pipe.png"],
+        ["plot", path, "-o", tmp_path / "null.png"],
+        ["merge", path, path, "-o", tmp_path / "pipe.nc"],
+        ["schema", "-o", "/dev/null"],
+    ):
+        assert "is not a regular file" in refused(*arguments)
+    assert Path("/dev/null").is_char_device()
+    assert (tmp_path / "pipe.png").is_fifo()
+    assert (tmp_path / "pipe.nc").is_fifo()
+
+
+def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
+    far = tmp_path / "far"
+    far.mkdir()
+    (far / "kept.nc").write_text("old")
+    computed(far)
+    (tmp_path / "mine.nc").symlink_to(far / "mine.nc")
+    path = computed(tmp_path, STUDY.replace("0.2]", "0.2, 0.3]"))
+    assert path.is_symlink()
+    assert open_results(far / "mine.nc").s.size == 3
+    (tmp_path / "merged.nc").symlink_to(far / "kept.nc")
+    result = CliRunner().invoke(main, ["merge", str(path), "-o", str(tmp_path / "merged.nc")])
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "merged.nc").is_symlink()
+    assert open_results(far / "kept.nc").s.size == 3
+    # Also where there is nothing yet.
+    (tmp_path / "text").symlink_to(far / "new")
+    write_text(tmp_path / "text", "x")
+    assert (far / "new").read_text() == "x"
+    assert {each.name for each in far.iterdir()} == {"kept.nc", "mine.nc", "new"}
+    # What it points to may be on another file system than the folder for unfinished files.
+    with replacing(tmp_path / "text", tmp_path) as temporary:
+        assert temporary.parent == far
+
+
+def full(*_: object, **__: object) -> None:
+    raise OSError(28, "No space left on device")
+
+
+def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr("swtstudy.files._sync", full)
+        assert "mine.toml" in refused("new", tmp_path / "mine")
+    assert list(tmp_path.iterdir()) == []
+    assert CliRunner().invoke(main, ["new", str(tmp_path / "mine")]).exit_code == 0
+    before = (tmp_path / "mine.toml").read_text()
+    assert "already exists" in refused("new", tmp_path / "mine")
+    assert (tmp_path / "mine.toml").read_text() == before
+    schema = tmp_path / "study.schema.json"
+    schema.unlink()
+    with monkeypatch.context() as patch:
+        patch.setattr("swtstudy.study.schema.schema_text", lambda: "\ud800")  # that cannot be written
+        CliRunner().invoke(main, ["new", str(tmp_path / "other")])
+    assert not schema.exists()
+
+
+def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = computed(tmp_path, STUDY + FIGURE)
+    monkeypatch.setattr("swtstudy.files._sync", full)
+    assert f"No space left on device: '{tmp_path / 'mine.png'}'" in refused("plot", path)
+    with pytest.raises(OSError, match="of the user's own"), replacing(tmp_path / "a"):
+        raise OSError("of the user's own")
+    assert not [each for each in tmp_path.iterdir() if each.name.startswith(".")]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("root:x:0:0:root:/root:/bin/bash\n", "line 1: found 'root:x:0:0:root:/root:/bin/bash'"),
+        ("# a style\nlines.linewidth: 2\nlines.linewidth: wide\n", "line 3: found 'lines.linewidth: wide'"),
+        ("lines.linewidth 2\n", "line 1: found 'lines.linewidth 2'"),
+    ],
+)
+def test_a_file_that_is_no_style_is_refused(tmp_path: Path, content: str, words: str) -> None:
+    path = computed(tmp_path, STUDY + FIGURE)
+    (tmp_path / "mine.mplstyle").write_text(content)
+    answer = refused("plot", path, "--style", tmp_path / "mine.mplstyle")
+    assert f"{words}; allowed: a line of a matplotlib style" in answer
+    assert not (tmp_path / "mine.png").exists()
+    os.mkfifo(tmp_path / "pipe")
+    assert "not a regular file" in refused("plot", path, "--style", tmp_path / "pipe")
+    sound = 'axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\ntext.color: "#ff0000"\n'
+    (tmp_path / "mine.mplstyle").write_text(sound)
+    result = CliRunner().invoke(main, ["plot", str(path), "--style", str(tmp_path / "mine.mplstyle")])
+    assert result.exit_code == 0, result.output
+
+
+def test_a_mistake_is_told_once() -> None:
+    text = 'title = "t"\n[sample]\ndesign = "foo"\nsize = 1e3\nseed = 0.5\nranges = {friction = [0.1, 0.2]}\n'
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(text)
+    assert sorted(each.key for each in caught.value.mistakes) == [
+        "sample.design",
+        "sample.seed",
+        "sample.size",
+    ]

@@ -1,0 +1,193 @@
+"""Files that users made by hand or by a rig: what is in doubt in them is refused, with the line."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy import LoadPath, Study, StudyError
+from swtstudy.files import LARGEST_TEXT, MOST_COLUMNS, read_text
+
+LOOP = 'title = "t"\nfixed.load = "mine"\n[loads.mine]\nfile = "cycle.csv"\n'
+POINTS = 'title = "t"\nsample.file = "points.csv"\n'
+PROFILE = 'title = "t"\nfixed.profile = "mine"\n[profiles.mine]\nfile = "worn.csv"\n'
+
+
+def mistakes_of(text: str, folder: Path) -> list[str]:
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(text, "s", folder)
+    return [str(mistake) for mistake in caught.value.mistakes]
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (
+            "normal,tangential\n0,1\n0,1,-0,5\n",
+            r"found 4 cells under 2 columns \(.*cycle.csv: line 3\); allowed: as",
+        ),
+        (
+            "normal,tangential,Bulk\n0,1,9\n0,-1,-9\n",
+            r"found the column 'Bulk' \(.*line 1\); allowed: bulk, if",
+        ),
+        ("normal,tangential,bulk stress\n0,1,9\n0,-1,-9\n", "found the column 'bulk stress'"),
+        ("normal,tangential,blk\n0,1,9\n0,-1,-9\n", "found the column 'blk'"),
+        ("normal,tangential,normal\n0,1,9\n0,-1,-9\n", r"found the column normal twice \(.*line 1\)"),
+        ("normal,tangential,bulk,Bulk\n0,1,1,9\n0,-1,1,-9\n", r"found the column bulk twice \(.*line 1\)"),
+        (
+            "normal,tangential\n0,1_0\n0,-1\n",
+            r"found '1_0' \(.*line 2, tangential\); allowed: a finite number",
+        ),
+        (
+            f"normal,tangential\n0,1\n0,{'1' * 131_073}\n",
+            r"found line 3: field larger than field limit \(131072",
+        ),
+        (f"normal,tangential\n0,1{',' * MOST_COLUMNS}\n", "found more than 1000 columns in line 2"),
+    ],
+)
+def test_columns_in_doubt_are_refused_with_the_line(tmp_path: Path, content: str, words: str) -> None:
+    (tmp_path / "cycle.csv").write_text(content)
+    (line,) = mistakes_of(LOOP, tmp_path)
+    assert re.match(f"s: loads.mine.file: {words}", line), line
+
+
+def test_other_columns_and_a_comma_at_the_end_are_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "cycle.csv").write_bytes(
+        b"\xef\xbb\xbftime, Remark,tangential,normal,\r\n0,a,1,0,\r\n\r\n1,b,-1,0,\r\n2,c,0,1,\r\n"
+    )
+    (loop,) = Study.from_text(LOOP, "s", tmp_path).grid.values("load")
+    assert loop == LoadPath("mine", [[0, 1], [0, -1], [1, 0]])
+
+
+@pytest.mark.parametrize("kind", ["", "force_"])
+def test_a_normal_column_that_is_no_deviation_is_refused(kind: str) -> None:
+    """In newtons about 150 N, with 150 N given as the mean: half of the load would be counted twice."""
+    moving = {f"normal_{kind}amplitude": 1e-2, f"tangential_{kind}amplitude": 1e-2}
+    far = LoadPath("rig", [[140, -60], [160, -60], [160, 60], [140, 60]])
+    with pytest.raises(StudyError) as caught:
+        swtstudy.solve(load=far, **moving)
+    (mistake,) = caught.value.mistakes
+    assert mistake.key == "load"
+    assert mistake.found == "'rig' with a normal column from 140 to 160, far from 0"
+    assert mistake.allowed == "deviations from the mean normal load: take its mean, 150, off"
+    smooth = LoadPath.harmonic_sum("smooth", [(0, 150, np.pi / 2), (1, 10, 0)], [(1, 60, 0)])
+    beyond = LoadPath("just", [[0.26, -0.5], [0.75, 0.5]])
+    for loop in (smooth, beyond, LoadPath("still", [[150, -60], [150, 60]])):
+        with pytest.raises(StudyError, match="far from 0; allowed: deviations from the mean"):
+            swtstudy.solve(load=loop, **moving)
+    # At twice half of the range it still may be meant; and without an amplitude it does not matter.
+    swtstudy.solve(load=LoadPath("one", [[0.25, -0.5], [0.75, 0.5]]), rtol=1e-2)
+    still = swtstudy.solve(load=far, rtol=1e-2, **(moving | {f"normal_{kind}amplitude": 0.0}))
+    assert float(still.s) > 0.0
+
+
+def test_a_csv_of_newtons_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "cycle.csv").write_text("normal,tangential\n140,-60\n160,-60\n160,60\n140,60\n")
+    text = LOOP.replace(
+        "fixed.load",
+        "fixed.young_modulus = 73e3\nfixed.poisson_ratio = 0.3\nfixed.radius = 50\nfixed.friction = 0.5\n"
+        "fixed.normal_force = 150\nfixed.normal_force_amplitude = 1\nfixed.tangential_force_amplitude = 1\n"
+        'units = { length = "mm", force = "N", stress = "MPa" }\nfixed.load',
+    )
+    (line,) = mistakes_of(text, tmp_path)
+    assert line.startswith("s: fixed.load: found 'mine' with a normal column from 140 to 160, far from 0")
+    (tmp_path / "cycle.csv").write_text("normal,tangential\n-10,-60\n10,-60\n10,60\n-10,60\n")
+    assert Study.from_text(text, "s", tmp_path).grid.size == 1
+
+
+FILES = [
+    (LOOP, "cycle.csv", "loads.mine.file: found {} "),
+    (POINTS, "points.csv", "sample.file: found '.* .{}.; allowed: a CSV file"),
+    (PROFILE, "worn.csv", "profiles.mine: found {} "),
+]
+
+
+@pytest.mark.parametrize(("text", "name", "words"), FILES)
+def test_only_regular_files_are_read(tmp_path: Path, text: str, name: str, words: str) -> None:
+    """A device may have no end, and opening a pipe waits for somebody who writes into it."""
+    for make in (lambda path: path.symlink_to("/dev/zero"), os.mkfifo):
+        make(tmp_path / name)
+        (line,) = mistakes_of(text, tmp_path)
+        assert re.match(f"s: {words.format('not a regular file')}", line), line
+        (tmp_path / name).unlink()
+
+
+def test_a_study_is_a_regular_file_of_a_bounded_size(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    os.mkfifo(path)
+    with pytest.raises(StudyError, match="found not a regular file; allowed: a readable study"):
+        Study.from_toml(path)
+    path.unlink()
+    with open(path, "wb") as file:
+        file.truncate(LARGEST_TEXT + 1)
+    with pytest.raises(StudyError, match=f"found more than {LARGEST_TEXT} bytes"):
+        Study.from_toml(path)
+    with pytest.raises(OSError, match="more than 3 bytes"):
+        read_text(path, 3)
+
+
+MATERIAL = """
+title = "t"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[material]
+file = "materials.toml"
+name = "steel"
+[fixed]
+young_modulus = 2e5
+poisson_ratio = 0.3
+radius = 10
+depth = 0.01
+friction = 0.5
+tangential_amplitude = 1e-3
+"""
+STEEL = "[steel]\nstrength = 1e3\nstrength_exponent = -0.1\nductility = 0.5\nductility_exponent = -0.6\n"
+
+
+def test_a_file_of_materials_is_read_as_a_study_is(tmp_path: Path) -> None:
+    path = tmp_path / "materials.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + STEEL.encode())
+    assert Study.from_text(MATERIAL, "s", tmp_path).grid.materials[0].strength == 1e3
+    for content, words in (
+        ("x = " + 5000 * "[" + 5000 * "]", "a syntax error: nested too deeply"),
+        ("x = " + 5000 * "1", "an integer with too many digits"),
+        ("x", "a syntax error: .*"),
+    ):
+        path.write_text(content)
+        (line,) = mistakes_of(MATERIAL, tmp_path)
+        assert re.match(rf"s: material.file: found 'materials.toml' \({words}\); allowed: a TOML file", line)
+    path.unlink()
+    os.mkfifo(path)
+    (line,) = mistakes_of(MATERIAL, tmp_path)
+    assert "(not a regular file)" in line
+
+
+def test_a_study_with_a_byte_order_mark(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_bytes(b'\xef\xbb\xbftitle = "t"\r\n')
+    study = Study.from_toml(tmp_path / "mine.toml")
+    assert (study.title, study.text) == ("t", 'title = "t"\n')
+
+
+def test_what_would_take_minutes_to_read_is_refused_at_once(tmp_path: Path) -> None:
+    axes = "\n".join(
+        f"{name} = {{start = 0.1, stop = 0.9, num = 1_000_000}}" for name in ("friction", "phase")
+    )
+    (line,) = mistakes_of(f'title = "t"\n[axes]\n{axes}\n', tmp_path)
+    assert line == (
+        "s: axes.friction, axes.phase: found 2000000 values, 1e+12 points; "
+        "allowed: at most 1000000 values along all axes"
+    )
+    rows = "".join(f"{r},{r * r}\n" for r in range(100_000))
+    (tmp_path / "worn.csv").write_text(f"radius,height\n{rows}")
+    (line,) = mistakes_of(PROFILE, tmp_path)
+    assert "found 100000 points (mine.radius, mine.height); allowed: at most 10000: every 10th, or" in line
+    (tmp_path / "points.csv").write_text(",".join(f"a{n}" for n in range(50_000)) + "\n1\n")
+    (line,) = mistakes_of(POINTS, tmp_path)
+    assert "more than 1000 columns in line 1" in line
