@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 #: What a contact is at rest.
 AT_REST = (
     *("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure", "length_scale"),
-    *("slip_scale", "stress_scale", "swt_scale", "force_factor"),
+    *("slip_scale", "stress_scale", "swt_scale", "work_scale", "force_factor"),
 )
 
 
@@ -55,7 +55,7 @@ class PhysicalContact:
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
     at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
     at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
-    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)² and ``force_factor``, the force over E* δ0 a_H. Of
+    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale`` and ``force_factor``, the force over E* δ0 a_H. Of
     several contacts these are DataArrays over the dimensions on which they depend.
 
     Attributes

@@ -188,6 +188,8 @@ def _check_given(
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
         report(both, "both", "one of the two")
+    if any(value not in (1.0, 2.0) for value in good.get("body", ())):
+        report(keys("body"), literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = {name for load in loops for name in load.scaled_by}
     if all(load.normal_ends == (0.0, 0.0) for load in loops):
