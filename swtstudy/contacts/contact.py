@@ -55,8 +55,9 @@ class PhysicalContact:
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
     at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
     at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
-    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale`` and ``force_factor``, the force over E* δ0 a_H. Of
-    several contacts these are DataArrays over the dimensions on which they depend.
+    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale``, the unit of the work of friction,
+    and ``force_factor``, the force over E* δ0 a_H. Of several contacts these are DataArrays over the
+    dimensions on which they depend.
 
     Attributes
     ----------
