@@ -68,6 +68,18 @@ CASES = [
         "3/2",
         0.029960089,
     ),
+    # Two planes, of which one's maximum stands beside the flank of the other's.
+    (
+        {
+            "normal_amplitude": 0.81058535,
+            "tangential_amplitude": 0.02685404,
+            "phase": 1.57741315,
+            "poisson_ratio": 0.3232468,
+            "friction": 0.718546,
+        },
+        "2/3",
+        0.058632245,
+    ),
     (
         {
             "normal_amplitude": 0.21979304,

@@ -30,6 +30,9 @@ STEPS, MOST_STEPS = 4, 256
 THIN = 1.0 / 3.0
 #: Planes that are tried, and instants, which leave such a share unseen.
 PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
+#: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
+#: of tests/test_overlooked.py.
+OTHER_PLANE = 0.08
 #: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
 #: what is looked at stays in the processor's cache.
 LOOK_SIZE = 32_000
@@ -157,7 +160,8 @@ def high_positions(
     """Numbers and sides of the positions around which swt may be largest, shape (k,) each.
 
     These are the local maxima of what is seen, as far as positions, instants and planes may each leave a
-    share of it unseen, and those of what may be between the instants, as far as it may be the largest. With
+    share of it unseen, and those of what may be between the instants, as far as it may be the largest; and
+    where another plane takes over, whose maximum may hide beside the flank of a higher neighbour's. With
     ``least``, of shape (n,), those as high as that.
     """
     point = positions.point
@@ -168,8 +172,20 @@ def high_positions(
     enough = least[point][:, None]
     chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
     chosen |= _peaks(point, seen.highest) & (seen.highest >= enough)
+    chosen |= _flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
     place, side = np.nonzero(chosen)
     return place, side
+
+
+def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
+    """Which positions, (m, sides), have a higher neighbour on another plane."""
+    angle, swt = seen.double_angle, seen.swt
+    turn = np.abs(np.angle(np.exp(1j * np.diff(angle, axis=0)))) > OTHER_PLANE
+    turn &= (np.diff(point) == 0)[:, None]
+    flank = np.zeros(swt.shape, dtype=bool)
+    flank[:-1] |= turn & (swt[:-1] < swt[1:])
+    flank[1:] |= turn & (swt[1:] <= swt[:-1])
+    return flank
 
 
 def _peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
