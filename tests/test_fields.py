@@ -370,7 +370,8 @@ def test_maximum_of_the_body_off_the_line_close_to_the_edge_of_a_flat_face():
     found, at_line = body_maximum(scene_of(point), x)
     gain = float(solved.s_surface[0] / solved.s[0])
     assert gain > 1.01
-    assert found.swt / float(at_line.swt) == pytest.approx(gain, abs=2e-3)
+    # Beside the edge the two ways to the circle differ by a hundredth.
+    assert found.swt / float(at_line.swt) == pytest.approx(gain, abs=1e-2)
     assert abs(found.position[1]) > 0.5
 
 
@@ -395,21 +396,23 @@ def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
     monkeypatch.setattr(swt_module, "_STEPS", 10)
     distance = 0.15
     found = swtstudy.solve(critical_distance=distance, **parameters)
-    x, angle = float(found.critical_x), np.radians(float(found.critical_angle))
+    angle = np.radians(float(found.critical_angle))
     assert abs(angle) > 0.05
     # Simpson's rule in the root of the distance, in which swt is smooth.
     share = np.linspace(0.0, 1.0, 9)
     for name, right, down in (("depth", 0.0, 1.0), ("critical_plane", -np.sin(angle), np.cos(angle))):
         values = found.sel(direction=name)
+        # About the critical point, or another local maximum whose plane is next to parallel.
+        x = float(values.point_x)
         point = swt_at(x + 0.5 * distance * right, 0.0, 0.5 * distance * down, parameters)
         assert float(values.s_point) == pytest.approx(float(point), rel=0.015)
-        away = 2.0 * distance * share**2
+        away, x = 2.0 * distance * share**2, float(values.line_x)
         line = swt_at(x + away * right, 0.0, away * down, parameters)
         assert float(values.s_line) == pytest.approx(simpson(2.0 * share * line, x=share), rel=0.015)
     # Gauss's rule in the three coordinates of the whole half sphere, y < 0 included.
     node, weight = (values / 2 for values in np.polynomial.legendre.leggauss(4))
     ρ, c, φ = np.meshgrid(node + 0.5, node + 0.5, 2 * np.pi * (np.arange(5) + 0.3) / 5, indexing="ij")
-    across, s = distance * ρ, np.sqrt(1.0 - c**2)
+    across, s, x = distance * ρ, np.sqrt(1.0 - c**2), float(found.volume_x)
     swt = swt_at(x + across * s * np.cos(φ), across * s * np.sin(φ), across * c, parameters).mean(axis=2)
     expected = 3.0 * np.einsum("rc,r,r,c", swt, (node + 0.5) ** 2, weight, weight)
     assert float(found.s_volume) == pytest.approx(expected, rel=0.015)

@@ -32,6 +32,8 @@ from swtstudy.prescribed import Control
 
 Array = NDArray[np.float64]
 RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")]
+#: Ranges of the shapes of plane profiles.
+PLANE = {"rounded_flat": {"flat_half_width": (0.05, 2.0)}, "power_law_cylinder": {"exponent": (1.2, 6.0)}}
 #: The dense look: steps of each piece, and planes.
 STEPS, PLANES = 64, 32
 #: Points that are drawn, and solved, together.
@@ -45,10 +47,11 @@ def law(rng: np.random.Generator, profile: str = "paraboloid") -> Points:
     """Displacements: both amplitudes logarithmic, over 0.01–0.9 and 0.001–1."""
     ratio = [RATIOS[k] for k in rng.integers(len(RATIOS), size=CHUNK)]
     depth = 10.0 ** rng.uniform(-2.0, np.log10(0.9), CHUNK)
-    shape = {name: rng.uniform(*ends, CHUNK) for name, ends in SHAPES.get(profile, {}).items()}
+    ranges = (SHAPES | PLANE).get(profile, {})
+    shape = {name: rng.uniform(*ends, CHUNK) for name, ends in ranges.items()}
     for k in range(CHUNK) if shape else ():
         while check_shape(profile, {name: v[k] for name, v in shape.items()}, 1.0 + depth[k]) is not None:
-            for name, ends in SHAPES[profile].items():
+            for name, ends in ranges.items():
                 shape[name][k] = rng.uniform(*ends)
     return Points(
         profile,
@@ -63,9 +66,9 @@ def law(rng: np.random.Generator, profile: str = "paraboloid") -> Points:
     )
 
 
-def forces(rng: np.random.Generator) -> Points:
+def forces(rng: np.random.Generator, profile: str = "paraboloid") -> Points:
     """The same law for forces; where friction does not bear them there is no s."""
-    return replace(law(rng), control=Control(True, True))
+    return replace(law(rng, profile), control=Control(True, True))
 
 
 def mixed(rng: np.random.Generator) -> Points:
@@ -119,6 +122,10 @@ SCENES = {
     **{
         name.replace("_", " "): (lambda rng, name=name: law(rng, name), 1_500)
         for name in ("rounded_punch", "truncated_paraboloid", "wavy_paraboloid", "power_law")
+    },
+    **{
+        name.replace("_", " "): (lambda rng, name=name: forces(rng, name), 1_000)
+        for name in ("cylinder", *PLANE)
     },
     "a table": (table, 500),
     "loops of 4 to 200 vertices": (loops, 1_000),

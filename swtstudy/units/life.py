@@ -164,7 +164,7 @@ class FatigueConstants:
     ) -> NDArray[np.float64]:
         """`rounds` of arrays."""
         each = swt[..., None, None] * counted
-        known = np.broadcast_to(counted > 0.0, each.shape)
+        known = np.broadcast_to((counted > 0.0) & (number > 0.0), each.shape)
         damage = np.zeros(each.shape)
         with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
             damage[known] = np.broadcast_to(number, each.shape)[known] / self.cycles(each[known])

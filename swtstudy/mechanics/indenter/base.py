@@ -210,7 +210,9 @@ class Profile(ABC):
             step = np.where(found == goal, 0.0, step)
             new = w + step
             middle = np.where(np.isfinite(high), 0.5 * (low + high), 2.0 * w)
-            new = np.where((new >= low) & (new <= high), new, middle)
+            # A last step may lead out of the bracket by its rounding.
+            inside = (new >= low) & (new <= high) | (np.abs(step) <= LAST_STEP * w)
+            new = np.where(inside, new, middle)
             last, w = np.abs(new - w), new
             if np.all(last <= LAST_STEP * w):
                 break

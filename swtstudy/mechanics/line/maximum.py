@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +99,15 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         error = found.error[doubtful]
         slow = error > accuracy.tolerance * found.swt[doubtful]
         found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
+    rows = np.flatnonzero(found.swt > 0.0)
+    found.error[rows] = np.maximum(
+        found.error[rows], _of_rounding(scene.take(rows), found.take(rows), accuracy)
+    )
+    return found
+
+
+def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
+    """How far off swt > 0 may be by rounding and tables, shape (n,)."""
     size = np.sqrt(found.swt)
     # Two bounds of one thing.
     rounding = np.minimum(
@@ -110,7 +119,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
     # swt is a stress times a strain.
-    return replace(found, error=np.maximum(found.error, rounding * size))
+    return np.asarray(rounding * size)
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
@@ -127,7 +136,10 @@ def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
     r = told_by_fronts(scene.cycle, coordinate, r)
     at, step = coordinate.of(r), np.maximum(SLOPE_STEP * (r - b), LEAST_SLOPE_STEP * np.spacing(r))
     # How far from r an edge is left, in radius: what it leaves is the pressure by that ring.
-    width = arrival(scene.cycle.load, coordinate, r, at)[1] * step / (coordinate.of(r + step) - at)
+    rise = coordinate.of(r + step) - at
+    width = arrival(scene.cycle.load, coordinate, r, at)[1] * step
+    # Under a flat face nothing arrives.
+    width = np.divide(width, rise, out=np.zeros_like(rise), where=rise > 0.0)
     slope = profile.weighted_slope(r) / np.sqrt(np.maximum((r - b) * (r + b), r * step))
     return np.asarray(slope * np.sqrt(2.0 * np.minimum(width / r, 1.0)) / np.pi)[:, 0]
 
