@@ -100,7 +100,7 @@ class TabulatedProfile(Named):
 
     @property
     def geometry(self) -> str:
-        """What the contact is, as of a `swtstudy.families.Family`."""
+        """What the contact is, as of a ``Family``."""
         return self._geometry
 
     @property
