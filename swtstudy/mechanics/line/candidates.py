@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import resolved
-from swtstudy.mechanics.line.positions import Pieces, cusps
+from swtstudy.mechanics.line.positions import Pieces
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
@@ -48,8 +48,7 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     Of a load whose second half mirrors the first, those at x ≥ 0 alone.
     """
     split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(TOLERANCE)
-    ends = cusps(split.cycle, scene.coordinate, scene.bulk is not None)
-    positions, seen = resolved(scene, Pieces.between(ends, scene.profile.feature_length))
+    positions, seen = resolved(scene, Pieces.of(split))
     climb = Climb.start(split, positions, seen, accuracy.search, least)
     for _ in range(ROUNDS):
         going = np.flatnonzero(~climb.settled)

@@ -12,7 +12,7 @@ from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
-from swtstudy.mechanics.planes.through_y import PlaneHistory, climb_over_planes
+from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -170,6 +170,6 @@ def _summits(
     # Of starts that lead to one summit the highest counts.
     known = np.zeros(row.size, dtype=bool)
     for back in range(1, int(np.bincount(row).max(initial=1))):
-        apart = np.angle(np.exp(1j * (reached[back:] - reached[:-back])))
-        known[back:] |= (row[back:] == row[:-back]) & (np.abs(apart) < SAME_PLANE)
+        same = apart(reached[back:] - reached[:-back]) < SAME_PLANE
+        known[back:] |= (row[back:] == row[:-back]) & same
     return row[~known], reached[~known], swt[~known]

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.positions import Pieces, Positions, cusps
+from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import Walker, combined, curves, of_maxima
 from swtstudy.mechanics.planes.rainflow import closed_cycles
@@ -129,8 +129,7 @@ def strain_cycles(scene: Scene, position: FloatArray, double_angle: FloatArray) 
         place and plane for each of `POWERS` where the sum is larger by `GAIN`; each in descending order.
     """
     split = scene.split_at_breakpoints()
-    ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
-    positions, _ = resolved(scene, Pieces.between(ends, split.profile.feature_length))
+    positions, _ = resolved(scene, Pieces.of(split))
     home = _at(split, _off_edge(scene, np.abs(position)), np.sign(position), double_angle)
     largest = home[:, :1]
     home = home / largest

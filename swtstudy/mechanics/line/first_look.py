@@ -16,7 +16,7 @@ from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import curves, of_maxima
-from swtstudy.mechanics.planes.through_y import PlaneHistory, coarse_swt
+from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -180,7 +180,7 @@ def high_positions(
 def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     """Which positions, (m, sides), have a higher neighbour on another plane."""
     angle, swt = seen.double_angle, seen.swt
-    turn = np.abs(np.angle(np.exp(1j * np.diff(angle, axis=0)))) > OTHER_PLANE
+    turn = apart(np.diff(angle, axis=0)) > OTHER_PLANE
     turn &= (np.diff(point) == 0)[:, None]
     flank = np.zeros(swt.shape, dtype=bool)
     flank[:-1] |= turn & (swt[:-1] < swt[1:])

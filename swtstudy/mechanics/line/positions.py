@@ -17,6 +17,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.scene import Scene
 
 #: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
 #: its least radius is left out, and where contact is lost this share. 0.2 in place of 0.02: 7e-3 at some
@@ -93,6 +94,12 @@ class Pieces:
     point: NDArray[np.intp]
     low: FloatArray
     high: FloatArray
+
+    @classmethod
+    def of(cls, split: Scene) -> Pieces:
+        """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
+        ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
+        return cls.between(ends, split.profile.feature_length)
 
     @classmethod
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:

@@ -19,6 +19,7 @@ from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.peaks import polynomial_maximum, powers_from_values, vertex_near
+from swtstudy.mechanics.planes.through_y import apart
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -35,6 +36,8 @@ CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, SHRINKING**0.5
 #: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
 #: A tenth: 4e-6 at rtol 1e-5, no faster.
 POLYNOMIAL_SHARE = 0.3
+#: Change of 2θ from value to value, rad, by which another plane has taken over.
+JUMP = 0.15
 #: Values closer than this are equal, relative. 0: no change at 128 points.
 TIE = 1e-12
 
@@ -139,7 +142,7 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     remaining[smooth] = POLYNOMIAL_SHARE * np.abs(top[smooth] - parabola)
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
     # Values on different planes are no polynomial.
-    clear &= (np.abs(np.angle(np.exp(1j * np.diff(seen.angles)))) <= 0.15).all(axis=1)
+    clear &= (apart(np.diff(seen.angles)) <= JUMP).all(axis=1)
     return _Vertex(centre, top, remaining, clear)
 
 

@@ -78,6 +78,11 @@ class PlaneHistory:
         return stress, strain
 
 
+def apart(turn: FloatArray) -> FloatArray:
+    """How far planes are apart, rad in 2θ, from a difference of 2θ that may hold whole turns."""
+    return np.asarray(np.abs(np.angle(np.exp(1j * turn))))
+
+
 def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArray]:
     """Largest swt over all planes, from ``count`` equally spaced ones, an even number.
 
