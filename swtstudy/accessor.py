@@ -35,6 +35,30 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
+    def _repr_html_(self) -> str:
+        """For a notebook: where the results are outside of what the model holds for, and how far inside."""
+        from html import escape
+
+        lines = "".join(f"<li>{escape(line)}</li>" for line in self.validity(inside=True))
+        return f"<div><b>Validity</b><ul>{lines}</ul></div>"
+
+    def validity(self, inside: bool = False) -> tuple[str, ...]:
+        """Where the results are outside of what the model holds for: none where all is well.
+
+        Parameters
+        ----------
+        inside
+            Whether to say, too, how far they are from the limits that they are inside of.
+
+        Returns
+        -------
+        tuple of str
+            One line for each limit: how many of how many points are outside of it, and the worst one.
+        """
+        from swtstudy.records.validity import validity_lines
+
+        return validity_lines(self._dataset, inside)
+
     def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """The figure that the study asks for; a dimension that has been sliced away is left out of it.
 

@@ -98,7 +98,7 @@ MECHANICS = House(
     ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("solver", "worst_means", "quantities", "__init__"),
+        *("margins", "solver", "worst_means", "quantities", "__init__"),
     ),
 )
 

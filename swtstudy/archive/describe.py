@@ -17,6 +17,7 @@ from swtstudy.quantities import DISTANCE
 from swtstudy.records.real import ATTRIBUTE, is_real, is_uncounted, read_contact
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import request_of
+from swtstudy.records.validity import validity_lines
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -38,6 +39,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     yield f"  asked for      rtol {attributes['rtol']:g}"
     yield f"  accurate       {_accuracy(dataset)}"
     yield f"  regimes        {_regimes(dataset)}"
+    for line in validity_lines(dataset, inside=True):
+        yield f"  validity       {line}"
     yield from _runs(dataset)
     yield from _failures(dataset)
     yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
@@ -103,6 +106,9 @@ def _contact(dataset: xr.Dataset) -> Iterator[str]:
         yield f"  units          {', '.join(vars(given.units).values())}"
         for material in dict.fromkeys(given.materials):
             yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"
+        if given.yield_strengths:
+            strengths = ", ".join(f"{each:g}" for each in dict.fromkeys(given.yield_strengths))
+            yield f"  yield strength {strengths} {given.units.stress}"
         if given.materials:
             yield f"  lives          {_counted_words(dataset)}"
 

@@ -7,6 +7,7 @@ import gc
 import logging
 import signal
 import sys
+import warnings
 from typing import Any
 
 import click
@@ -66,7 +67,8 @@ class _Commands(click.Group):
 
 
 def _log_to_terminal() -> None:
-    """Print the package's log messages to the terminal as plain lines."""
+    """Print the package's log messages, and warnings, to the terminal as plain lines."""
+    warnings.showwarning = lambda message, *_, **__: click.echo(f"Warning: {message}", err=True)
     logger = logging.getLogger("swtstudy")
     if not logger.handlers:
         logger.addHandler(logging.StreamHandler())

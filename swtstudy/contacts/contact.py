@@ -15,12 +15,12 @@ from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
-from swtstudy.quantities import DISTANCE, Request, read_quantities
-from swtstudy.solving import solve_grid, spanned
+from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
+from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
@@ -28,6 +28,7 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
 from swtstudy.units.scales import length_of
+from swtstudy.units.sizes import wrong_size
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -256,6 +257,7 @@ class PhysicalContact:
         quantities: Sequence[str] = (),
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
 
@@ -269,6 +271,8 @@ class PhysicalContact:
             One or several lengths, for nonlocal values.
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
+        yield_strength
+            Of both bodies, or a pair: for von_mises and yield_ratio.
 
         Returns
         -------
@@ -296,6 +300,22 @@ class PhysicalContact:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
+        strengths = _of_both(yield_strength, mistakes)
         if mistakes:
             raise StudyError(mistakes)
-        return solve_grid(replace(self.grid, materials=materials), float(rtol), asked)
+        if strengths:
+            asked = replace(asked, names=tuple(dict.fromkeys((*names, YIELD))))
+        grid = replace(self.grid, materials=materials, yield_strengths=strengths)
+        return solve_grid(grid, float(rtol), asked)
+
+
+def _of_both(strength: object, mistakes: list[Mistake]) -> tuple[float, ...]:
+    """The yield strengths of both bodies, none if none is given; what is wrong with them is added."""
+    if strength is None:
+        return ()
+    pair = (strength, strength) if dimensions_of(strength) == 0 else tuple(strength)  # type: ignore[arg-type]
+    wrong = [each for value in pair for each in wrong_size("yield_strength", value, "a positive stress")]
+    if len(pair) != 2:
+        wrong = [Mistake("yield_strength", literal(strength), "one, or a pair, one for each body")]
+    mistakes += dict.fromkeys(wrong)
+    return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))

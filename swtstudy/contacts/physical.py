@@ -14,7 +14,7 @@ from swtstudy.units.reading import Given, read_contacts
 from swtstudy.units.rows import SIMILAR, SIMILAR_KEY
 
 #: What is asked of contacts, not given of them.
-_ASKED = ("rtol", "quantities", DISTANCE, "constants")
+_ASKED = ("rtol", "quantities", DISTANCE, "constants", "yield_strength")
 
 
 def physical(

@@ -21,6 +21,7 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.parameters import PARAMETERS
+from swtstudy.records.validity import validity_lines
 from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
@@ -120,4 +121,5 @@ def _headline(dataset: xr.Dataset) -> str:
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if not math.isfinite(float(dataset.s)):
         found = "$s$ is not finite: swt grows without bound towards the edge"
-    return f"{place_words('profile', profile)},  {',  '.join(values)}\n{found}"
+    lines = [f"{place_words('profile', profile)},  {',  '.join(values)}", found, *validity_lines(dataset)]
+    return "\n".join(lines)

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import no_equilibrium
 from swtstudy.fields.load_and_springs import load_and_springs
+from swtstudy.fields.one_point import read_point
 from swtstudy.figures.figure import Figure
 from swtstudy.figures.force_panels import draw_load_plane
 from swtstudy.figures.inspection_panels import draw_load, draw_springs
@@ -19,7 +20,6 @@ from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mistakes import StudyError
 from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import Control
 from swtstudy.solving import solve
 from swtstudy.wording import axis_words
 
@@ -71,7 +71,7 @@ class LiveFigure:
         over = {"phase": np.union1d(curve[np.abs(curve - phase) > _ROUNDING], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
         if REGIMES[int(solved.regime.sel(phase=phase))] == "no_equilibrium":
-            raise StudyError([no_equilibrium(Control.given(parameters), parameters)])
+            raise StudyError([no_equilibrium(read_point(parameters), parameters)])
         dataset = load_and_springs(**parameters)
         load, springs, over_phase = self.figure.axes
         with styled():

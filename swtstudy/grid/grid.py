@@ -118,8 +118,15 @@ class Grid:
         return canonical_points(columns)
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
-        """Names and dimensions of what results have beside what is asked: that with units."""
-        return {}
+        """Names and dimensions of what results have beside what is asked: margins, and that with units."""
+        return dict.fromkeys(self.margins, self.dims)
+
+    @property
+    def margins(self) -> tuple[str, ...]:
+        """What results say of how far their points are from where the model ends."""
+        pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
+        shift = ("bulk_shift", "bulk_shift_ratio") * pulled
+        return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """The critical distances that are asked, as items, and which of these each point of the grid wants.

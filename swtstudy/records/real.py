@@ -69,6 +69,8 @@ def _text(grid: PhysicalGrid) -> str:
             "materials": [asdict(each) for each in grid.materials],
             "similar": grid.similar,
             "bulk_stress_body": grid.bulk_stress_body,
+            # Archives of studies without stay as they were.
+            **({"yield_strengths": [*grid.yield_strengths]} if grid.yield_strengths else {}),
         }
     )
 
@@ -89,9 +91,18 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+        given = Given(
+            units,
+            materials,
+            float(raw["similar"]),
+            int(raw["bulk_stress_body"]),
+            tuple(map(float, raw.get("yield_strengths", ()))),
+        )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
+    if not pairs.keys() <= {*OF_BODIES} or {len(materials), len(given.yield_strengths)} - {
+        0,
+        len(LABELS),
+    }:
         raise ValueError(f"not a contact: {literal(raw)}")
     return given, pairs

@@ -14,7 +14,7 @@ from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
 from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
 from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
@@ -156,7 +156,11 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
     mistakes += found
-    contacts = read_given(raw, fixed, folder, report)
+    contacts, distance = read_given(raw, fixed, folder, report)
+    if distance is not None:
+        if DISTANCE in {*fixed, *axes}:
+            report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
+        fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
     rows = rows_of(contacts)
     sample, sampled = _sample(raw, folder, known, report, rows)
     places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
@@ -167,6 +171,8 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
 
     distances = read_distances(fixed, axes, keys, report, {**AXES, **rows}[DISTANCE])
     names = read_quantities(raw.get("quantities", []), "quantities", report)
+    if contacts is not None and contacts.yield_strengths:
+        names = tuple(dict.fromkeys((*names, YIELD)))
     asked = Request(names, *distances, counts=contacts is not None and bool(contacts.materials))
     grid: Grid | None
     if contacts is None:

@@ -52,6 +52,8 @@ class PhysicalGrid(Grid):
         0 or 1: the body that carries the bulk stress.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar.
+    yield_strengths
+        Of both bodies; none if they are not given.
     """
 
     units: Units = field(default_factory=Units)
@@ -59,6 +61,7 @@ class PhysicalGrid(Grid):
     materials: tuple[FatigueConstants, ...] = ()
     bulk_stress_body: int = 0
     similar: float = math.inf
+    yield_strengths: tuple[float, ...] = ()
 
     @property
     def labels(self) -> Units:
@@ -73,7 +76,7 @@ class PhysicalGrid(Grid):
     @property
     def about(self) -> dict[str, Any]:
         """What there is to know beside the values of the parameters."""
-        names = ("units", "pairs", "materials", "bulk_stress_body", "similar")
+        names = ("units", "pairs", "materials", "bulk_stress_body", "similar", "yield_strengths")
         return {name: getattr(self, name) for name in names}
 
     @cached_property
@@ -187,7 +190,19 @@ class PhysicalGrid(Grid):
         """See `Grid.made`."""
         from swtstudy.units.variables import dims_of
 
-        return dims_of(self, asked)
+        return super().made(asked) | dims_of(self, asked)
+
+    @property
+    def margins(self) -> tuple[str, ...]:
+        """See `Grid.margins`."""
+        return (*super().margins, *("radius_ratio",) * bool(self.values("radius")))
+
+    @property
+    def curvatures(self) -> NDArray[np.float64]:
+        """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
+        over = self.seats.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+        shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]
+        return np.broadcast_to(over.values.reshape(shape), self.shape).ravel()
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""

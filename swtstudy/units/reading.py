@@ -37,6 +37,7 @@ class Given:
     materials: tuple[FatigueConstants, ...] = ()
     similar: float = SIMILAR
     bulk_stress_body: int = 0
+    yield_strengths: tuple[float, ...] = ()
 
 
 def read_contacts(
@@ -139,7 +140,7 @@ def _differ(grid: PhysicalGrid) -> bool:
     """Whether the two bodies have different s, SWT or cycles."""
     bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
     pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
-    return bool(grid.pairs) or pulled or len({*grid.materials}) > 1
+    return bool(grid.pairs) or pulled or len({*grid.materials}) > 1 or len({*grid.yield_strengths}) > 1
 
 
 def _pairs(
