@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.profile import draw_profile
+    from swtstudy.fitting import fit
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
@@ -39,6 +40,7 @@ __all__ = [
     "__version__",
     "audit_study",
     "draw_profile",
+    "fit",
     "inspect",
     "inspect_point",
     "open_results",
@@ -63,6 +65,7 @@ _HOMES = {
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
     "draw_profile": "swtstudy.figures.profile",
+    "fit": "swtstudy.fitting",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.contacts.contact import PhysicalContact
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
@@ -186,28 +187,42 @@ class SwtAccessor:
 
         return quantity(self._dataset, f"s/s({place})")
 
-    def extrema(self, dim: str) -> xr.Dataset:
-        """Least and greatest s along a dimension, and where they are.
+    def contact(self) -> PhysicalContact:
+        """The contacts of results with units: of one point its stress, its SWT, what happens at it.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if the results have no units.
+        """
+        from swtstudy.contacts.of_results import contact_of
+
+        return contact_of(self._dataset)
+
+    def extrema(self, dim: str, y: str = "s") -> xr.Dataset:
+        """Least and greatest values along a dimension, and where they are.
 
         Parameters
         ----------
         dim
-            A dimension of s.
+            A dimension of the quantity.
+        y
+            The quantity: a data variable, such as "SWT" or "cycles_volume", or "s/s(name=value)".
 
         Returns
         -------
         xarray.Dataset
-            minimum, maximum and ratio (greatest over least) of s, and their places at_minimum and at_maximum,
+            minimum, maximum and ratio (greatest over least), and their places at_minimum and at_maximum,
             over the other dimensions. NaN values are ignored; where all values are NaN, so is the result.
 
         Raises
         ------
         ValueError
-            If s has no such dimension, or the results are empty.
+            If the quantity has no such dimension, or the results are empty.
         """
         from swtstudy.results.extrema import extrema
 
-        return extrema(self._dataset, dim)
+        return extrema(self._dataset, dim, y)
 
     def to_table(self) -> pd.DataFrame:
         """A tidy table: one row per point, one column per parameter or result, flags as words.

@@ -89,7 +89,8 @@ WHOLE = House(
             "runner",
             "results",
         ),
-        *("solving", "optimum", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
+        *("solving", "fitting", "optimum", "fields", "figures", "contacts", "audit", "statements"),
+        *("suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )

@@ -51,7 +51,9 @@ def _parameters(dataset: xr.Dataset) -> Iterator[str]:
         if name == SAMPLE:
             yield f"  sample         {_sample_words(dataset[SAMPLE])}"
         else:
-            yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}{_unit(dataset[name])}"
+            names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ").replace("_", " ")
+            words = names or _axis_words(name, dataset[name].values)
+            yield f"  axis           {name}: {words}{_unit(dataset[name])}"
     for name in (*PARAMETERS, *CONTACT_AXES):
         if name not in dataset.coords or name in dataset.dims:
             continue

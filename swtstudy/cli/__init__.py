@@ -16,6 +16,7 @@ import swtstudy
 from swtstudy.cli.audit import audit
 from swtstudy.cli.check import check
 from swtstudy.cli.examples import examples
+from swtstudy.cli.fit import fit
 from swtstudy.cli.info import info
 from swtstudy.cli.list import list_studies
 from swtstudy.cli.merge import merge
@@ -104,6 +105,7 @@ _COMMANDS = (
     show,
     audit,
     sensitivity,
+    fit,
     list_studies,
     new,
     schema,

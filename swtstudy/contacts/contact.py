@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -33,6 +33,7 @@ from swtstudy.units.sizes import wrong_size
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.contacts.measured import Measured
     from swtstudy.units.bodies import Values
     from swtstudy.units.life import FatigueConstants
 
@@ -285,6 +286,18 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
+        grid, asked = self._with_request(rtol, quantities, critical_distance, constants, yield_strength)
+        return solve_grid(grid, float(rtol), asked)
+
+    def _with_request(
+        self,
+        rtol: object,
+        quantities: Sequence[str],
+        critical_distance: object,
+        constants: object,
+        yield_strength: object,
+    ) -> tuple[PhysicalGrid, Request]:
+        """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
         fixed, axes, mistakes = spanned({} if critical_distance is None else {DISTANCE: critical_distance})
 
         def report(key: str, found: str, allowed: str) -> None:
@@ -294,7 +307,6 @@ class PhysicalContact:
             report("rtol", literal(rtol), ALLOWED_RTOL)
         distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
         names = read_quantities(quantities, "quantities", report)
-        asked = Request(names, *distances, counts=constants is not None)
         materials: tuple[FatigueConstants, ...] = ()
         try:
             materials = () if constants is None else constants_of_both(constants)
@@ -304,9 +316,79 @@ class PhysicalContact:
         if mistakes:
             raise StudyError(mistakes)
         if strengths:
-            asked = replace(asked, names=tuple(dict.fromkeys((*names, YIELD))))
+            names = tuple(dict.fromkeys((*names, YIELD)))
         grid = replace(self.grid, materials=materials, yield_strengths=strengths)
-        return solve_grid(grid, float(rtol), asked)
+        return grid, Request(names, *distances, counts=constants is not None)
+
+    def optimise(
+        self,
+        over: Mapping[str, tuple[object, object]],
+        minimise: str = "SWT",
+        *,
+        rtol: float = DEFAULT_RTOL,
+        seed: int = 0,
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+    ) -> xr.Dataset:
+        """The load, or contact, with the least SWT or the longest life, and the other extreme.
+
+        Parameters
+        ----------
+        over
+            Ranges by name, ``(low, high)``, in your units, of parameters that are numbers; the others are
+            those of this contact.
+        minimise
+            A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
+            best is the longest. Of both bodies, and of both directions, that counts which is worse.
+        rtol, seed
+            As for `swtstudy.optimise`.
+        critical_distance, constants, yield_strength
+            As for `solve`.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of `swtstudy.optimise`, in your units.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        from swtstudy.contacts.optimum import optimum
+
+        self._one  # noqa: B018 – one contact only, or an error
+        grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
+        return optimum(grid, over, minimise, float(rtol), seed, asked)
+
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
+        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
+        from swtstudy.fields.stress import stress_field
+
+        own = self._measured(body)
+        field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
+        return own.with_units(field)
+
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body."""
+        from swtstudy.fields.swt import swt_field
+
+        own = self._measured(body)
+        field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
+        return own.with_units(field, {"s_local": "SWT"})
+
+    def inspect_point(self, body: int = 1) -> xr.Dataset:
+        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+
+        return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+
+    def _measured(self, body: int) -> Measured:
+        """The scales of one body of one contact."""
+        from swtstudy.contacts.measured import Measured
+
+        return Measured(self._one, checked_body(body) - 1, self.grid.labels)
 
 
 def _of_both(strength: object, mistakes: list[Mistake]) -> tuple[float, ...]:

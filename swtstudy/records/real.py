@@ -48,8 +48,16 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
         row = grid.row(name)
         found[name].attrs = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
     if "body" in found.coords:
-        found["body"] = found.body.astype(np.int64).assign_attrs(found.body.attrs)
+        found["body"] = found.body.astype(np.int64).assign_attrs(found.body.attrs | _named(grid))
     return found.assign_attrs({ATTRIBUTE: _text(grid)})
+
+
+def _named(grid: PhysicalGrid) -> dict[str, Any]:
+    """Attributes of the coordinate ``body`` that say what the bodies are called, as flags have it."""
+    if not grid.body_names:
+        return {}
+    meanings = " ".join("_".join(name.split()) for name in grid.body_names)
+    return {"flag_values": np.array(LABELS), "flag_meanings": meanings}
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -71,6 +79,7 @@ def _text(grid: PhysicalGrid) -> str:
             "bulk_stress_body": grid.bulk_stress_body,
             # Archives of studies without stay as they were.
             **({"yield_strengths": [*grid.yield_strengths]} if grid.yield_strengths else {}),
+            **({"body_names": [*grid.body_names]} if grid.body_names else {}),
         }
     )
 
@@ -97,12 +106,11 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
             float(raw["similar"]),
             int(raw["bulk_stress_body"]),
             tuple(map(float, raw.get("yield_strengths", ()))),
+            tuple(map(str, raw.get("body_names", ()))),
         )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    if not pairs.keys() <= {*OF_BODIES} or {len(materials), len(given.yield_strengths)} - {
-        0,
-        len(LABELS),
-    }:
+    several = materials, given.yield_strengths, given.body_names
+    if not pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(raw)}")
     return given, pairs

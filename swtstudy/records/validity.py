@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.records.real import is_real
 from swtstudy.units.variables import LIVES
-from swtstudy.wording import value_words
+from swtstudy.wording import flag_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -184,7 +184,7 @@ def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str,
             continue
         value: Any = dataset[dim].values[number]
         unit = dataset[dim].attrs.get("units", "1")
-        named = value_words(dim, value if isinstance(value, str) else float(value))
+        named = flag_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
         words.append(f"{dim} = {named}" + (f" {unit}" if unit not in ("1", "rad", "") else ""))
     return f" at {', '.join(words)}" if words else ""
 

@@ -138,10 +138,11 @@ class Study:
             raw = parse_toml(text)
         except ValueError as error:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
-        return _study_from(raw, text, source, Path(folder))
+        return study_from(raw, text, source, Path(folder))
 
 
-def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
+def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
+    """The study of the tables of a file; see `Study.from_text`."""
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)

@@ -19,7 +19,7 @@ from swtstudy.study.tables import StudyTable
 from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
 from swtstudy.units.material import KEYS
-from swtstudy.units.rows import OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"
@@ -83,6 +83,7 @@ _FIGURE_DESCRIPTIONS = {
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
 }
+_NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
@@ -150,6 +151,8 @@ def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str,
         }
     similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
     keys["fixed"]["properties"][SIMILAR_KEY] = similar
+    pair = {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 2, "maxItems": 2}
+    keys["fixed"]["properties"][NAMES_KEY] = {"description": _NAMES, **pair}
 
 
 def schema_text() -> str:
@@ -175,7 +178,7 @@ def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:
     limits: dict[str, Any] = {name: _range_of(row) for name, row in given.items() if name not in CONTACT_AXES}
     several: dict[str, Any] = {name: {"items": limit} for name, limit in limits.items()}
     others = dict.fromkeys(CONTACT_AXES, False)
-    fixed = {**limits, **others, SIMILAR_KEY: False}
+    fixed = {**limits, **others, SIMILAR_KEY: False, NAMES_KEY: False}
     return {"fixed": {"properties": fixed}, "axes": {"properties": several | others}}
 
 

@@ -70,6 +70,7 @@ def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
     tables += (f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs)
     tables += [f"yield_strength = {[*grid.yield_strengths]}"] * bool(grid.yield_strengths)
     fixed = [f"{name} = {[*two]}" for name, two in grid.pairs.items()]
+    fixed += [f"bodies = [{', '.join(map(quoted, grid.body_names))}]"] * bool(grid.body_names)
     return tables, [*fixed, f"similar = {grid.similar!r}"]
 
 

@@ -54,6 +54,8 @@ class PhysicalGrid(Grid):
         Largest magnitude of Dundurs' β at which the bodies count as similar.
     yield_strengths
         Of both bodies; none if they are not given.
+    body_names
+        What both are called; none if they are 1 and 2 alone.
     """
 
     units: Units = field(default_factory=Units)
@@ -62,6 +64,7 @@ class PhysicalGrid(Grid):
     bulk_stress_body: int = 0
     similar: float = math.inf
     yield_strengths: tuple[float, ...] = ()
+    body_names: tuple[str, ...] = ()
 
     @property
     def labels(self) -> Units:
@@ -76,7 +79,8 @@ class PhysicalGrid(Grid):
     @property
     def about(self) -> dict[str, Any]:
         """What there is to know beside the values of the parameters."""
-        names = ("units", "pairs", "materials", "bulk_stress_body", "similar", "yield_strengths")
+        names = ("units", "pairs", "materials", "bulk_stress_body", "similar")
+        names += ("yield_strengths", "body_names")
         return {name: getattr(self, name) for name in names}
 
     @cached_property

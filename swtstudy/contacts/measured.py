@@ -1,0 +1,99 @@
+"""What is said of one contact in lengths, forces and stresses: its stress, its SWT, what happens at it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.units.contact import Contact
+from swtstudy.units.labels import Units
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.
+_LENGTHS = {
+    **{"x": "x", "y": "y", "z": "z", "r": "r", "contact_radius": "a", "slip_radius": "c", "shown_x": "x"},
+    **{"permanent_stick_radius": "c", "least_radius": "a", "largest_radius": "a"},
+    "critical_x": "x",
+}
+_STRESSES = {
+    **{f"sigma_{name}": rf"\sigma_{{{name}}}" for name in ("xx", "yy", "zz", "yz", "xz", "xy")},
+    **{"normal_stress": r"\sigma_n", "bulk_stress": r"\sigma_B", "pressure": "p", "traction": "q"},
+}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The scales of one body of one contact.
+
+    Attributes
+    ----------
+    contact
+        The contact at rest.
+    body
+        0 or 1.
+    units
+        Labels.
+    """
+
+    contact: Contact
+    body: int
+    units: Units
+
+    @property
+    def swt(self) -> float:
+        """SWT over s."""
+        return self.contact.swt_scale * self.contact.moduli.swt_share(self.body)
+
+    def scales(self) -> dict[str, tuple[float, str, str]]:
+        """By name of a variable the scale, the kind of its unit, and its symbol."""
+        contact = self.contact
+        found = {name: (contact.length_scale, "length", symbol) for name, symbol in _LENGTHS.items()}
+        found |= {name: (contact.stress_scale, "stress", symbol) for name, symbol in _STRESSES.items()}
+        strain = contact.depth / contact.length_scale * contact.moduli.swt_share(self.body)
+        return found | {
+            "depth": (contact.depth, "length", r"\delta"),
+            "displacement": (contact.slip_scale, "length", "u"),
+            "normal_force": (contact.normal_force, "force", "F_N"),
+            "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
+            "normal_strain": (strain, "1", r"\varepsilon_n"),
+            "s_local": (self.swt, "stress", r"\mathrm{SWT}"),
+            "dissipation": (contact.work_scale, "work", "W"),
+            "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
+        }
+
+    def places(self, **given: Any) -> dict[str, Any]:
+        """Places in lengths as those in a_H that the mechanics is asked for."""
+        import xarray as xr
+
+        return {
+            name: value / self.contact.length_scale
+            if isinstance(value, xr.DataArray | float | int)
+            else np.asarray(value) / self.contact.length_scale
+            for name, value in given.items()
+        }
+
+    def with_units(self, dataset: xr.Dataset, names: Mapping[str, str] | None = None) -> xr.Dataset:
+        """The same in lengths, forces and stresses; some under other names."""
+        scales = self.scales()
+        for name in [str(name) for name in dataset.variables if name in scales]:
+            scale, kind, symbol = scales[name]
+            words = str(dataset[name].attrs.get("long_name", name))
+            attributes = {
+                **dataset[name].attrs,
+                "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
+                "symbol": symbol,
+                "units": "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}",
+            }
+            scaled = dataset[name].variable * scale
+            scaled.attrs = attributes
+            dataset = (
+                dataset.assign_coords({name: scaled})
+                if name in dataset.coords
+                else dataset.assign({name: scaled})
+            )
+        return dataset.rename({old: new for old, new in (names or {}).items() if old in dataset})
