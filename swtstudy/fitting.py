@@ -167,8 +167,9 @@ class _Model:
         """Their derivatives, shape (n, number of parameters)."""
         columns = [self.lives(logarithms)(logarithms[0], 1)]
         if self.with_friction:
-            ends = [self.residuals(logarithms + step) for step in ([0.0, STEP], [0.0, -STEP])]
-            columns.append((ends[0] - ends[1]) / (2.0 * STEP))
+            columns.append(
+                (self.residuals(logarithms + np.array([0.0, STEP])) - self.residuals(logarithms)) / STEP
+            )
         return np.stack(columns, axis=1)
 
 

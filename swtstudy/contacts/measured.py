@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.parameters import PARAMETERS
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
+from swtstudy.units.rows import rows
+from swtstudy.units.scales import SCALES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -96,4 +99,17 @@ class Measured:
                 if name in dataset.coords
                 else dataset.assign({name: scaled})
             )
-        return dataset.rename({old: new for old, new in (names or {}).items() if old in dataset})
+        return self._parameters(dataset).rename(
+            {old: new for old, new in (names or {}).items() if old in dataset}
+        )
+
+    def _parameters(self, dataset: xr.Dataset) -> xr.Dataset:
+        """The same with its parameters as lengths, forces and stresses."""
+        for name, row in rows(self.units).items():
+            scale = PARAMETERS[name].scale if name in PARAMETERS else ""
+            if scale and name in dataset.coords:
+                scaled = dataset[name].variable * SCALES[scale].of(self.contact)
+                units = row.units or f"unit of {SCALES[scale].kind}"
+                scaled.attrs = {**dataset[name].attrs, "symbol": row.symbol, "units": units}
+                dataset = dataset.assign_coords({name: scaled})
+        return dataset

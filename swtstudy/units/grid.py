@@ -79,8 +79,10 @@ class PhysicalGrid(Grid):
     @property
     def about(self) -> dict[str, Any]:
         """What there is to know beside the values of the parameters."""
-        names = ("units", "pairs", "materials", "bulk_stress_body", "similar")
-        names += ("yield_strengths", "body_names")
+        names = (
+            *("units", "pairs", "materials", "bulk_stress_body", "similar"),
+            *("yield_strengths", "body_names"),
+        )
         return {name: getattr(self, name) for name in names}
 
     @cached_property
