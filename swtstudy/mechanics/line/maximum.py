@@ -27,8 +27,6 @@ SHARES = 0.97, 0.995, 0.999
 LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
 PART_SIZE = 100_000
-#: Least error that is claimed, as a share of the tolerance. Half: none of 128 points misses s_error.
-LEAST_SHARE = 0.25
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
 #: sharp tip, lost contact and large friction miss s_error.
 SLOWNESS = 3.0
@@ -186,5 +184,5 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
     swt = value[best, 0]
     error = np.abs(swt - climb.top[best]) + climb.remaining[best]
     # Nothing finer than this was looked at.
-    error = np.maximum(error, LEAST_SHARE * accuracy.tolerance * swt)
+    error = np.maximum(error, accuracy.tolerance * swt)
     return Maximum(swt, error, climb.side[best] * r[best, 0], angle[best, 0])
