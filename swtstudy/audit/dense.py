@@ -11,7 +11,6 @@ import numpy as np
 
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.line.positions import cusps
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -71,8 +70,8 @@ def _highest(
     for part in (slice(first, first + size) for first in range(0, r.size, size)):
         history = scene.planes(Look.at(scene, r[None, part], count, DIGITS).history, side)
         for angle in angles:
-            of_swt = curves(*history.on_plane(np.full((1, r[part].size), angle)))
-            value = of_maxima(*(curve.max(axis=-1) for curve in of_swt), walker=history.walker)[0]
+            of_swt = history.criterion.curves(*history.on_plane(np.full((1, r[part].size), angle)))
+            value = history.criterion.of_maxima(*(curve.max(axis=-1) for curve in of_swt))[0]
             best[part] = np.where(value > swt[part], angle, best[part])
             swt[part] = np.maximum(value, swt[part])
     return swt, best

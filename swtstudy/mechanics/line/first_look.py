@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -90,8 +89,8 @@ def _seen(
     highest = swt.copy()
     at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))
     some = planes.take(*at)
-    of_swt = curves(*some.on_plane(angle[at]))
-    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt), walker=some.walker)
+    of_swt = some.criterion.curves(*some.on_plane(angle[at]))
+    highest[at] = some.criterion.of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
     return swt, angle, highest
 
 
