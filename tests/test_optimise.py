@@ -16,7 +16,7 @@ OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 
 
 def kinked(points, rtol):
-    """A valley with a sharp bottom that runs askew, lowest at the largest amplitude and 2 % higher at none."""
+    """A sharp valley that runs askew, lowest at the largest amplitude and hardly higher at none."""
     bottom = 2.0 + 0.8 * points.normal_amplitude
     s = 0.15 + 0.05 * abs(points.phase - bottom) - 0.05 * (points.normal_amplitude - 0.4) ** 2
     return replace(stand_in.smooth(points, rtol), s=s, s_surface=s)

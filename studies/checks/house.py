@@ -1,7 +1,7 @@
 """Size of the package by rooms: what somebody has to find their way through.
 
-``python studies/checks/house.py [folder] > results/house.txt``. The folder, this one unless given, is one that
-holds ``swtstudy``, such as an older state of it: both tables side by side say what a change has done.
+``python studies/checks/house.py [folder] > results/house.txt``. The folder, this one unless given, is one
+that holds ``swtstudy``, such as an older state of it: both tables together say what a change has done.
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ def main() -> None:
         rooms.setdefault(room_of(name), Counter()).update(counts(path))
     whole = sum(rooms.values(), Counter())
     print("".join([f"{'room':<16}", *(f"{column:>15}" for column in COLUMNS), f"{'share':>8}"]))
-    for room, count in sorted(rooms.items(), key=lambda item: -item[1]["code lines"]) + [("all", whole)]:
+    largest_first = sorted(rooms.items(), key=lambda item: -item[1]["code lines"])
+    for room, count in [*largest_first, ("all", whole)]:
         share = count["code lines"] / whole["code lines"]
         print("".join([f"{room:<16}", *(f"{count[column]:>15,}" for column in COLUMNS), f"{share:>8.1%}"]))
     found = arrows(files)
@@ -64,12 +65,14 @@ def counts(path: Path) -> Counter[str]:
     found = Counter(dict.fromkeys(COLUMNS, 0))
     found["files"] = 1
     found["code lines"] = len(code_lines(text, tree))
+    inside = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             found["functions"] += 1
-            found["imports inside"] += sum(imports_of_package(each) for each in ast.walk(node))
+            inside |= {each for each in ast.walk(node) if imports_of_package(each)}
         if isinstance(node, ast.ClassDef):
             found["dataclasses"] += any("dataclass" in ast.unparse(each) for each in node.decorator_list)
+    found["imports inside"] = len(inside)
     found["tuned numbers"] = sum(len(numbers_in(node)) for node in tree.body)
     return found
 
