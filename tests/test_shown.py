@@ -38,8 +38,11 @@ NAMES = sorted(
 )
 #: Blocks that the build of the pages makes of files; CI builds them, and their files are tested elsewhere.
 BUILT = {"{include}", "{literalinclude}", "{figure}", "{toctree}", "{eval-rst}"}
-#: A hundred points of an audit are some ten seconds.
-FEWER = {"swtstudy audit figure3 --points 100": "swtstudy audit figure3 --points 2"}
+#: A hundred points of an audit are some ten seconds, a thousand with dense looks an hour.
+FEWER = {
+    "swtstudy audit figure3 --points 100": "swtstudy audit figure3 --points 2",
+    "swtstudy audit figure3 --dense": "swtstudy audit figure3 --dense --points 2",
+}
 
 
 @pytest.fixture(scope="module")
