@@ -125,6 +125,7 @@ def test_the_same_seed_gives_the_same_to_the_bit(monkeypatch):
     assert one.friction.values.tolist() == [0.1, 0.2]
 
 
+@pytest.mark.slow
 def test_another_quantity():
     found = optimise(over={"friction": (0.1, 0.5)}, minimise="critical_x", rtol=1e-2)
     grid = swtstudy.solve(friction=np.linspace(0.1, 0.5, 21), rtol=1e-2)
