@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -21,8 +22,9 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
+from swtstudy.units.bodies import LABELS
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.labels import Units
+from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
@@ -226,3 +228,27 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
                 found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
                 report(", ".join(map(keys, OF_BODIES)), found, allowed)
                 return
+
+
+def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
+    """What the attribute of results says: see `swtstudy.units.grid.PhysicalGrid`.
+
+    Raises
+    ------
+    ValueError
+        With the reason, if it cannot be read.
+    """
+    try:
+        raw: Any = json.loads(str(text))
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    try:
+        units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
+        pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
+        materials = tuple(FatigueConstants(**each) for each in raw["materials"])
+        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+    except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
+        raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
+    if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
+        raise ValueError(f"not a contact: {literal(raw)}")
+    return given, pairs
