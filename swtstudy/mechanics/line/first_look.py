@@ -36,6 +36,8 @@ OTHER_PLANE = 0.08
 #: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
 #: what is looked at stays in the processor's cache.
 LOOK_SIZE = 32_000
+#: Positions of a point that are looked at together at least, however many intervals its cycle has.
+LEAST_PART = 16
 
 
 @dataclass(frozen=True)
@@ -144,21 +146,36 @@ def _predicted(values: FloatArray) -> FloatArray:
     return np.concatenate([first, inner, last], axis=1) / 16.0
 
 
-def look_at(scene: Scene, pieces: Pieces, piece: NDArray[np.intp], share: FloatArray) -> Seen:
+def look_at(
+    scene: Scene,
+    pieces: Pieces,
+    piece: NDArray[np.intp],
+    share: FloatArray,
+    resolution: Resolution = RESOLUTION,
+) -> Seen:
     """Look at shares of the angle of pieces, (m,) each, the pieces in ascending order."""
     point, r = pieces.point[piece], pieces.radius(piece, np.pi * share)
-    count = np.bincount(point, minlength=len(scene))
     found = Seen(*np.empty((3, point.size, 1 if scene.mirrored_half else 2)))
-    # Points with as many positions together: rows are as long as the longest.
-    left = np.argsort(-count, kind="stable")[: np.count_nonzero(count)]
+    intervals = scene.cycle.begin.shape[1]
+    owner, part = _parts(point, max(LOOK_SIZE // intervals, LEAST_PART))
+    count = np.bincount(part)
+    # Parts with as many positions together: rows are as long as the longest.
+    left = np.argsort(-count, kind="stable")
     while left.size:
-        size = max(LOOK_SIZE // (count[left[0]] * scene.cycle.begin.shape[1]), 1)
+        size = max(LOOK_SIZE // (count[left[0]] * intervals), 1)
         rows, left = left[:size], left[size:]
-        index, real = as_rows(point, rows)
-        look = first_look(scene.take(rows), r[index], RESOLUTION, PLANES)
+        index, real = as_rows(part, rows)
+        look = first_look(scene.take(owner[rows]), r[index], resolution, PLANES)
         for values, seen in zip(vars(found).values(), vars(look).values(), strict=True):
             values[index[real]] = seen[real]
     return found
+
+
+def _parts(point: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The positions of points, (m,) ascending, in parts of so many at most: of whom each is, and which."""
+    number = np.arange(point.size) - np.searchsorted(point, point)
+    first = number % most == 0
+    return point[first], np.cumsum(first) - 1
 
 
 def high_positions(
@@ -177,14 +194,14 @@ def high_positions(
         np.maximum.at(largest, point, seen.swt.max(axis=1))
         least = largest
     enough = least[point][:, None]
-    chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
-    chosen |= _peaks(point, seen.highest) & (seen.highest >= enough)
-    chosen |= _flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
+    chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
+    chosen |= peaks(point, seen.highest) & (seen.highest >= enough)
+    chosen |= flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
     place, side = np.nonzero(chosen)
     return place, side
 
 
-def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
+def flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     """Which positions, (m, sides), have a higher neighbour on another plane."""
     angle, swt = seen.double_angle, seen.swt
     turn = apart(np.diff(angle, axis=0)) > OTHER_PLANE
@@ -195,7 +212,7 @@ def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     return flank
 
 
-def _peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
+def peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
     """Local maxima of values, (m, sides), at the positions of points, (m,); of equal ones the first."""
     same = (np.diff(point) == 0)[:, None]
     peak = np.ones(values.shape, dtype=bool)

@@ -12,6 +12,7 @@ from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Resolution
+from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
@@ -79,7 +80,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     Points that miss the tolerance are climbed to once more with twice the instants and more rounds.
     """
     split = scene.split_at_breakpoints()
-    positions, seen = resolved(scene, Pieces.of(split))
+    positions, seen = resolved(scene, joined_pieces(scene, Pieces.of(split)))
     start = Climb.start(split, positions, seen, accuracy.search)
     found = _climbed(split, positions, start, accuracy)
     doubtful = np.flatnonzero(found.error > accuracy.tolerance * found.swt)
