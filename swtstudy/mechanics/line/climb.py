@@ -80,7 +80,8 @@ class Climb:
         if least is None:
             least = np.zeros(len(scene))
             np.maximum.at(least, point, swt)
-        high = swt >= (1.0 - SHARE) * least[point]
+        # Positions that were predicted by half of them leave less than half of the share.
+        high = swt >= (1.0 - 0.5 * SHARE) * least[point]
         row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
         heights = zero, zero + FIRST_WIDTH, zero, zero, zero
         return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)

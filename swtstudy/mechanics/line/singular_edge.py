@@ -31,7 +31,7 @@ from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum, reach_of_edge
+from swtstudy.mechanics.line.maximum import Maximum, reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.through_y import climb_over_planes
@@ -146,7 +146,7 @@ def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
             value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
-            error = change + (LEFT_OUT + LEAST_SHARE * accuracy.tolerance) * value
+            error = change + (LEFT_OUT + accuracy.tolerance) * value
             larger = value > found.swt
             found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
     return found
