@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from swtstudy.archive.open import open_results
     from swtstudy.audit.audit import audit_study
     from swtstudy.contacts.physical import physical
-    from swtstudy.fields.history import swt_of_history
+    from swtstudy.fields.history import criterion_of_history, swt_of_history
     from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
@@ -39,6 +39,7 @@ __all__ = [
     "TabulatedProfile",
     "__version__",
     "audit_study",
+    "criterion_of_history",
     "draw_profile",
     "inspect",
     "inspect_point",
@@ -64,6 +65,7 @@ _HOMES = {
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
+    "criterion_of_history": "swtstudy.fields.history",
     "draw_profile": "swtstudy.figures.profile",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",

@@ -24,8 +24,9 @@ from swtstudy.mechanics.points import FloatArray
 #: Lines in the plane of which a look at many planes takes the one with the largest swing, and from which the
 #: largest chord is looked for: 2 and 0.5 % of it may be missed.
 COARSE_LINES, LINES = 8, 16
-#: A swing below this has no line.
-NO_SWING = 1e-150
+#: A swing below this has no line, and below this share of the change of the stress no direction in which it
+#: rises.
+NO_SWING, NO_SHARE = 1e-100, 1e-9
 
 
 class Swing(ABC):
@@ -154,7 +155,9 @@ class ShearStress(Swing):
         # The square of a is nᵀ Δ² n − (nᵀ Δ n)².
         normal, whole = apply_jets(jets, change), apply_jets(jets, squared(change))
         square = whole - 2.0 * normal[:, :1] * normal
-        square[:, 0] = np.maximum(whole[:, 0] - normal[:, 0] ** 2, NO_SWING**2)
+        # Where nothing swings it has a tip.
+        least = NO_SWING**2 + NO_SHARE**2 * (change * change).sum(axis=1)
+        square[:, 0] = np.maximum(whole[:, 0] - normal[:, 0] ** 2, least)
         one, two = [1, 2, 1], [1, 2, 2]
         square[:, 3:] -= 2.0 * normal[:, one] * normal[:, two]
         a = np.sqrt(square[:, :1])
