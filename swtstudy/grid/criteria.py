@@ -7,6 +7,7 @@ from typing import Any
 
 from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SHARP, SWT
 from swtstudy.mistakes import Report
+from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
 
 
@@ -26,22 +27,25 @@ def check_criteria(
     fixed, along
         Sound values.
     """
-    names, criteria = set(given), [*along.get("criterion", (fixed.get("criterion", SWT),))]
-    others = [name for name in dict.fromkeys(criteria) if name != SWT]
+    defaults = {name: row.default for name, row in PARAMETERS.items()}
+
+    def values(name: str) -> Sequence[Any]:
+        return along.get(name, (fixed.get(name, defaults[name]),))
+
+    names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
     if not others:
-        if "normal_sensitivity" in names:
-            found = "a value with the criterion swt"
+        if any(values("normal_sensitivity")):
+            found = f"a value with the criterion {SWT}"
             report(keys("normal_sensitivity"), found, f"it with {FATEMI_SOCIE} or {FINDLEY}")
         return
+    criteria = f"with the criterion {', '.join(others)}"
     if "normal_sensitivity" not in names:
-        report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 with the criterion {', '.join(others)}")
-    if "walker_exponent" in names:
-        found = f"a value with the criterion {', '.join(others)}"
-        report(keys("walker_exponent"), found, f"it with {SWT} alone")
+        report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
+    if any(value != defaults["walker_exponent"] for value in values("walker_exponent")):
+        report(keys("walker_exponent"), f"a value {criteria}", f"it with {SWT} alone")
     if DISTANCE in names:
-        found = f"a value with the criterion {', '.join(others)}"
-        report(keys(DISTANCE), found, f"it with {SWT} alone: means of others are not computed")
-    profiles = map(str, along.get("profile", (fixed.get("profile"),)))
-    if SHARP in profiles:
+        why = "means of others are not computed"
+        report(keys(DISTANCE), f"a value {criteria}", f"it with {SWT} alone: {why}")
+    if SHARP in map(str, values("profile")):
         why = "next to its edge the stress has no bound, and where these are finite is not known"
-        report(keys("profile"), f"{SHARP} with the criterion {', '.join(others)}", f"another one: {why}")
+        report(keys("profile"), f"{SHARP} {criteria}", f"another one: {why}")
