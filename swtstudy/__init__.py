@@ -30,10 +30,12 @@ if TYPE_CHECKING:
     from swtstudy.study.signal import read_signal
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
+    from swtstudy.units.shear_life import ShearConstants
 
 __all__ = [
     "FatigueConstants",
     "LoadPath",
+    "ShearConstants",
     "Study",
     "StudyError",
     "TabulatedProfile",
@@ -61,6 +63,7 @@ __all__ = [
 _HOMES = {
     "FatigueConstants": "swtstudy.units.life",
     "LoadPath": "swtstudy.mechanics.load.load_path",
+    "ShearConstants": "swtstudy.units.shear_life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",

@@ -289,3 +289,18 @@ def test_half_a_period_later_it_is_mirrored(name: str) -> None:
     turned = solution(points(phase=[0.7, 0.7 + 2 * np.pi], q=2, p=1, tangential_amplitude=0.7), name)
     assert turned.s[0] == pytest.approx(turned.s[1], rel=1e-6)
     assert found.s[0] != pytest.approx(found.s[1], rel=1e-3)
+
+
+def test_lives_of_shear() -> None:
+    """Both ways, and each term alone where it rules."""
+    tensile = swtstudy.FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
+    own = swtstudy.ShearConstants.estimated(tensile, 0.25)
+    cycles = np.array([1.0, 1e3, 1e5, 1e7])
+    expected = 1000.0 / np.sqrt(3.0) / 80e3 * (2 * cycles) ** -0.1 + np.sqrt(3.0) * 0.5 * (2 * cycles) ** -0.6
+    np.testing.assert_allclose(own.parameter(cycles), expected, rtol=1e-12)
+    np.testing.assert_allclose(own.cycles(expected), cycles, rtol=1e-9)
+    assert own.cycles(0.0) == np.inf
+    with pytest.raises(ValueError, match="strength: found 0"):
+        swtstudy.ShearConstants(80e3, 0.0, -0.1, 0.5, -0.6)
+    with pytest.raises(ValueError, match="poisson_ratio: found 2"):
+        swtstudy.ShearConstants.estimated(tensile, 2.0)
