@@ -13,6 +13,7 @@ from scenes import plane_points, points, random_plane_points, random_points, tak
 
 import swtstudy
 from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
@@ -304,3 +305,17 @@ def test_lives_of_shear() -> None:
         swtstudy.ShearConstants(80e3, 0.0, -0.1, 0.5, -0.6)
     with pytest.raises(ValueError, match="poisson_ratio: found 2"):
         swtstudy.ShearConstants.estimated(tensile, 2.0)
+
+
+def test_the_circle_knows_planes_that_do_not_hold_the_y_axis() -> None:
+    """At ν = 0 a sphere shears more beside the line, between x and y, than on it."""
+    own = points(poisson_ratio=0.02, friction=0.2, normal_amplitude=0.0, tangential_amplitude=0.5)
+    own = of_criterion(own, "fatemi_socie", 1.5)
+    line, scene = solve_points(own, 1e-4), scene_of(own)
+    angle = np.linspace(0.0, 0.2, 21)
+    nodes = time_nodes(scene, 12, [1.0])
+    x = line.critical_x[0]
+    found = Body(scene, nodes, 60).swt(x * np.cos(angle), np.sin(angle), 0.0)
+    assert found.swt.max() > 1.02 * line.s[0]
+    assert np.abs(found.normal[found.swt.argmax(), 1]) > 0.5
+    assert line.s_surface[0] == pytest.approx(found.swt.max(), rel=1e-3)
