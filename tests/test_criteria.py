@@ -312,7 +312,7 @@ def test_the_circle_knows_planes_that_do_not_hold_the_y_axis() -> None:
     own = points(poisson_ratio=0.02, friction=0.2, normal_amplitude=0.0, tangential_amplitude=0.5)
     own = of_criterion(own, "fatemi_socie", 1.5)
     line, scene = solve_points(own, 1e-4), scene_of(own)
-    angle = np.linspace(0.0, 0.2, 21)
+    angle = np.linspace(0.0, 0.5 * np.pi, 65)
     nodes = time_nodes(scene, 12, [1.0])
     x = line.critical_x[0]
     found = Body(scene, nodes, 60).swt(x * np.cos(angle), np.sin(angle), 0.0)
