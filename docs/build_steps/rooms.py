@@ -64,6 +64,7 @@ WHOLE = House(
     (
         "parameter",
         "families",
+        "criteria",
         "parameters",
         "prescribed",
         "axes",

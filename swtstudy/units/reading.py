@@ -8,7 +8,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.families import is_plane
+from swtstudy.grid.criteria import check_criteria
 from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
@@ -74,6 +76,8 @@ def read_contacts(
     along = good_axes | good_samples
     _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
     check_amplitudes(good_fixed, along, keys, report)
+    check_criteria(everything, good_fixed, along, keys, report)
+    _check_units_of_criteria(good_fixed, along, bool(given.materials), keys, report)
     check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
     if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, mistakes
@@ -85,6 +89,23 @@ def read_contacts(
     if not mistakes:
         check_contacts(grid, keys, report)
     return (None if mistakes else grid), mistakes
+
+
+def _check_units_of_criteria(
+    fixed: Mapping[str, Value],
+    along: Mapping[str, tuple[Value, ...]],
+    lives: bool,
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Criteria that contacts with units do not have, and those that have no life."""
+    criteria = along.get("criterion", (fixed.get("criterion", SWT),))
+    if FATEMI_SOCIE in criteria:
+        allowed = f"{SWT} or {FINDLEY}; without units, {FATEMI_SOCIE} too"
+        report(keys("criterion"), f"{FATEMI_SOCIE} in a study with units", allowed)
+    if FINDLEY in criteria and lives:
+        allowed = "none: the Findley stress is compared with a limit, and has no life"
+        report("material", f"constants with the criterion {FINDLEY}", allowed)
 
 
 def completed(

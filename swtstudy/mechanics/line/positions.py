@@ -102,7 +102,7 @@ class Pieces:
     @classmethod
     def of(cls, split: Scene) -> Pieces:
         """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
-        ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
+        ends = cusps(split.cycle, split.coordinate, split.critical_everywhere)
         return cls.between(ends, split.profile.feature_length)
 
     @classmethod
