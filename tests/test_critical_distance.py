@@ -10,6 +10,7 @@ import stand_in
 import xarray as xr
 from asking import EVERY, study
 from click.testing import CliRunner
+from real import ALLOY
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
@@ -220,16 +221,10 @@ def test_archives_with_damaged_quantities_are_refused(
 def test_a_mean_far_beyond_the_contact_is_not_negative(tmp_path):
     """ℓ = 30 µm typed in mm: the mean over 30 mm is almost 0, and interpolation may be below that."""
     study = Study.from_text(
-        """
+        f"""
 title = "A distance in the wrong unit"
 rtol = 1e-3
-units = { length = "mm", force = "N", stress = "MPa" }
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73e3
 poisson_ratio = 0.33
 radius = 50

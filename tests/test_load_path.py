@@ -298,7 +298,10 @@ vertices = {}
         ('file = "few.csv"', r"loads.mine.file: found the columns time, normal .*; allowed: a header with"),
         ('file = "hole.csv"', r"loads.mine.file: found nothing .*line 3, tangential\)"),
         ('file = "nan.csv"', r"loads.mine.file: found 'nan' .*line 3, tangential\)"),
-        ('file = "long.csv"', r"loads.mine.file: found more than 100000 rows"),
+        (
+            'file = "long.csv"',
+            r"loads.mine.file: found 120000 vertices .*; allowed: at most 2000; .*recorded_cycles",
+        ),
         ("normal = [[1, 1, 0]]", "loads.mine: found normal; allowed: vertices, file, or normal and"),
         (
             "normal = [[1, 1, 0]]\ntangential = [[0.5, 1, 0]]",
