@@ -114,7 +114,7 @@ MODULES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
 def imported(path: Path, types: bool = False) -> set[str]:
-    """Modules of the package that a file imports when it runs, anywhere in it; for its types, too, if wanted."""
+    """Modules of the package that a file imports when it runs, anywhere in it; or also for its types."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
         if (
