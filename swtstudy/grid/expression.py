@@ -6,6 +6,7 @@ import ast
 import math
 import operator
 import re
+from collections.abc import Callable
 from fractions import Fraction
 
 #: Bounds the depth of the parser's recursion and the size of its exact integers.
@@ -13,7 +14,7 @@ LONGEST_EXPRESSION = 80
 
 _NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _WRITTEN = re.compile(rf"\s*(?:(?:{_NUMBER}|pi|π|sqrt|[-+*/()])\s*)*")
-_OPERATORS = {
+_OPERATORS: dict[type[ast.AST], Callable[..., Fraction | float]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
