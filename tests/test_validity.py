@@ -181,7 +181,7 @@ def test_a_whole_grid_without_a_value_says_why():
     apart = swtstudy.solve(rtol=1e-2, normal_force_amplitude=1.0, tangential_force_amplitude=0.2, phase=1)
     assert "while the normal force is 0" in validity_lines(apart)[0]
     sharp = swtstudy.solve(rtol=1e-2, profile="truncated_paraboloid", flat_radius=0.5, friction=2.0)
-    assert validity_lines(sharp) == ("the point is not finite: SWT grows without bound towards an edge",)
+    assert validity_lines(sharp) == ("the point is not finite: swt grows without bound towards an edge",)
 
 
 def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):

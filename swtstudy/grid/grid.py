@@ -23,6 +23,8 @@ from swtstudy.prescribed import Control, replaced_by
 from swtstudy.quantities import Request, item_of
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from swtstudy.mechanics.points import FloatArray, IntArray
 
 
@@ -127,6 +129,15 @@ class Grid:
         pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
         shift = ("bulk_shift", "bulk_shift_ratio") * pulled
         return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
+
+    @property
+    def curvatures(self) -> FloatArray:
+        """a_H/R of each point, NaN where no length is known; shape (size,)."""
+        return np.full(self.size, np.nan)
+
+    def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
+        """Results as users see them, with units if the grid has some."""
+        return dataset
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """The critical distances that are asked, as items, and which of these each point of the grid wants.

@@ -10,7 +10,6 @@ from swtstudy.grid.canonical import points_from
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.margins import Margins
-from swtstudy.units.grid import PhysicalGrid
 
 
 def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
@@ -32,6 +31,6 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": ratio,
         }
-    if isinstance(grid, PhysicalGrid) and "radius_ratio" in names:
+    if "radius_ratio" in names:
         found["radius_ratio"] = radius * grid.curvatures
     return {name: found[name] for name in names}

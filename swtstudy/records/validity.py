@@ -11,8 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.records.real import is_real
-from swtstudy.units.variables import LIVES
+from swtstudy.records.requested import has_units
 from swtstudy.wording import flag_words
 
 #: Strain–life constants are known for lives between these.
@@ -77,7 +76,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
             lines.append(f"{_count(out)} {limit.words}: {worst}{_place(dataset, values)}")
         elif np.isfinite(values).any():
             within.append(f"{limit.value} up to {_number(np.nanmax(values))}, within {limit.largest:g}")
-    if is_real(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
+    if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
         words = "without a yield_strength nothing says whether that yields"
         within.append(f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";"))
@@ -104,7 +103,7 @@ def _without_s(dataset: xr.Dataset) -> Iterator[str]:
         yield f"{_count(lost)} in no equilibrium{_lacking(dataset, lost)}"
     infinite = computed & (state == REGIMES.index("not_finite"))
     if infinite.any():
-        yield f"{_count(infinite)} not finite: SWT grows without bound towards an edge"
+        yield f"{_count(infinite)} not finite: swt grows without bound towards an edge"
 
 
 def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
@@ -147,8 +146,8 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
 
 def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
     """Lives of the points, the shortest over what each has several of, in the shape of s."""
-    for name in LIVES:
-        if is_real(dataset) and name in dataset:
+    for name in map(str, dataset.data_vars):
+        if has_units(dataset) and name.partition("_")[0] == "cycles":
             own = [dim for dim in dataset[name].dims if dim not in dataset.s.dims]
             yield name, dataset[name].min(own).transpose(*dataset.s.dims).values
 
