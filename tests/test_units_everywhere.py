@@ -2,12 +2,16 @@
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
+from matplotlib.figure import Figure
 from real import ALUMINIUM
 
 import swtstudy
 from swtstudy import Study, StudyError, physical
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
+from swtstudy.cli import main
+from swtstudy.contacts.measured import InUnits
 from swtstudy.study.writing import to_toml
 
 RIG = {
@@ -174,3 +178,41 @@ def test_wrong_names_are_refused(bodies):
 def test_names_in_python():
     contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"))
     assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
+
+
+def test_a_contact_is_drawn_in_its_units(rig):
+    axes = rig.inspect(body=2).axes
+    plane = next(each for each in axes if "load plane" in each.get_title("left"))
+    assert plane.get_xlabel() == "$F_x$ (unit of force)"
+    ticks = [float(label.get_text().replace("−", "-")) for label in plane.get_xticklabels()]
+    # Where 50 is written there are 50 of the 100 that friction bears.
+    np.testing.assert_allclose(plane.get_xticks(), np.array(ticks) / 100.0)
+    assert 50.0 in ticks
+
+
+def test_the_command_shows_a_study(tmp_path, monkeypatch):
+    file = tmp_path / "pad.toml"
+    file.write_text(STUDY, encoding="utf-8")
+    picture = tmp_path / "pad.png"
+    given = ["show", "--study", str(file), "-o", str(picture)]
+    done = CliRunner().invoke(main, given)
+    assert done.exit_code == 2
+    assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
+    shown = {}
+
+    def inspect(contact, body, style, width):
+        shown.update(contact.parameters(body), body=body)
+        return Figure()
+
+    monkeypatch.setattr(InUnits, "inspect", inspect)
+    done = CliRunner().invoke(
+        main, [*given, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2"]
+    )
+    assert done.exit_code == 0, done.stderr
+    assert picture.exists()
+    assert (shown["phase"], shown["body"]) == (np.pi / 2, 2)
+    assert "tangential_amplitude" in shown
+    plain = tmp_path / "plain.toml"
+    plain.write_text('title = "t"', encoding="utf-8")
+    done = CliRunner().invoke(main, ["show", "--study", str(plain)])
+    assert "a study without units; allowed: one with [units]" in done.stderr

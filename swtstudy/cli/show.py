@@ -18,17 +18,24 @@ from swtstudy.parameters import PARAMETERS
         "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
         "swtstudy show --profile rounded_punch --flat-radius 0.5",
         "swtstudy show --profile worn.csv",
+        "swtstudy show --study rig.toml --tangential-force-amplitude 60",
     )
 )
 @with_parameters("VALUE")
+@click.option("--study", metavar="FILE", help="A study with units: its contact, and options in its units.")
+@click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Of that study.")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 @with_width
-def show(output: str, style: str | None, width: Any, **texts: str | None) -> None:
+def show(
+    output: str, style: str | None, width: Any, study: str | None, body: int, **texts: str | None
+) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
     CSV file with the columns radius and height, in a_H and δ0.
+
+    With --study it is drawn in that study's units, with single values of what are axes there.
 
     The figures are those of swtstudy.inspect and swtstudy.draw_profile in Python.
 
@@ -40,6 +47,15 @@ def show(output: str, style: str | None, width: Any, **texts: str | None) -> Non
     from swtstudy.files import check_writable
     from swtstudy.study.profile_tables import table_from
 
+    if study is not None:
+        from swtstudy.contacts.of_results import contact_of_study
+
+        values = {name: text for name, text in texts.items() if text is not None}
+        of_study = contact_of_study(study, values).inspect(body, style, width)
+        check_writable(output)
+        save_figure(of_study, output, style)
+        click.echo(output)
+        return
     parameters: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     if Path(str(parameters.get("profile"))).suffix == ".csv":
         parameters["profile"] = table_from(Path(str(parameters["profile"])))

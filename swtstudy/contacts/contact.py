@@ -11,30 +11,36 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.contacts.measured import InUnits, Measured
 from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
-from swtstudy.solving import dimensions_of, solve_grid, spanned
-from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
+from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.bodies import (
+    bodies_of,
+    checked_body,
+    constants_of_both,
+    cycles_from,
+    strengths_of_both,
+    swt_from,
+)
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
 from swtstudy.units.scales import length_of
-from swtstudy.units.sizes import wrong_size
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.contacts.measured import Measured
     from swtstudy.units.bodies import Values
     from swtstudy.units.life import FatigueConstants
 
@@ -52,7 +58,7 @@ def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedPr
 
 
 @dataclass(frozen=True, repr=False)
-class PhysicalContact:
+class PhysicalContact(InUnits):
     """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
 
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
@@ -316,7 +322,7 @@ class PhysicalContact:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
-        strengths = _of_both(yield_strength, mistakes)
+        strengths = strengths_of_both(yield_strength, mistakes)
         if mistakes:
             raise StudyError(mistakes)
         if strengths:
@@ -366,42 +372,6 @@ class PhysicalContact:
         grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
         return optimum(grid, over, minimise, float(rtol), seed, asked)
 
-    def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
-        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
-        from swtstudy.fields.stress import stress_field
-
-        own = self._measured(body)
-        field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
-        return own.with_units(field)
-
-    def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
-        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body."""
-        from swtstudy.fields.swt import swt_field
-
-        own = self._measured(body)
-        field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
-        return own.with_units(field, {"s_local": "SWT"})
-
-    def inspect_point(self, body: int = 1) -> xr.Dataset:
-        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
-        from swtstudy.fields.inspection import inspect_point
-
-        return self._measured(body).with_units(inspect_point(**self.parameters(body)))
-
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
-        from swtstudy.contacts.measured import Measured
-
         return Measured(self._one, checked_body(body) - 1, self.grid.labels)
-
-
-def _of_both(strength: object, mistakes: list[Mistake]) -> tuple[float, ...]:
-    """The yield strengths of both bodies, none if none is given; what is wrong with them is added."""
-    if strength is None:
-        return ()
-    pair = (strength, strength) if dimensions_of(strength) == 0 else tuple(strength)  # type: ignore[arg-type]
-    wrong = [each for value in pair for each in wrong_size("yield_strength", value, "a positive stress")]
-    if len(pair) != 2:
-        wrong = [Mistake("yield_strength", literal(strength), "one, or a pair, one for each body")]
-    mistakes += dict.fromkeys(wrong)
-    return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,10 @@ from swtstudy.units.scales import SCALES
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
+
+    from swtstudy.figures.sheet import Width
+    from swtstudy.figures.style import Style
 
 #: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.
 _LENGTHS = {
@@ -69,6 +74,14 @@ class Measured:
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }
 
+    def labels(self) -> dict[str, tuple[float, str]]:
+        """By name of a variable its scale, and what an axis of it says."""
+        return {
+            name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
+            for name, (scale, kind, symbol) in self.scales().items()
+            if kind != "1"
+        }
+
     def places(self, **given: Any) -> dict[str, Any]:
         """Places in lengths as those in a_H that the mechanics is asked for."""
         import xarray as xr
@@ -113,3 +126,45 @@ class Measured:
                 scaled.attrs = {**dataset[name].attrs, "symbol": row.symbol, "units": units}
                 dataset = dataset.assign_coords({name: scaled})
         return dataset
+
+
+class InUnits(ABC):
+    """What there is of one contact in lengths, forces and stresses."""
+
+    @abstractmethod
+    def parameters(self, body: int = 1) -> dict[str, Any]:
+        """The non-dimensional parameters of one contact."""
+
+    @abstractmethod
+    def _measured(self, body: int) -> Measured:
+        """The scales of one body of one contact."""
+
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
+        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
+        from swtstudy.fields.stress import stress_field
+
+        own = self._measured(body)
+        field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
+        return own.with_units(field)
+
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body."""
+        from swtstudy.fields.swt import swt_field
+
+        own = self._measured(body)
+        field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
+        return own.with_units(field, {"s_local": "SWT"})
+
+    def inspect_point(self, body: int = 1) -> xr.Dataset:
+        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+
+        return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+
+    def inspect(self, body: int = 1, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+        from swtstudy.figures.inspection import draw_inspection
+
+        labels = self._measured(body).labels()
+        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels)
