@@ -66,7 +66,7 @@ def solve_cycle(load: Load) -> Cycle:
     depth = min(most, DEPTH)
     stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
     stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
-    slips = (course.forward | course.backward).any(axis=0)
+    slips = np.any(course.forward | course.backward, axis=0)
     for period in range(2):
         for i in range(intervals):
             # An interval pushes two pieces at most.
