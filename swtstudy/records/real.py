@@ -11,6 +11,7 @@ import xarray as xr
 
 from swtstudy.mistakes import literal
 from swtstudy.quantities import Request
+from swtstudy.units.blocks import Block, miner
 from swtstudy.units.bodies import LABELS
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
@@ -40,6 +41,8 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
     for each in variables(grid, asked):
         values = each.values(found, grid)
         found[each.name] = values.dims, values.values, each.attributes(grid.labels)
+    if grid.blocks:
+        found = found.assign(miner(found, grid.blocks, grid.values("load")))
     if "SWT" in found:
         found.SWT.attrs["ancillary_variables"] = "SWT_error regime"
     for name in grid.pairs:
@@ -69,6 +72,7 @@ def _text(grid: PhysicalGrid) -> str:
             "materials": [asdict(each) for each in grid.materials],
             "similar": grid.similar,
             "bulk_stress_body": grid.bulk_stress_body,
+            **({"blocks": [asdict(each) for each in grid.blocks]} if grid.blocks else {}),
         }
     )
 
@@ -89,7 +93,8 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+        blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
+        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]), blocks)
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
     if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):

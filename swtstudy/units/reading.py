@@ -21,10 +21,11 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
+from swtstudy.units.blocks import Block
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import mean_of_loads, measured_amplitudes
+from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.strips import check_lengths, labels_of, still_load
@@ -38,6 +39,7 @@ class Given:
     materials: tuple[FatigueConstants, ...] = ()
     similar: float = SIMILAR
     bulk_stress_body: int = 0
+    blocks: tuple[Block, ...] = ()
 
 
 def read_contacts(
@@ -181,7 +183,8 @@ def _check_given(
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
-    measured = good.get("load", ())
+    # A wrong load is reported: nothing else is lacking because of it.
+    measured = good.get("load") or ((ANY,) if "load" in everything else ())
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.quantities import COUNTED, NONLOCAL, Request, error_of
+from swtstudy.units.blocks import lives_in
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED
@@ -118,6 +119,7 @@ NAMES = (
     *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
     *(position_of(place) for place in PLACES),
     *LIVES,
+    *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
 )
@@ -128,6 +130,9 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
     for each in variables(grid, asked):
         found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.seats.dims
+    for life, repetitions, share in lives_in([*found]) if grid.blocks else ():
+        found[share] = found[life]
+        found[repetitions] = tuple(dim for dim in found[life] if dim != "load")
     return found
 
 
