@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -22,6 +22,7 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
@@ -260,6 +261,7 @@ class PhysicalContact:
         quantities: Sequence[str] = (),
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        blocks: Mapping[str, float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
 
@@ -273,6 +275,8 @@ class PhysicalContact:
             One or several lengths, for nonlocal values.
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
         Returns
         -------
@@ -300,6 +304,13 @@ class PhysicalContact:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
+        sequence: tuple[Block, ...] = ()
+        try:
+            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        except StudyError as error:
+            mistakes += error.mistakes
+        if blocks and constants is None:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
-        return solve_grid(replace(self.grid, materials=materials), float(rtol), asked)
+        return solve_grid(replace(self.grid, materials=materials, blocks=sequence), float(rtol), asked)
