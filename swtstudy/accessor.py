@@ -192,8 +192,9 @@ class SwtAccessor:
         -------
         pandas.DataFrame
             Columns: the dimensions in their order, the other parameters, and the results but for the strain
-            cycles counted, of which a point has several. The index has the
-            name "point", so that ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
+            cycles counted, of which a point has several; what has a value for each direction has a column
+            for each, such as "s_point[depth]". The index has the name "point", so that
+            ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
         """
         from swtstudy.results.table import to_table
 

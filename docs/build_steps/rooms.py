@@ -89,7 +89,7 @@ WHOLE = House(
             "runner",
             "results",
         ),
-        *("solving", "optimum", "fields", "figures", "contacts", "audit", "statements", "suite", "accessor"),
+        *("solving", "optimum", "fields", "figures", "contacts", "audit", "statements", "reports", "suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )

@@ -22,6 +22,7 @@ from swtstudy.cli.new import new
 from swtstudy.cli.options import check_options
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
+from swtstudy.cli.report import report
 from swtstudy.cli.run import run
 from swtstudy.cli.schema import schema
 from swtstudy.cli.sensitivity import sensitivity
@@ -95,6 +96,7 @@ _COMMANDS = (
     plan,
     validate,
     plot,
+    report,
     check,
     info,
     merge,
