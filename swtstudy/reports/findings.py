@@ -127,6 +127,15 @@ def _blank(unit: str) -> str:
     return f" {escape(unit)}" if unit else ""
 
 
+def worst_place(dataset: xr.Dataset) -> dict[str, int]:
+    """Index of the greatest swt along each dimension; nothing if there is none."""
+    values = measured(dataset)
+    if not np.isfinite(values.values).any():
+        return {}
+    found = np.unravel_index(int(np.nanargmax(values.values)), values.shape)
+    return dict(zip(map(str, values.dims), map(int, found), strict=True))
+
+
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     """The point with the least and that with the greatest swt; one only where all are equal."""
     values = measured(dataset)

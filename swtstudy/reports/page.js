@@ -141,7 +141,7 @@
   document.querySelectorAll("[data-script]").forEach((each) => (each.hidden = false));
   const few = axes.filter((n) => dim[n] && dim[n].size <= 12);
   const sampled = Boolean(dim.sample);
-  const state = { y: about.start.y, x: axes.includes(about.start.x) ? about.start.x : axes.find((n) => known[n].sampled) ?? axes[0], hue: about.start.hue ?? "", fixed: {} };
+  const state = { y: about.start.y, x: axes.includes(about.start.x) ? about.start.x : axes.find((n) => known[n].sampled) ?? axes[0], hue: about.start.hue ?? "", fixed: { ...about.start.fixed } };
   if (!values.includes(state.y)) state.y = values[0];
   if (!few.includes(state.hue) || state.hue === state.x) state.hue = "";
 
@@ -197,7 +197,7 @@
     const up = (row) => (flags ? (flags.indexOf(table[state.y][row]) + 1 || NaN) - 1 : table[state.y][row]);
     const rows = curves.flat(), xs = rows.map(at), ys = rows.map(up).filter(Number.isFinite);
     const width = Math.max(stage.clientWidth, 280), height = Math.min(420, Math.max(260, width * 0.55));
-    const margin = { left: flags ? 96 : 62, right: 14, top: 12, bottom: 34 };
+    const margin = { left: flags ? 96 : 62, right: 24, top: 12, bottom: 34 };
     const least = ys.reduce((a, b) => Math.min(a, b), Infinity), most = ys.reduce((a, b) => Math.max(a, b), -Infinity);
     if (!ys.length) return (stage.querySelector("svg")?.remove(), (points = []), (legend.innerHTML = "no values here"));
     const logX = number && dim[state.x]?.log, logY = !flags && least > 0 && (known[state.y]?.log || most / least > 200);

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.describe import facts
 from swtstudy.reports.data import about, packed, rows_of, table_of
-from swtstudy.reports.findings import sentences
+from swtstudy.reports.findings import sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, figure, section, table, whole
 from swtstudy.reports.pictures import derived, study_figure
 from swtstudy.reports.sections import (
@@ -98,6 +98,7 @@ def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], s
         shown, known["panels"], layout = study_figure(dataset)
         known["derived"] = derived(dataset, layout, rows_of(dataset))
         known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue}
+        known["start"]["fixed"] = worst_place(dataset)
         words = f"{', '.join(layout.y)} over {layout.x}"
         caption = _caption(dataset, layout) + _HINT * bool(known["panels"])
         sections.append(section("figure", "Figure", figure(shown, words, caption, name="plot")))
@@ -120,7 +121,7 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
     words = f"{', '.join(escape(each) if '/s(' in each else each for each in names)}"
     along = {"x": "over", "vertical": "and", "hue": "a line for each", "panels": "a panel for each"}
     parts = [f"{along[role]} {symbol_of(dataset[each])}" for role, each in layout.roles() if each in dataset]
-    return f"{words} {', '.join(parts)}." if parts else f"{words}."
+    return f"{words} {', '.join(parts)}.".replace(", and", " and")
 
 
 def _validity(dataset: xr.Dataset) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +11,8 @@ import numpy as np
 from swtstudy.figures.draw import draw, layout_of
 from swtstudy.figures.inspection import inspect
 from swtstudy.figures.save import picture
+from swtstudy.figures.sheet import PANEL
+from swtstudy.reports.findings import worst_place
 from swtstudy.results.quantity import quantity, quantity_error
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
 
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.
 _LARGEST_DRAWING = 400_000
-_DPI, _DPI_POINT, _DPI_THUMBNAIL = 150.0, 110.0, 55.0
+_DPI, _DPI_POINT, _DPI_THUMBNAIL = 150.0, 110.0, 110.0
 #: CSS pixels in an inch.
 _INCH = 96.0
 
@@ -71,8 +73,17 @@ def study_figure(dataset: xr.Dataset) -> tuple[Picture, list[dict[str, Any]], Fi
 
 
 def thumbnail(dataset: xr.Dataset) -> Picture:
-    """A small picture of the study's figure."""
-    return embedded(draw(dataset), _DPI_THUMBNAIL, drawing=False)
+    """A small picture of the study's figure: its first quantity where it is largest, without words around."""
+    layout = layout_of(dataset)
+    one = dataset
+    if layout.panels:
+        one = dataset.isel({layout.panels: worst_place(dataset).get(layout.panels, 0)})
+    figure = draw(one, replace(layout, panels=None, y=layout.y[:1], title=None))
+    for legend in figure.legends:
+        legend.remove()
+    if layout.kind != "scatter":
+        figure.set_size_inches(*PANEL)
+    return embedded(figure, _DPI_THUMBNAIL, drawing=False)
 
 
 def of_point(parameters: dict[str, Any]) -> Picture:
