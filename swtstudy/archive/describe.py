@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.archive.recall import grid_of
 from swtstudy.axes import AXES, CONTACT_AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
@@ -25,8 +24,11 @@ _LISTED = 8
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
-    """What an archive is: its study and versions, how complete and how accurate; line by line."""
-    yield str(dataset.attrs["title"])
+    """What results are: their study and versions, how complete and how accurate; line by line.
+
+    Those of `swtstudy.solve` have neither study nor versions.
+    """
+    yield str(dataset.attrs.get("title", "Results"))
     for label, words in facts(dataset):
         yield f"  {label:<13}  {words}"
 
@@ -34,19 +36,27 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
 def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """The same as pairs of a label, which several may share, and what there is to say."""
     attributes = dataset.attrs
-    yield "made by", f"{attributes['source']} ({attributes['versions']})"
-    for line in attributes["history"].splitlines():
+    if "source" in attributes:
+        versions = f" ({attributes['versions']})" if "versions" in attributes else ""
+        yield "made by", f"{attributes['source']}{versions}"
+    for line in attributes.get("history", "").splitlines():
         yield "history", line
     yield from _parameters(dataset)
     yield from _contact(dataset)
-    yield "prescribed", grid_of(dataset).control.name
-    yield from _quantities(dataset)
-    yield "complete", completeness(dataset)
-    yield "asked for", f"rtol {attributes['rtol']:g}"
-    yield "accurate", accuracy(dataset)
+    if "control" in dataset.coords:
+        yield "prescribed", str(dataset.control.item())
+    if "runs" in attributes:
+        yield from _quantities(dataset)
+    if "status" in dataset:
+        yield "complete", completeness(dataset)
+    if "rtol" in attributes:
+        yield "asked for", f"rtol {attributes['rtol']:g}"
+        yield "accurate", accuracy(dataset)
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
-    yield from _runs(dataset)
-    yield from _failures(dataset)
+    if "runs" in attributes:
+        yield from _runs(dataset)
+    if "failures" in dataset.get("status", dataset.s).attrs:
+        yield from _failures(dataset)
     if "figure" in attributes:
         yield "figure", _figure_words(FigureLayout.from_json(attributes["figure"]))
 
@@ -90,7 +100,7 @@ def _figure_words(layout: FigureLayout) -> str:
 def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
     """How many computed points have each regime that there is."""
     meanings = dataset.regime.attrs["flag_meanings"].split()
-    computed = dataset.status.values == COMPUTED
+    computed = (dataset.status == COMPUTED if "status" in dataset else dataset.regime.notnull()).values
     counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
     return {meaning: int(n) for n, meaning in zip(counts, meanings, strict=False) if n}
 

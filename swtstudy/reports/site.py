@@ -136,7 +136,7 @@ def _card(one: Entry) -> str:
     if one.picture:
         image = f'<img src="{one.picture.source}" {one.picture.size} alt="" loading="lazy">'
     link = escape(quote(f"{one.name}.html"))
-    words = f"<span class=\"name\">{escape(one.title)}</span><p>{one.sentence}</p>"
+    words = f'<span class="name">{escape(one.title)}</span><p>{one.sentence}</p>'
     return f'<li><a href="{link}"><div class="frame">{image}</div>{words}</a></li>'
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.quantities import COUNTED
 
 if TYPE_CHECKING:
@@ -53,6 +54,18 @@ def _columns(name: str, values: xr.DataArray, beside: list[str]) -> Iterator[tup
         return
     for index, place in enumerate(values[own].values.tolist()):
         yield f"{name}[{place}]", values.isel({own: index}, drop=True)
+
+
+def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
+    """Flags as words: see ``words`` of the accessor."""
+    flags = [str(each) for each, values in dataset.data_vars.items() if "flag_meanings" in values.attrs]
+    if name not in flags:
+        raise StudyError([Mistake("name", literal(name), f"a variable of flags: {', '.join(flags)}")])
+    words = np.array([*dataset[name].attrs["flag_meanings"].split(), ""], dtype=object)
+    values = dataset[name].values
+    known = np.isfinite(values)
+    found = dataset[name].copy(data=words[np.where(known, values, -1).astype(int)])
+    return found.drop_attrs(deep=False).assign_attrs(long_name=dataset[name].attrs.get("long_name", name))
 
 
 def _as_words(flat: NDArray, meanings: str | None) -> NDArray:
