@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
+    from swtstudy.study.signal import read_signal
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
 
@@ -44,6 +45,7 @@ __all__ = [
     "open_results",
     "optimise",
     "physical",
+    "read_signal",
     "run",
     "run_suite",
     "sensitivity",
@@ -68,6 +70,7 @@ _HOMES = {
     "open_results": "swtstudy.archive.open",
     "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
+    "read_signal": "swtstudy.study.signal",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "sensitivity": "swtstudy.results.sensitivity",

@@ -18,7 +18,6 @@ from swtstudy.archive.describe import describe
 from swtstudy.archive.write import save
 from swtstudy.mechanics.line.few_cycles import FewCycles, few
 from swtstudy.mechanics.line.look import Look
-from swtstudy.mechanics.planes.criterion import Walker, combined
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.solver import scenes, solve_points
 from swtstudy.quantities import COUNTED_SIZES
@@ -123,10 +122,7 @@ def dense_swt(scene, swt):
         for angle in 2.0 * np.pi * np.arange(45) / 45:
             stress, strain = (v[0] for v in planes.on_plane(np.full((1, r.size), angle)))
             cycles = closed_cycles(strain, stress)
-            walker = scene.walker_exponent
-            if walker is not None:
-                walker = Walker(walker, 1.0 - scene.poisson_ratio**2)
-            own = combined(cycles.tension, cycles.amplitude, walker) / swt
+            own = scene.criterion.value(cycles.tension, cycles.amplitude) / swt
             found.append(own[own.max(axis=1) > 0.4])
     most = max(own.shape[1] for own in found)
     return np.concatenate([np.pad(own, ((0, 0), (0, most - own.shape[1]))) for own in found])

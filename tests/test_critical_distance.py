@@ -10,6 +10,7 @@ import stand_in
 import xarray as xr
 from asking import EVERY, study
 from click.testing import CliRunner
+from real import ALLOY
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
@@ -176,6 +177,13 @@ def test_points_with_nonlocal_values_are_cut_into_small_blocks(tmp_path: Path) -
     assert seconds > 0.0
 
 
+@pytest.fixture(scope="module")
+def two_distances(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    axes = "phase = [0.5, 1.0]\ncritical_distance = [0.1, 0.2]"
+    path = tmp_path_factory.mktemp("distances") / "a.nc"
+    return run(study(axes=axes, quantities=EVERY[:1]), path, workers=1)
+
+
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
@@ -200,28 +208,23 @@ def test_points_with_nonlocal_values_are_cut_into_small_blocks(tmp_path: Path) -
         ),
     ],
 )
-def test_archives_with_damaged_quantities_are_refused(damage, words: str, tmp_path: Path) -> None:
+def test_archives_with_damaged_quantities_are_refused(
+    damage, words: str, two_distances: xr.Dataset, tmp_path: Path
+) -> None:
     path = tmp_path / "a.nc"
-    axes = "phase = [0.5, 1.0]\ncritical_distance = [0.1, 0.2]"
-    found = run(study(axes=axes, quantities=EVERY[:1]), path, workers=1)
-    save(damage(found), path)
+    save(damage(two_distances), path)
     with pytest.raises(ArchiveError, match=words):
         open_results(path)
 
 
+@pytest.mark.slow
 def test_a_mean_far_beyond_the_contact_is_not_negative(tmp_path):
     """ℓ = 30 µm typed in mm: the mean over 30 mm is almost 0, and interpolation may be below that."""
     study = Study.from_text(
-        """
+        f"""
 title = "A distance in the wrong unit"
 rtol = 1e-3
-units = { length = "mm", force = "N", stress = "MPa" }
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73e3
 poisson_ratio = 0.33
 radius = 50

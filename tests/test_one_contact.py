@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from real import ALUMINIUM
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, physical
 
 RIG: dict[str, Any] = {"young_modulus": 73e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
 MOVING = RIG | {"tangential_amplitude": 2e-3, "phase": 1.0}
-ALUMINIUM = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
 BRASS = FatigueConstants(73.1e3, 600.0, -0.1, 0.3, -0.6)
 
 

@@ -70,8 +70,9 @@ def numbers(name: str, phrase: str) -> list[float]:
 
 
 def suite() -> None:
-    values, seconds, each = numbers("suite.txt", "all: {} values in {} s, {} ms a value")
-    says("{} values at rtol 1e-4 with their archives, take {} s on 2 cores", values, seconds)
+    values, _ = numbers("suite.txt", "all: {} values in {} s")
+    seconds, each = numbers("suite.txt", "processor time: {} s, {} ms a value")
+    says("{} values at rtol 1e-4 with their archives, take {} s of processor time", values, seconds)
     says("(`python studies/checks/suite.py`): {} ms a value", each)
     archives = [open_results(RESULTS / f"figure{number}.nc") for number in range(3, 9)]
     assert sum(archive.s.size for archive in archives) == values

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.planes import all_planes
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
+from swtstudy.mechanics.planes.swt import SWT_EXPONENT, Swt
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.numbers import read_numbers
 from swtstudy.parameters import PARAMETERS
@@ -72,6 +72,5 @@ def swt_of_history(
         mistakes.append(Mistake(row.name, literal(walker_exponent), row.allowed))
     if mistakes:
         raise StudyError(mistakes)
-    return all_planes.swt_of_history(
-        history, *map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
-    )
+    ν, E, γ = map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
+    return all_planes.swt_of_history(history, ν, E, Swt.of(np.full(1, γ), np.full(1, E)))

@@ -19,9 +19,7 @@ from swtstudy.parameter import Parameter
 from swtstudy.prescribed import CONTROLS
 from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of
 from swtstudy.records import requested
-from swtstudy.records.real import with_units
 from swtstudy.records.records import STATES
-from swtstudy.units.grid import PhysicalGrid
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -139,8 +137,7 @@ def label(
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
     dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
-    if isinstance(grid, PhysicalGrid):
-        dataset = with_units(dataset, grid, asked)
+    dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":

@@ -14,13 +14,14 @@ from swtstudy.axes import AXES
 from swtstudy.figures.bars import draw_sensitivity
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mistakes import StudyError
-from swtstudy.records.real import ATTRIBUTE, is_real, read_contact
 from swtstudy.records.records import COMPUTED
+from swtstudy.records.requested import CONTACT, has_units
 from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
 from swtstudy.reports.parts import Section, figure, section, table
 from swtstudy.reports.pictures import embedded, of_point
 from swtstudy.reports.symbols import place_html, share, symbol_html, symbol_of, unit_of, value_text
 from swtstudy.results.sensitivity import sensitivity
+from swtstudy.units.reading import read_contact
 from swtstudy.wording import number_words
 
 #: Most rows of a table of extrema, failed points and values of an axis that are listed one by one.
@@ -131,7 +132,9 @@ def settings_section(dataset: xr.Dataset) -> Section:
 
 def _units_note(dataset: xr.Dataset) -> str:
     return (
-        "" if is_real(dataset) else " Lengths are in <i>a</i><sub>H</sub> = √(<i>R</i><i>δ</i><sub>0</sub>)."
+        ""
+        if has_units(dataset)
+        else " Lengths are in <i>a</i><sub>H</sub> = √(<i>R</i><i>δ</i><sub>0</sub>)."
     )
 
 
@@ -144,8 +147,8 @@ def _values(name: str, values: xr.DataArray) -> str:
 
 
 def _materials(dataset: xr.Dataset) -> Iterator[str]:
-    if is_real(dataset):
-        given, _ = read_contact(dataset.attrs[ATTRIBUTE])
+    if has_units(dataset):
+        given, _ = read_contact(dataset.attrs[CONTACT])
         for material in dict.fromkeys(given.materials):
             rows = [(escape(name.replace("_", " ")), number_words(v)) for name, v in vars(material).items()]
             yield "<h3>Strain-life constants</h3>" + table(("", ""), rows, numbers=(1,))

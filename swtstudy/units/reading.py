@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -21,9 +22,11 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
+from swtstudy.units.bodies import LABELS
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.labels import Units
+from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
+from swtstudy.units.loads import mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.strips import check_lengths, labels_of, still_load
@@ -97,7 +100,9 @@ def completed(
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
     fixed = fixed | still_load(profiles, {*given, *_scaling(fixed, axes, samples)})
-    given |= replaced_by(fixed)
+    loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
+    fixed = fixed | measured_amplitudes(given, loads)
+    given |= {*fixed} | replaced_by(fixed)
     table = rows(labels_of(extra["units"], profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
     if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
@@ -178,12 +183,15 @@ def _check_given(
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
+    measured = good.get("load", ())
+    everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
             report(keys(name), "nothing", own[name].allowed)
     if "radius" in everything and all(tables) and tables:
         report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
-    if wrong := wrong_mean_load(everything):
+    mean = mean_of_loads(everything, measured)
+    if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
         report(", ".join(map(keys, MEAN_LOADS)), *wrong)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
@@ -226,3 +234,27 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
                 found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
                 report(", ".join(map(keys, OF_BODIES)), found, allowed)
                 return
+
+
+def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
+    """What the attribute of results says: see `swtstudy.units.grid.PhysicalGrid`.
+
+    Raises
+    ------
+    ValueError
+        With the reason, if it cannot be read.
+    """
+    try:
+        raw: Any = json.loads(str(text))
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+    try:
+        units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
+        pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
+        materials = tuple(FatigueConstants(**each) for each in raw["materials"])
+        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+    except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
+        raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
+    if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
+        raise ValueError(f"not a contact: {literal(raw)}")
+    return given, pairs

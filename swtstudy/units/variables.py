@@ -150,7 +150,8 @@ def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
     for name, symbol, meaning, kind, value in rest:
         if grid.plane:
             meaning = meaning.replace("contact radius", "contact half-width").replace("depth", "load")
-        if not grid.values(name) and not (grid.plane and name == "depth"):
+        known = grid.values(name) and name != grid.of_loads
+        if not known and not (grid.plane and name == "depth"):
             yield Variable(name, symbol, meaning, kind, "", partial(_each, value))
 
 

@@ -131,7 +131,8 @@ def _far_field(scene: Scene) -> float:
     """swt of the bulk stress alone, 0 without one."""
     if scene.bulk is None:
         return 0.0
-    return float(scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent, scene.profile.plane)[0])
+    far, _ = scene.bulk.far_field(scene.poisson_ratio, scene.criterion, scene.profile.plane)
+    return float(far[0])
 
 
 def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:

@@ -28,7 +28,6 @@ from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.peaks import near_maximum
-from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -102,7 +101,7 @@ class LocalSwt:
 
     def __init__(self, scene: Scene, circle: float, shown: Places, fineness: Fineness) -> None:
         self.scene, self.ν = scene, float(scene.poisson_ratio[0])
-        self.γ = scene.one_walker_exponent
+        self.criterion = scene.criterion
         self.springs = SpringCells.of(scene, fineness.cells, circle)
         # The sides of a polygon of many are short.
         steps = max(1, min(fineness.steps, MANY // scene.cycle.begin.shape[1]))
@@ -116,8 +115,8 @@ class LocalSwt:
         open_ = np.zeros((shown.radius.size, self.instant.size), dtype=bool)
         histories, instant = Histories(self.scene, *shown, self.springs), self._instants(shown, ~open_)
         stress = histories.stress(instant)
-        planes = planes_like(stress, self.ν, self.γ)
-        rows, _, normal = rival_planes(stress, planes, self.ν, self.γ)
+        planes = planes_like(stress, self.ν, self.criterion)
+        rows, _, normal = rival_planes(stress, planes, self.ν, self.criterion)
         hot = np.zeros(instant.shape, dtype=bool)
         for curve in self._curves(stress[rows], normal):
             np.logical_or.at(hot, rows, near_maximum(curve, HOT))
@@ -151,17 +150,17 @@ class LocalSwt:
         instant = self._instants(places, self._open_at(places))
         stress = histories.stress(instant)
         # A peak between the instants may make another plane critical: the planes are searched twice.
-        normal = highest_coarse_planes(stress, self.planes, self.ν, self.γ)
+        normal = highest_coarse_planes(stress, self.planes, self.ν, self.criterion)
         instant, stress, _ = self._closer(histories, np.arange(len(instant)), instant, stress, normal, FIRST)
         # For the same reason the rivals of the critical plane have instants of their own.
-        row, value, normal = rival_planes(stress, self.planes, self.ν, self.γ)
+        row, value, normal = rival_planes(stress, self.planes, self.ν, self.criterion)
         instant, stress = self._high(instant[row], stress, row, normal)
         missing, hides = np.zeros((2, *value.shape))
         highest, rival = np.zeros(len(single)), np.arange(len(row))
         for number, (peaks, doubt) in enumerate(zip(PEAKS, DOUBTS, strict=True), start=1):
             at = row[rival]
             instant, stress, share = self._closer(histories, at, instant, stress, normal, peaks)
-            better, normal = climb_from(stress, self.ν, normal, self.γ)
+            better, normal = climb_from(stress, self.ν, normal, self.criterion)
             missing[rival] += doubt * (better - value[rival])
             value[rival], hides[rival] = better, share * better
             np.maximum.at(highest, at, better)
@@ -214,9 +213,9 @@ class LocalSwt:
         """What of swt, over it, is hidden by peaks of the curves, (3, m), that hide so much each."""
         tension, amplitude = top[0], top[1] + top[2]
         some = (tension > 0.0) & (amplitude > 0.0)
+        power = self.criterion.powers(*(np.where(some, v, 1.0) for v in (tension, 0.5 * amplitude)))
         tension, amplitude = np.where(some, tension, np.inf), np.where(some, amplitude, np.inf)
-        of_amplitude = (hidden[1] + hidden[2]) / amplitude
-        return 2.0 * ((1.0 - self.γ) * hidden[0] / tension + self.γ * of_amplitude)
+        return power[0] * (hidden[0] / tension) + power[1] * ((hidden[1] + hidden[2]) / amplitude)
 
     def _instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
         """Instants of places in some of the gaps, shapes (N, T): common ones and their own."""
@@ -243,4 +242,4 @@ class LocalSwt:
     def _curves(self, stress: FloatArray, normal: FloatArray) -> FloatArray:
         """The curves of the criterion, shape (3, m, T), of histories on one plane each."""
         of_stress, of_strain = on_planes(stress, self.ν, normal[:, None])
-        return np.stack(curves(of_stress[:, 0], of_strain[:, 0]))
+        return np.stack(self.criterion.curves(of_stress[:, 0], of_strain[:, 0]))

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.look import Look, extreme_instants
 from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.line.samples import of_extremes, on_plane
-from swtstudy.mechanics.planes.ascent import climb, normal_weights
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
-from swtstudy.mechanics.planes.hooke import strain_history
+from swtstudy.mechanics.planes.ascent import climb
 from swtstudy.mechanics.planes.through_y import PlaneHistory
+from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.circle import circle_stress
 from swtstudy.mechanics.stress.history import History
@@ -112,14 +111,14 @@ def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray
 def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:
     """Whether swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
     angle = np.broadcast_to(np.concatenate([[0.0], LOOK_ANGLES]), (len(scene), 1 + LOOK_ANGLES.size))
-    stress, strain = _circle(scene, history, angle)
-    walker = scene.walker and scene.walker.take(np.arange(len(scene)))
+    stress, tensor = _circle(scene, history, angle)
+    criterion = scene.criterion_along
     highest = np.zeros(angle.shape)
     for planes in (*(_turned(normal, share * angle) for share in TURNS), _radial(angle)):
-        weights = normal_weights(planes)[..., None]
-        tension, elongation = ((v @ weights)[..., 0] for v in (stress, strain))
-        tops = (curve.max(axis=-1) for curve in curves(tension, elongation))
-        highest = np.maximum(highest, of_maxima(*tops, walker=walker))
+        tension = (stress @ normal_weights(planes)[..., None])[..., 0]
+        swing = criterion.swing.on_plane(tensor, planes)
+        tops = (curve.max(axis=-1) for curve in criterion.curves(tension, swing))
+        highest = np.maximum(highest, criterion.of_maxima(*tops))
     least = (1.0 - SLOW_FALL * np.sin(angle[:, 1:]) ** 2) * highest[:, :1]
     return np.asarray((highest[:, 1:] > least).any(axis=1))
 
@@ -136,9 +135,9 @@ def _radial(angle: FloatArray) -> FloatArray:
 
 
 def _circle(scene: Scene, history: History, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Stress and strain at angles (n, k) on the circles, shape (n, k, T, 6)."""
+    """Stress and the tensor of the swing at angles (n, k) on the circles, shape (n, k, T, 6)."""
     stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
-    return stress, strain_history(stress, scene.poisson_ratio[:, None, None, None])
+    return stress, scene.criterion.swing.tensor(stress, scene.poisson_ratio[:, None, None, None])
 
 
 def _decisive_history(
@@ -171,12 +170,12 @@ def _decisive_history(
 
 def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatArray) -> FloatArray:
     """swt at angles (n, k) on the circles; the planes are climbed to from the line's, turned or not."""
-    stress, strain = _circle(scene, history, angle)
+    stress, tensor = _circle(scene, history, angle)
     flat = (-1, *stress.shape[-2:])
-    walker = scene.walker and scene.walker.take(np.repeat(np.arange(len(scene)), angle.shape[1]), 0)
+    criterion = scene.criterion.take(np.repeat(np.arange(len(scene)), angle.shape[1]))
     starts = [np.broadcast_to(normal[:, None], (*angle.shape, 3))]
     if scene.bulk is not None:
         starts += [_turned(normal, angle), _radial(angle)]
-    histories = stress.reshape(flat), strain.reshape(flat)
-    found = [climb(*histories, start.reshape(-1, 3), walker)[0] for start in starts]
+    histories = stress.reshape(flat), tensor.reshape(flat)
+    found = [climb(*histories, start.reshape(-1, 3), criterion)[0] for start in starts]
     return np.asarray(np.max(found, axis=0).reshape(angle.shape))
