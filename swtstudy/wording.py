@@ -43,7 +43,8 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
     units = attributes.get("units", AXES[name].units)
-    return parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
+    words = f"{AXES[name].meaning}, " if AXES[name].part == "criterion" else ""
+    return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
 def as_text(words: str) -> str:

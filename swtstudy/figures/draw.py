@@ -136,7 +136,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         words = quantity_words(values, y)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
-                draw_lines(one, panel, layout, scale)
+                draw_lines(one, panel, y, layout, scale)
         else:
             flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
             surfaces = [panel.value.rename(values.name) for panel in flat]

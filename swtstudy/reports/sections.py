@@ -131,11 +131,8 @@ def settings_section(dataset: xr.Dataset) -> Section:
 
 
 def _units_note(dataset: xr.Dataset) -> str:
-    return (
-        ""
-        if has_units(dataset)
-        else " Lengths are in <i>a</i><sub>H</sub> = √(<i>R</i><i>δ</i><sub>0</sub>)."
-    )
+    length = "<i>a</i><sub>H</sub> = √(<i>R</i><i>δ</i><sub>0</sub>)"
+    return "" if has_units(dataset) else f" Lengths are in {length}."
 
 
 def _values(name: str, values: xr.DataArray) -> str:
