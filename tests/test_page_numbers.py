@@ -257,7 +257,7 @@ def lives() -> None:
     said = "averaged over a radius of {} µm they are about {} to {} times as long there"
     tens = round(times.min(), -1), round(times.max(), -1)
     says(said, 50, *tens)
-    says("lives in the [example](physical.md) are {} to {} times as long", *tens)
+    says("lives in the [example](from_rig_to_study.md#a-worked-example) are {} to {} times as long", *tens)
 
 
 def checks() -> None:
@@ -353,3 +353,8 @@ CLAIMS: tuple[Callable[[], None], ...] = (
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.__name__)
 def test_numbers_are_those_of(claim):
     claim()
+
+
+def test_the_first_screen() -> None:
+    figure4 = open_results(RESULTS / "figure4.nc")
+    says("the larger the sooner a crack, differs {} times", float(figure4.swt.extrema("phase").ratio.max()))

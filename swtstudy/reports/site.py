@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 from os import PathLike
@@ -77,13 +77,17 @@ def write_reports(
         A ValueError, if none of the files is an archive.
     """
     paths = [Path(each) for each in archives]
-    if len(paths) == 1 and not (output is not None and _is_folder(output)):
-        target = paths[0].with_suffix(".html") if output is None else Path(output)
-        check_writable(target)
-        write_text(target, page(open_results(paths[0]), paths[0].stem))
-        yield target, ""
+    if len(paths) > 1 or (output is not None and _is_folder(output)):
+        yield from _write_several(paths, _checked_folder(paths, output))
         return
-    folder = _checked_folder(paths, output)
+    target = paths[0].with_suffix(".html") if output is None else Path(output)
+    check_writable(target)
+    write_text(target, page(open_results(paths[0]), paths[0].stem))
+    yield target, ""
+
+
+def _write_several(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str]]:
+    """A page for each archive, and one that lists them; see `write_reports`."""
     entries: list[Entry] = []
     problems: list[ArchiveError] = []
     for path in paths:
@@ -111,13 +115,6 @@ def entry(dataset: xr.Dataset, name: str) -> Entry:
 
 def listing(entries: Sequence[Entry]) -> str:
     """The page that lists archives: a picture and a sentence of each, in groups."""
-    own = {each.name: each for each in entries}
-    groups = in_groups(own)
-    parts = []
-    for title, names in groups.items():
-        cards = "\n".join(_card(own[name]) for name in names)
-        heading = f"<h2>{escape(title)}</h2>\n" if len(groups) > 1 else ""
-        parts.append(f'<section>\n{heading}<ul class="gallery">\n{cards}\n</ul>\n</section>')
     body = f"""<header class="top">
 <p class="kicker">swtstudy</p>
 <h1>{len(entries)} parameter studies</h1>
@@ -125,19 +122,30 @@ def listing(entries: Sequence[Entry]) -> str:
 which load is the kindest. Each picture leads to a report.</p>
 </header>
 <main>
-{chr(10).join(parts)}
+{gallery_of(entries, lambda name: quote(f"{name}.html"))}
 </main>
 <footer>Made by swtstudy {escape(__version__)}.</footer>"""
     return whole("Parameter studies", body)
 
 
-def _card(one: Entry) -> str:
+def gallery_of(entries: Sequence[Entry], address: Callable[[str], str]) -> str:
+    """Cards in groups, as HTML; each leads to the address of its name."""
+    own = {each.name: each for each in entries}
+    groups = in_groups(own)
+    parts = []
+    for title, names in groups.items():
+        cards = "\n".join(_card(own[name], address(name)) for name in names)
+        heading = f"<h2>{escape(title)}</h2>\n" if len(groups) > 1 else ""
+        parts.append(f'<section>\n{heading}<ul class="gallery">\n{cards}\n</ul>\n</section>')
+    return "\n".join(parts)
+
+
+def _card(one: Entry, address: str) -> str:
     image = ""
     if one.picture:
         image = f'<img src="{one.picture.source}" {one.picture.size} alt="" loading="lazy">'
-    link = escape(quote(f"{one.name}.html"))
     words = f'<span class="name">{escape(one.title)}</span><p>{one.sentence}</p>'
-    return f'<li><a href="{link}"><div class="frame">{image}</div>{words}</a></li>'
+    return f'<li><a href="{escape(address)}"><div class="frame">{image}</div>{words}</a></li>'
 
 
 def _is_folder(output: str | PathLike[str]) -> bool:
