@@ -18,6 +18,7 @@ from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
+from swtstudy.reports.data import LARGEST_TABLE
 from swtstudy.units.rows import SIMILAR
 
 RESULTS = shown.ROOT / "results"
@@ -353,6 +354,10 @@ CLAIMS: tuple[Callable[[], None], ...] = (
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.__name__)
 def test_numbers_are_those_of(claim):
     claim()
+
+
+def test_the_size_of_reports() -> None:
+    says("a table whose packed values are larger than {} MB", LARGEST_TABLE / 1e6)
 
 
 def test_the_first_screen() -> None:

@@ -5,7 +5,6 @@ from docutils.utils.math import latex2mathml
 from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
-
 #: Without these browsers take a bar for a relation, with spaces around it: |τ | for |τ|.
 _BAR, _TIGHT = '<mo stretchy="false">|</mo>', '<mo stretchy="false" lspace="0" rspace="0">|</mo>'
 

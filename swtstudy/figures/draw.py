@@ -9,6 +9,7 @@ from swtstudy.axes import AXES
 from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
+from swtstudy.figures.loop_legend import loops_of
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
@@ -159,7 +160,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         figure.suptitle(layout.title)
     if scale and layout.hue:
         add_scale(figure, axes, scale, dataset[layout.hue])
-    add_legend(figure, axes)
+    add_legend(figure, axes, loops_of(dataset) if layout.hue == "load" else {})
     return figure
 
 
