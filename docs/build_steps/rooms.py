@@ -91,7 +91,7 @@ WHOLE = House(
             "results",
         ),
         *("solving", "fitting", "optimum", "fields", "figures", "contacts", "audit", "statements"),
-        *("suite", "accessor"),
+        *("reports", "suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )

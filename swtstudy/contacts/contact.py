@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.contacts.measured import InUnits, Measured
+from swtstudy.contacts.overview import as_html, as_text
 from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
@@ -23,6 +24,7 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
 from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import (
     bodies_of,
     checked_body,
@@ -80,12 +82,10 @@ class PhysicalContact(InUnits):
         several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
         words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
         count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
-        return f"<PhysicalContact: {count}{words}>"
+        return f"<PhysicalContact: {count}{words}>\n{as_text(self)}"
 
     def _repr_html_(self) -> str:
         """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
-        from swtstudy.contacts.overview import as_html
-
         return as_html(self)
 
     def __getattr__(self, name: str) -> Any:
@@ -269,6 +269,7 @@ class PhysicalContact(InUnits):
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
         yield_strength: float | Sequence[float] | None = None,
+        blocks: Mapping[str, float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
 
@@ -284,6 +285,8 @@ class PhysicalContact(InUnits):
             Of both bodies, or a pair for bodies of different materials: for cycles.
         yield_strength
             Of both bodies, or a pair: for von_mises and yield_ratio.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
         Returns
         -------
@@ -296,7 +299,9 @@ class PhysicalContact(InUnits):
         StudyError
             A ValueError with every mistake.
         """
-        grid, asked = self._with_request(rtol, quantities, critical_distance, constants, yield_strength)
+        grid, asked = self._with_request(
+            rtol, quantities, critical_distance, constants, yield_strength, blocks
+        )
         return solve_grid(grid, float(rtol), asked)
 
     def _with_request(
@@ -306,6 +311,7 @@ class PhysicalContact(InUnits):
         critical_distance: object,
         constants: object,
         yield_strength: object,
+        blocks: Mapping[str, float] | None = None,
     ) -> tuple[PhysicalGrid, Request]:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
         fixed, axes, mistakes = spanned({} if critical_distance is None else {DISTANCE: critical_distance})
@@ -323,11 +329,18 @@ class PhysicalContact(InUnits):
         except StudyError as error:
             mistakes += error.mistakes
         strengths = strengths_of_both(yield_strength, mistakes)
+        sequence: tuple[Block, ...] = ()
+        try:
+            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        except StudyError as error:
+            mistakes += error.mistakes
+        if blocks and constants is None:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
         if strengths:
             names = tuple(dict.fromkeys((*names, YIELD)))
-        grid = replace(self.grid, materials=materials, yield_strengths=strengths)
+        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
         return grid, Request(names, *distances, counts=constants is not None)
 
     def optimise(

@@ -63,7 +63,7 @@ def _box(grid: PhysicalGrid, over: object) -> Box:
     bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
     about = {name: value for name, value in grid.about.items() if name in Given.__annotations__}
     known: dict[str, dict[str, Named]] = {}
-    for each in grid.given.values():
+    for each in grid.given:
         known.setdefault(each.parameter, {})[each.name] = each
     corners, found = read_contacts(
         {**fixed, SIMILAR_KEY: grid.similar},
