@@ -205,8 +205,9 @@ def test_pages_of_the_largest_figures_are_below_two_megabytes(name: str) -> None
 
 def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
     assert "Where the model holds" not in page(small, "small")
-    text = page(small.assign_attrs(validity="depth over radius 0.3 < 0.1\nsecond"), "small")
-    assert "<li>depth over radius 0.3 &lt; 0.1</li><li>second</li>" in text
+    text = page(small.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
+    assert "beyond first yield: largest von Mises stress over the yield strength up to 1.5, at most 1" in text
+    assert "<li>contact radius over R up to 0.05, within 0.1</li>" in text
 
 
 def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.describe import facts
+from swtstudy.records.validity import validity_lines
 from swtstudy.reports.data import about, packed, rows_of, table_of
 from swtstudy.reports.findings import sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, figure, section, table, whole
@@ -125,8 +126,8 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
 
 
 def _validity(dataset: xr.Dataset) -> list[str]:
-    """What limits the model at these parameters, if the results say so."""
-    return str(dataset.attrs.get("validity", "")).splitlines()
+    """Where the results are outside of what the model holds for, and how far inside."""
+    return list(validity_lines(dataset, inside=True))
 
 
 def _paper(dataset: xr.Dataset, name: str) -> Section:
