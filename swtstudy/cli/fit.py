@@ -14,7 +14,6 @@ from swtstudy.cli.options import with_width
 @click.command(
     epilog=examples(
         "swtstudy fit rig.toml tests.csv",
-        "swtstudy fit rig.toml tests.csv --friction --y cycles_point",
     )
 )
 @click.argument("study")
