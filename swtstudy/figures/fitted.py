@@ -8,7 +8,7 @@ import numpy as np
 
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.wrap import wrap_texts
+from swtstudy.figures.wrap import wrap_texts, wrap_title
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,6 +50,7 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
         axes.legend(loc="upper left")
         figure.suptitle("\n".join(fit_lines(fitted, math=True)))
         wrap_texts(figure)
+        wrap_title(figure)
     return figure
 
 
@@ -68,5 +69,4 @@ def fit_lines(fitted: xr.Dataset, math: bool = False) -> list[str]:
     count = fitted.sizes["test"]
     scatter = 10.0 ** float(fitted.scatter)
     within = ", ".join(f"{int(fitted[f'within_{factor}'])} within a factor of {factor}" for factor in (2, 5))
-    lines.append(f"scatter: a factor of {scatter:.3g}; of {count} tests {within}")
-    return lines
+    return [*lines, f"scatter: a factor of {scatter:.3g}", f"of {count} tests {within}"]
