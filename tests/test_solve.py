@@ -31,7 +31,7 @@ def test_scalars_give_scalars():
 def test_archives_may_hold_what_is_no_longer_asked_for():
     assert not is_rtol(1e-8)
     assert is_rtol(1e-8, SMALLEST_STORED_RTOL)
-    with pytest.raises(ValueError, match=r"rtol: found 1e-08, allowed a number in \[1e-07"):
+    with pytest.raises(ValueError, match=r"rtol: found 1e-08; allowed: a number in \[1e-07"):
         solve(rtol=1e-8)
 
 
