@@ -60,7 +60,7 @@ def fresh(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def clone(fresh, tmp_path_factory):
-    """Such a copy in which commands leave what they make, with archives to merge and the files of examples."""
+    """Such a copy in which commands leave what they make, with archives to merge and files of examples."""
     folder = shutil.copytree(fresh, tmp_path_factory.mktemp("commands") / "clone")
     for name in "ab":
         shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
