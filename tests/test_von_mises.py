@@ -105,6 +105,9 @@ ON_THE_LINE = (
     {"profile": "power_law", "exponent": 3.0, "friction": 0.9, "tangential_amplitude": 0.7},
     {"profile": "rounded_punch", "flat_radius": 1.4, "friction": 0.8, "phase": 1.0},
     {"friction": 1.0, "phase": 2.0, "frequency_ratio": "2", "tangential_amplitude": 0.6},
+    # At its cusp, which moves with the edge: no step through places or instants alone leads there.
+    {"friction": 0.7315, "poisson_ratio": 0.3207, "normal_force_amplitude": 0.2965,
+     "tangential_force_amplitude": 0.2259, "phase": 5.039},
 )  # fmt: skip
 
 
@@ -112,8 +115,8 @@ ON_THE_LINE = (
 def test_nothing_on_the_surface_line_is_higher(parameters):
     expected = dense_line(**parameters)
     found = largest(**parameters)
-    assert 0.99 * expected <= found
-    assert found <= 1.01 * expected
+    assert 0.998 * expected <= found
+    assert found <= 1.005 * expected
 
 
 def test_off_the_line_and_far_away():
