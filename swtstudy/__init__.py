@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.load import draw_load
     from swtstudy.figures.profile import draw_profile
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
@@ -39,6 +40,7 @@ __all__ = [
     "TabulatedProfile",
     "__version__",
     "audit_study",
+    "draw_load",
     "draw_profile",
     "inspect",
     "inspect_point",
@@ -64,6 +66,7 @@ _HOMES = {
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
+    "draw_load": "swtstudy.figures.load",
     "draw_profile": "swtstudy.figures.profile",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",

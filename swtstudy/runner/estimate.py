@@ -57,13 +57,15 @@ def estimate(
         inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            spent += solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver).seconds
+            result = solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
+            spent = result.seconds
         elif spent > _BUDGET:
             break
-        share = (_BUDGET - spent) / (len(largest) - index)
-        result, seconds = _timed(points, inside, asked, rtol, solver, share)
+        if index or spent <= _BUDGET:
+            share = (_BUDGET - spent) / (len(largest) - index)
+            result, seconds = _timed(points, inside, asked, rtol, solver, share)
+            spent += seconds
         timed(result)
-        spent += seconds
         total += result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
