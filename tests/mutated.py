@@ -6,6 +6,8 @@ import random
 import re
 from collections.abc import Iterator
 
+from real import ALLOY
+
 _STUDIES = """title = "t"
 rtol = 1e-2
 [fixed]
@@ -85,16 +87,7 @@ phase = [0, 1]
 title = "t"
 rtol = 1e-2
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50
@@ -116,16 +109,7 @@ y = ["SWT", "cycles"]
 title = "t"
 rtol = 1e-2
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50
@@ -139,16 +123,7 @@ phase = 1
 title = "t"
 rtol = 1e-2
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50
@@ -165,16 +140,7 @@ body = [1, 2]
 title = "t"
 rtol = 1e-2
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 friction = 0.5
@@ -184,6 +150,46 @@ profile = "pad"
 [profiles.pad]
 radius = [0, 0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4, 1.6]
 height = [0, 4e-4, 1.6e-3, 3.6e-3, 6.4e-3, 1e-2, 1.44e-2, 1.96e-2, 2.56e-2]
+====
+title = "t"
+rtol = 1e-2
+
+{ALLOY}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 2000
+contact_length = 10
+normal_force_amplitude = 100
+bulk_stress_amplitude = 30
+bulk_stress_ratio = 0.1
+critical_distance = 0.05
+[axes]
+profile = ["cylinder", "paraboloid"]
+tangential_force_amplitude = [300, 500]
+[figure]
+x = "tangential_force_amplitude"
+hue = "profile"
+panels = "body"
+y = ["SWT", "cycles_volume"]
+====
+title = "t"
+rtol = 1e-2
+quantities = ["dissipation", "stick_radius"]
+[profiles.pad]
+geometry = "plane"
+radius = [0, 0.4, 0.8, 1.2, 1.6, 2, 2.4, 2.8, 3.2]
+height = [0, 0.08, 0.32, 0.72, 1.28, 2, 2.88, 3.92, 5.12]
+[fixed]
+normal_force_amplitude = 0.2
+flat_half_width = 0.4
+waviness_amplitude = 0.01
+wavelength = 6
+exponent = 3
+[axes]
+profile = ["pad", "rounded_flat", "wavy_cylinder", "power_law_cylinder"]
+tangential_force_amplitude = {start = 0.1, stop = 0.5, num = 2, also = [0.3]}
 """
 _VALUES = """
 0
@@ -219,6 +225,8 @@ true
 [1e300, 2]
 [nan]
 {start = 0, stop = 1, num = 3}
+{start = 0, stop = 1, num = 3, also = [0.2, "2/3"]}
+{start = 0, stop = 1, num = 3, also = [nan, 0.5]}
 {start = "pi/0", stop = 1, num = 3}
 {start = 1, stop = 1, num = 2}
 {start = 1, stop = 1e9, num = 3, spacing = 'log'}
@@ -229,6 +237,10 @@ true
 "paraboloid"
 "rounded_punch"
 "truncated_paraboloid"
+"cylinder"
+"rounded_flat"
+"wavy_cylinder"
+"plane"
 "harmonic"
 "a"
 "worn"
@@ -257,10 +269,10 @@ young_modulus poisson_ratio radius depth normal_force friction normal_amplitude 
 tangential_amplitude normal_force_amplitude tangential_force_amplitude frequency_ratio load profile
 flat_radius waviness_amplitude wavelength exponent bulk_stress_amplitude body bulk_stress_mean
 bulk_stress_ratio bulk_stress_phase walker_exponent critical_distance similar x hue panels y kind
-vertical regimes file size seed frictoin rtol quantities
+vertical regimes file size seed frictoin rtol quantities flat_half_width contact_length geometry also
 """
 #: What the changes begin with: each part of a study is in one of them.
-STUDIES = _STUDIES.split("====\n")
+STUDIES = _STUDIES.replace("{ALLOY}", ALLOY).split("====\n")
 #: What may stand where a value stood, and where a key stood.
 VALUES = ("9" * 400, "0x" + "f" * 300, "[" * 60 + "]" * 60, *_VALUES.strip().splitlines())
 KEYS = _KEYS.split()

@@ -2,10 +2,8 @@
 
 from swtstudy import FatigueConstants
 
-STUDY = """
-title = "A sphere on a flat"
-rtol = 1e-3
-quantities = ["dissipation", "stick_radius", "contact_radius"]
+#: Units and the constants of an aluminium alloy.
+ALLOY = """\
 [units]
 length = "mm"
 force = "N"
@@ -15,7 +13,12 @@ strength = 927
 strength_exponent = -0.113
 ductility = 0.409
 ductility_exponent = -0.713
-[fixed]
+"""
+STUDY = f"""
+title = "A sphere on a flat"
+rtol = 1e-3
+quantities = ["dissipation", "stick_radius", "contact_radius"]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

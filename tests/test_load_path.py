@@ -132,6 +132,7 @@ def test_harmonic_sums_are_what_two_oscillations_are(forces: bool) -> None:
         assert abs(found.critical_x.item()) == pytest.approx(abs(expected.critical_x.item()), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_major_and_minor_cycles_are_their_polygon_of_many_sides() -> None:
     normal, tangential = [(1, 1.0, 0.4), (3, 0.3, 1.0)], [(1, 0.8, 0.0), (2, 0.2, 0.5), (0, 0.1, 1.5)]
     own = {"normal_amplitude": 0.5, "tangential_amplitude": 0.5, "rtol": 1e-5}

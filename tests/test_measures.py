@@ -7,6 +7,7 @@ import pytest
 from made_up import PHASES, made_up
 
 from swtstudy.statements.measures import coupling, largest_fall, largest_rise, period, turning_points
+from swtstudy.statements.select import NotInArchiveError, even
 
 
 def test_measures():
@@ -26,6 +27,27 @@ def test_measures():
 def test_the_period_is_found_with_kinks_and_without(waves):
     assert period(2 + np.cos(waves * PHASES)) == pytest.approx(2 * np.pi / waves)
     assert period(2 + abs(np.cos(waves * PHASES / 2 - 0.3))) == pytest.approx(2 * np.pi / waves)
+
+
+@pytest.mark.parametrize(
+    ("places", "more"),
+    [
+        (np.linspace(0.0, 2 * np.pi, 145), [1.5517, 2.6308, 2.6308 + np.pi, 2.631]),
+        (np.geomspace(0.002, 0.05, 201), [0.002377, 0.028078]),
+        (np.linspace(1.0, 4.0, 4), []),
+        (np.array([0.3, 0.1]), []),
+    ],
+)
+def test_values_put_in_among_equal_steps_or_ratios_are_told_from_these(places, more):
+    curve = made_up(lambda phase: 2 + phase, phase=[*more, *places])
+    np.testing.assert_array_equal(even(curve, "phase").phase, np.sort(places) if more else places)
+    with pytest.raises(NotInArchiveError, match="no axis friction"):
+        even(curve, "friction")
+
+
+def test_an_axis_without_equal_steps_is_left_as_it_is():
+    curve = made_up(lambda phase: 2 + phase, phase=[0.0, 0.3, 1.0, 1.1])
+    assert even(curve, "phase") is curve
 
 
 def test_a_constant_has_no_period():

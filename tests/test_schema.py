@@ -68,7 +68,7 @@ def test_three_mistakes(validator):
     assert str(error.value).splitlines() == [
         "three.toml: axes.phase.num: found nothing; allowed: a whole number",
         "three.toml: axes.phase.number: found unknown key 'number'; allowed: "
-        "did you mean num? known: start, stop, num, spacing",
+        "did you mean num? known: start, stop, num, spacing, also",
         "three.toml: fixed.frictoin: found unknown parameter 'frictoin'; allowed: "
         f"did you mean friction? known: {', '.join([*PARAMETERS, 'critical_distance'])}",
         "three.toml: fixed.poisson_ratio: found 0.7 (out of range); allowed: a number in [0, 0.5]",

@@ -107,7 +107,7 @@ def test_figure_7_resolves_every_oscillation():
         * h**1.5
         / np.sqrt(1 + max(grid.axes["normal_amplitude"]))
     )
-    assert (period[:-1] / np.diff(h)).min() > 112
+    assert (period[:-1] / np.diff(h)).min() > 18
 
 
 def test_figure_8_phases_differ_most_at_one_half():

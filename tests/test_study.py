@@ -36,6 +36,8 @@ def test_defaults_are_table_1():
         "bulk_stress_mean": 0.0,
         "bulk_stress_phase": 0.0,
         "walker_exponent": 0.5,
+        "normal_sensitivity": 0.0,
+        "criterion": "swt",
         "profile": "paraboloid",
         "load": "harmonic",
     }
@@ -63,6 +65,13 @@ def test_the_size_of_a_grid_has_no_end():
 def test_a_range_with_rational_ends_has_the_nearest_floats():
     study = Study.from_text(MINIMAL + "[axes]\nfriction = {start = 0, stop = 1, num = 11}")
     assert study.grid.axes["friction"] == tuple(i / 10 for i in range(11))
+
+
+@pytest.mark.parametrize(("start", "stop", "sense"), [(0, 1, 1), (1, 0, -1)])
+def test_values_beside_a_range_are_put_in_their_places(start, stop, sense):
+    axis = f'friction = {{start = {start}, stop = {stop}, num = 3, also = ["1/3", 0.75, 1.5]}}'
+    values = Study.from_text(MINIMAL + "[axes]\n" + axis).grid.axes["friction"]
+    assert values == (0.0, 1 / 3, 0.5, 0.75, 1.0, 1.5)[::sense]
 
 
 def test_ratios_are_exact():
@@ -132,6 +141,14 @@ def test_a_bad_value_is_named(entry, found):
         ("phase = {start = 0, stop = 0, num = 3}", "axes.phase", "two different ends"),
         ('phase = {start = 0, stop = "two", num = 3}', "axes.phase.stop", "not a number"),
         ("phase = {start = 0, stop = 1, num = 3, step = 1}", "axes.phase.step", "did you mean stop?"),
+        ("phase = {start = 0, stop = 1, num = 3, also = 0.2}", "axes.phase.also", "a list of values"),
+        ("phase = {start = 0, stop = 1, num = 3, also = [0.2, 0.5]}", "axes.phase.also[1]", "axes.phase[1]"),
+        (
+            "phase = {start = 0, stop = 1, num = 3, also = [0.2, 0.2]}",
+            "axes.phase.also[1]",
+            "axes.phase.also[0]",
+        ),
+        ("phase = {start = 0, stop = 1, num = 3, also = [0.2, 1e9]}", "axes.phase.also[1]", "out of range"),
         ("flat_radius = [0, 1]", "axes.flat_radius", "no profile here has"),
         ('profile = ["paraboloid", "cone"]', "axes.profile[1]", "no such profile"),
     ],

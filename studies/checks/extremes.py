@@ -1,12 +1,14 @@
-"""By how much the curves of the paper's figures miss their extremes, with how many points.
+"""By how much the curves of the paper's figures miss their extremes, and where values would mend it.
 
 python studies/checks/extremes.py > results/extremes.txt
+python studies/checks/extremes.py --places figure3
 """
 
 from __future__ import annotations
 
 import argparse
 import itertools
+import re
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -32,10 +34,12 @@ AXES = {
 }
 #: What of a point is not told by `swtstudy.solve`.
 OTHERS = ("control",)
+#: Extremes are looked for on curves of so many times the steps.
+FINER = 4
 #: Places of a curve that come so near to its extreme are looked at, in so many points, so often.
-NEAR, POINTS, ROUNDS = 0.02, 13, 4
-#: Every so many points are left.
-THINNED = (1, 2, 4, 8)
+NEAR, POINTS, ROUNDS = 0.005, 13, 3
+#: Extremes that are missed by more ask for a value of their own, of so many digits.
+ENOUGH, DIGITS = 5e-4, 5
 
 
 def curves(dataset: xr.Dataset, axis: str) -> Iterator[tuple[dict[str, object], Array]]:
@@ -47,58 +51,75 @@ def curves(dataset: xr.Dataset, axis: str) -> Iterator[tuple[dict[str, object], 
         yield {name: value for name, value in known.items() if name not in OTHERS}, curve.s.values
 
 
-def extreme(solve: Callable[[Array], Array], x: Array, s: Array) -> float:
-    """The largest of s, looked for between the points beside every high place."""
+def extreme(solve: Callable[[Array], Array], x: Array, s: Array) -> tuple[float, float]:
+    """Place and value of the largest of s, looked for between the points beside every high place."""
     inside = np.r_[-np.inf, s, -np.inf]
     tops = (s >= inside[:-2]) & (s >= inside[2:]) & (s >= s.max() - NEAR * abs(s.max()))
-    best = float(s.max())
+    best = float(x[s.argmax()]), float(s.max())
     for top in np.flatnonzero(tops):
         low, high = x[max(top - 1, 0)], x[min(top + 1, len(x) - 1)]
         for _ in range(ROUNDS):
             places = np.linspace(low, high, POINTS)
             values = solve(places)
-            best = max(best, float(values.max()))
             at = int(values.argmax())
+            best = max(best, (float(places[at]), float(values[at])), key=lambda found: found[1])
             low, high = places[max(at - 1, 0)], places[min(at + 1, POINTS - 1)]
     return best
 
 
-def missed(study: Study, axis: str, thinned: tuple[int, ...]) -> Array:
-    """Largest relative distance of any curve's extremes from those of its points, one for each thinning."""
-    worst = np.zeros(len(thinned))
+def finer(study: Study, times: int) -> Study:
+    """The study with so many times the steps."""
+    return Study.from_text(
+        re.sub(r"num = (\d+)", lambda num: f"num = {(int(num[1]) - 1) * times + 1}", study.text)
+    )
+
+
+def without_also(study: Study) -> Study:
+    """The study with nothing but equal steps."""
+    return Study.from_text(re.sub(r", also = \[[^]]*\]", "", study.text))
+
+
+def missed(study: Study, axis: str, times: int) -> Iterator[tuple[float, float, float]]:
+    """Place of each extreme of each curve, and by which share all points and those of equal steps miss it."""
     with tempfile.TemporaryDirectory() as folder:
-        dataset = run(study, Path(folder) / "curves.nc")
+        dataset = run(finer(study, times), Path(folder) / "curves.nc")
     x = dataset[axis].values
+    drawn, equal = (np.isin(x, each.grid.axes[axis]) for each in (study, without_also(study)))
     for fixed, s in curves(dataset, axis):
         for sense in (1.0, -1.0):
 
             def signed(places: Array, fixed=fixed, sense=sense) -> Array:
                 return sense * swtstudy.solve(**fixed, **{axis: places}, rtol=study.rtol).s.values
 
-            best = extreme(signed, x, sense * s)
-            found = [(best - (sense * s)[::step].max()) / abs(best) for step in thinned]
-            worst = np.maximum(worst, found)
-    return worst
+            place, best = extreme(signed, x, sense * s)
+            misses = ((best - (sense * s)[points].max()) / abs(best) for points in (drawn, equal))
+            yield place, *misses
 
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("--quick", action="store_true", help="Figure 3 alone, every eighth point of it")
+    arguments.add_argument("--quick", action="store_true", help="Figure 3 alone, with twice its steps")
+    arguments.add_argument("--places", action="store_true", help="print where extremes are missed instead")
     arguments.add_argument("studies", nargs="*", default=[*AXES], help="which of them; all unless given")
     given = arguments.parse_args()
-    print("Largest relative distance of a curve's extremes from those of its points, over all curves of a")
-    print("study: with all points of their axis, and with every second, fourth and eighth of them:\n")
-    print("study              axis                points" + "".join(f"   every {step}" for step in THINNED))
+    if not given.places:
+        print(
+            "Largest relative distance of a curve's extremes from those of its points, over all curves of a"
+        )
+        print("study: with all points of their axis, and with those of equal steps (or ratios) alone:\n")
+        print("study              axis                points    missed    steps    missed")
     for name in given.studies[: 1 if given.quick else None]:
         axis = AXES[name]
         study = Study.from_toml(Path(__file__).parents[1] / f"{name}.toml")
-        points = len(study.grid.axes[axis])
-        thinned = THINNED
-        if given.quick:
-            text = study.text.replace(f"num = {points}", f"num = {(points - 1) // 8 + 1}")
-            study, thinned = Study.from_text(text), (1,)
-        words = "".join(f"   {each:.1e}" for each in missed(study, axis, thinned))
-        print(f"{name:<18} {axis:<20} {len(study.grid.axes[axis]):5}{words}", flush=True)
+        found = [*missed(study, axis, 2 if given.quick else FINER)]
+        if given.places:
+            needed = {f"{place:.{DIGITS}g}" for place, with_all, _ in found if with_all > ENOUGH}
+            print(f"{name}: {', '.join(sorted(needed, key=float))}", flush=True)
+            continue
+        counts = (len(each.grid.axes[axis]) for each in (study, without_also(study)))
+        worst = (max(each) for each in list(zip(*found, strict=True))[1:])
+        words = "".join(f"{count:9}   {miss:.1e}" for count, miss in zip(counts, worst, strict=True))
+        print(f"{name:<18} {axis:<17}{words}", flush=True)
 
 
 if __name__ == "__main__":

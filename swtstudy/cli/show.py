@@ -10,18 +10,19 @@ import click
 
 from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import InSections, with_width
 from swtstudy.cli.solve import with_parameters
 from swtstudy.parameters import PARAMETERS
 
 
 @click.command(
+    cls=InSections,
     epilog=examples(
         "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
         "swtstudy show --profile rounded_punch --flat-radius 0.5",
         "swtstudy show --profile worn.csv",
         "swtstudy show --load square loops",
-    )
+    ),
 )
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
 @with_parameters("VALUE")

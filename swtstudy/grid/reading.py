@@ -12,6 +12,7 @@ from typing import Literal
 
 from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number
+from swtstudy.grid.criteria import check_criteria
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
@@ -35,12 +36,16 @@ LONGEST_AXIS = 1_000_000
 
 @dataclass(frozen=True)
 class Range:
-    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios."""
+    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios.
+
+    Those of `also` are put in among them.
+    """
 
     start: object
     stop: object
     num: int
     spacing: Literal["linear", "log"] = "linear"
+    also: Sequence[object] = ()
 
 
 def read_grid(
@@ -89,6 +94,7 @@ def read_grid(
     check_amplitudes(good_fixed, along, keys, report)
     check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
     check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
+    check_criteria((*fixed, *axes, *samples), good_fixed, along, keys, report)
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)
@@ -144,7 +150,7 @@ def _too_many(
 ) -> bool:
     """Whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [
-        raw.num if isinstance(raw, Range) else len(raw)
+        raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
         for name, raw in axes.items()
         if name in rows and raw is not None
     ]
@@ -204,21 +210,27 @@ def _read_axis(
     elements = _expand(raw, key, report) if isinstance(raw, Range) else list(raw)
     if not elements and not isinstance(raw, Range):
         report(key, "an empty axis", "at least one value")
+    count, also = len(elements), raw.also if isinstance(raw, Range) else ()
+    elements.extend(also)
     if len(elements) > LONGEST_AXIS:
         report(key, f"{len(elements)} values", f"at most {LONGEST_AXIS} values")
         return ()
     values: list[Value] = []
-    seen: dict[float | str | Fraction, int] = {}
+    seen: dict[float | str | Fraction, str] = {}
     for index, element in enumerate(elements):
-        value = _read(row, element, f"{key}[{index}]", report, known)
+        own_key = f"{key}[{index}]" if index < count else f"{key}.also[{index - count}]"
+        value = _read(row, element, own_key, report, known)
         if value is None:
             continue
         values.append(value)
         # Two of one name could not be told apart.
         own = str(value) if isinstance(value, Named) else value
-        first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, index)
-        if first != index:
-            report(f"{key}[{index}]", f"{literal(element)}, the same as {key}[{first}]", "distinct values")
+        first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
+        if first != own_key:
+            report(own_key, f"{literal(element)}, the same as {first}", "distinct values")
+    if also:
+        descending = len(values) > 1 and as_number(values[0]) > as_number(values[1])
+        values.sort(key=as_number, reverse=descending)
     return tuple(values)
 
 

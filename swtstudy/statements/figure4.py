@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swtstudy.statements.measures import period, spread
-from swtstudy.statements.select import at, listed, with_dims
+from swtstudy.statements.select import at, even, listed, with_dims
 from swtstudy.statements.statement import Finding, Statement
 from swtstudy.wording import value_words
 
@@ -61,7 +61,7 @@ def period_shrinks_everywhere(figure4: xr.Dataset, others: xr.Dataset) -> Findin
 def _periods(*archives: xr.Dataset) -> Finding:
     found: dict[float, float] = {}
     for archive in archives:
-        curves = with_dims(archive, "frequency_ratio", "phase").s.isel(normal_amplitude=-1)
+        curves = even(with_dims(archive, "frequency_ratio"), "phase").s.isel(normal_amplitude=-1)
         for ratio in curves.frequency_ratio.values.tolist():
             found[ratio] = period(curves.sel(frequency_ratio=ratio).sortby("phase").values)
     ratios = sorted(found)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swtstudy.statements.measures import coupling
-from swtstudy.statements.select import at, listed, with_dims
+from swtstudy.statements.select import at, even, listed, with_dims
 from swtstudy.statements.statement import Finding, Statement
 
 if TYPE_CHECKING:
@@ -33,9 +33,8 @@ def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
     curves = curves.transpose("flat_radius", "phase")
     s, error = curves.s.values, curves.s_error.values
     against = sense * (s[:-1] - s[1:]) - error[1:] - error[:-1]
-    relative = s.mean(axis=1) / s[0].mean()
-    means = curves.s.mean("phase").copy(data=relative)
-    measured = f"mean over ψ, against b = 0, at b/a_H = {listed(means)}"
+    means = even(curves, "phase").s.mean("phase")
+    measured = f"mean over ψ, against b = 0, at b/a_H = {listed(means / means[0].item())}"
     wrong = against > 0
     if wrong.any():
         step, phase = np.unravel_index(np.argmax(against / s[:-1]), against.shape)
@@ -52,12 +51,12 @@ def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
 
 def rounded_punch_uncoupled(figure5: xr.Dataset) -> Finding:
     """Coupling of b and ψ for the rounded punch."""
-    return coupling_with(at(figure5, profile="rounded_punch"), "flat_radius", NEGLIGIBLE)
+    return coupling_with(even(at(figure5, profile="rounded_punch"), "phase"), "flat_radius", NEGLIGIBLE)
 
 
 def truncated_paraboloid_weakly_coupled(figure5: xr.Dataset) -> Finding:
     """Coupling of b and ψ for the truncated paraboloid."""
-    return coupling_with(at(figure5, profile="truncated_paraboloid"), "flat_radius", WEAK)
+    return coupling_with(even(at(figure5, profile="truncated_paraboloid"), "phase"), "flat_radius", WEAK)
 
 
 def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:

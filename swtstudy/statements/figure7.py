@@ -9,7 +9,7 @@ import numpy as np
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.statements.measures import spread
 from swtstudy.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
-from swtstudy.statements.select import at, with_dims
+from swtstudy.statements.select import at, even, with_dims
 from swtstudy.statements.statement import Finding, Statement
 from swtstudy.wording import value_words
 
@@ -70,7 +70,7 @@ def effects_are_alike(figure7: xr.Dataset) -> Finding:
 
 def curves_are_alike(figure7: xr.Dataset) -> Finding:
     """Distance of the curves of both amplitudes, each over its mean, compared with the effect of h itself."""
-    s = with_dims(figure7, "waviness_amplitude", "normal_amplitude").s.sortby("normal_amplitude")
+    s = even(with_dims(figure7, "normal_amplitude"), "waviness_amplitude").s.sortby("normal_amplitude")
     effect = s / s.mean("waviness_amplitude") - 1
     distance = effect.isel(normal_amplitude=-1) - effect.isel(normal_amplitude=0)
     share = float(np.sqrt((distance**2).mean() / (effect**2).mean()))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from swtstudy.mistakes import StudyError
 from swtstudy.results.select import slice_at
 from swtstudy.wording import value_words
@@ -43,6 +45,27 @@ def with_dims(dataset: xr.Dataset, *names: str) -> xr.Dataset:
     for name in names:
         if name not in dataset.dims:
             raise NotInArchiveError(f"no axis {name}")
+    return dataset
+
+
+def even(dataset: xr.Dataset, name: str) -> xr.Dataset:
+    """The Dataset without values that were put in among equal steps, or equal ratios, of an axis.
+
+    Raises
+    ------
+    NotInArchiveError
+        If it lacks the axis.
+    """
+    places = np.sort(with_dims(dataset, name)[name].values)
+    if len(places) < 3:
+        return dataset
+    for scale in (np.asarray, np.log) if places[0] > 0.0 else (np.asarray,):
+        x = scale(places)
+        steps = round((x[-1] - x[0]) / np.diff(x).max())
+        share = (x - x[0]) / (x[-1] - x[0]) * steps
+        kept = np.abs(share - np.round(share)) < 1e-6
+        if kept.sum() == steps + 1:
+            return dataset.sel({name: places[kept]})
     return dataset
 
 

@@ -259,8 +259,9 @@ def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     fixed, axes = (raw.get(key, {}) for key in ("fixed", "axes"))
     good: dict[str, Any] = {}
     for name, axis in axes.items() if isinstance(axes, dict) else ():
-        complete = isinstance(axis, dict) and axis.keys() - {"spacing"} == {"start", "stop", "num"}
+        complete = isinstance(axis, dict) and axis.keys() - {"spacing", "also"} == {"start", "stop", "num"}
         complete = complete and axis.get("spacing", "linear") in ("linear", "log")
+        complete = complete and isinstance(axis.get("also", []), list)
         if isinstance(axis, list):
             good[name] = axis
         elif complete and isinstance(axis["num"], int) and not isinstance(axis["num"], bool):

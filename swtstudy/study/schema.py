@@ -45,6 +45,7 @@ _RANGE_DESCRIPTIONS = {
     "stop": "Last value, included.",
     "num": "Number of values.",
     "spacing": 'Equal steps ("linear") or equal ratios ("log").',
+    "also": "Further values, put in among those: where curves bend, for example.",
 }
 _PROFILE_DESCRIPTIONS = {
     "radius": "Radii r, in a length a_H: at least 8, ascending from 0.",

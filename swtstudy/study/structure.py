@@ -80,6 +80,8 @@ def _mistake(detail: Any, source: str) -> Mistake:
         allowed = "the path of a CSV file"
     elif path[0] == "axes" and path[-1] == "spacing":
         allowed = '"linear" or "log"'
+    elif path[0] == "axes" and path[-1] == "also":
+        allowed = "a list of values"
     elif path[0] == "axes" and path[-1] == "num":
         allowed = "a whole number"
     else:

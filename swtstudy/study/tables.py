@@ -20,6 +20,7 @@ class RangeTable(_Table):
     stop: Any
     num: int
     spacing: Literal["linear", "log"] = "linear"
+    also: list[Any] = []
 
 
 def _axis_kind(raw: object) -> str:

@@ -209,6 +209,12 @@ class PhysicalGrid(Grid):
 
         return dims_of(self, asked)
 
+    def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
+        """See `Grid.presented`."""
+        from swtstudy.units.results import with_units
+
+        return with_units(dataset, self, asked)
+
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
         length = self.seats.scale("a_H")

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -23,11 +22,12 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Share of the largest swt that positions may leave unseen, and so may instants and planes. Twice or half: no
 #: maximum more or less is overlooked (`studies/checks/overlooked.py`).
 SHARE = 0.05
-#: Steps with which a piece begins, the fewest that say whether they are enough; and steps at most.
-STEPS, MOST_STEPS = 4, 256
-#: A layer is thin if it is shorter than this share of a step. Without: 1.4e-4 at a point of
+#: Steps with which a piece begins, and steps at most; a piece whose first values are below this share of the
+#: largest needs no more.
+STEPS, MOST_STEPS, LOW = 2, 256, 0.5
+#: A layer is thin if it is shorter than this share of a piece. Without: 1.4e-4 at a point of
 #: tests/test_overlooked.py.
-THIN = 1.0 / 3.0
+THIN = 1.0 / 12.0
 #: Planes that are tried, and instants, which leave such a share unseen.
 PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
 #: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
@@ -91,8 +91,8 @@ def _seen(
     highest = swt.copy()
     at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))
     some = planes.take(*at)
-    of_swt = curves(*some.on_plane(angle[at]))
-    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt), walker=some.walker)
+    of_swt = some.criterion.curves(*some.on_plane(angle[at]))
+    highest[at] = some.criterion.of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
     return swt, angle, highest
 
 
@@ -101,17 +101,24 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     steps, going = STEPS, np.arange(len(pieces.point))
     # The last piece of a point has its end, too; the others end where the next one begins.
     count = steps + pieces.is_last
-    piece = np.repeat(going, count)
-    share = (np.arange(piece.size) - np.repeat(np.cumsum(count) - count, count)) / steps
-    found = [(piece, share, look_at(scene, pieces, piece, share))]
-    values = found[0][2].swt[np.flatnonzero(share == 0.0)[:, None] + np.arange(steps + 1)]
+    layer, of_layer = pieces.layers(THIN)
+    piece = np.concatenate([np.repeat(going, count), layer])
+    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / steps
+    share = np.concatenate([share, of_layer])
+    order = np.lexsort((share, piece))
+    place = np.argsort(order)[: count.sum()]
+    found = [(piece[order], share[order], look_at(scene, pieces, piece[order], share[order]))]
+    values = found[0][2].swt[place][(np.cumsum(count) - count)[:, None] + np.arange(steps + 1)]
     largest = np.zeros(len(scene))
     while True:
         highest = values.max(axis=(1, 2))
         np.maximum.at(largest, pieces.point[going], highest)
         unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
         top = largest[pieces.point[going]]
-        open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
+        if steps == STEPS:
+            open_ = highest + unseen > LOW * top
+        else:
+            open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
         going, values = going[open_], values[open_]
         if not going.size or steps == MOST_STEPS:
             break
@@ -120,8 +127,6 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
         finer = np.empty((going.size, 2 * steps + 1, values.shape[-1]))
         finer[:, ::2], finer[:, 1::2] = values, found[-1][2].swt.reshape(going.size, steps, -1)
         values, steps = finer, 2 * steps
-    piece, share = pieces.layers(THIN / STEPS)
-    found.append((piece, share, look_at(scene, pieces, piece, share)))
     piece, share = (np.concatenate([part[k] for part in found]) for k in range(2))
     order = np.lexsort((share, piece))
     seen = Seen.joined([part[2] for part in found]).take(order)
@@ -129,7 +134,9 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
 
 
 def _predicted(values: FloatArray) -> FloatArray:
-    """Values midway between evenly spaced ones, (m, k, sides), by the nearest four, or three, of them."""
+    """Values midway between evenly spaced ones, (m, k, sides), by the nearest four of them, or all."""
+    if values.shape[1] == 2:
+        return np.asarray(values.mean(axis=1, keepdims=True))
     if values.shape[1] == 3:
         weights = np.array([[3.0, 6.0, -1.0], [-1.0, 6.0, 3.0]]) / 8.0
         return np.asarray(np.einsum("ij,mjs->mis", weights, values))
