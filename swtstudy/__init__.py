@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import read_signal
+    from swtstudy.study.trace import read_trace
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
     from swtstudy.units.shear_life import ShearConstants
@@ -51,6 +52,7 @@ __all__ = [
     "optimise",
     "physical",
     "read_signal",
+    "read_trace",
     "run",
     "run_suite",
     "sensitivity",
@@ -79,6 +81,7 @@ _HOMES = {
     "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "read_signal": "swtstudy.study.signal",
+    "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "sensitivity": "swtstudy.results.sensitivity",

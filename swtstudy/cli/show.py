@@ -28,8 +28,13 @@ from swtstudy.parameters import PARAMETERS
 @with_parameters("VALUE")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+@click.option(
+    "--smoothing", type=float, default=0.0, help="What the fit may miss of a profile in a CSV file."
+)
 @with_width
-def show(study: str | None, output: str, style: str | None, width: Any, **texts: str | None) -> None:
+def show(
+    study: str | None, output: str, style: str | None, smoothing: float, width: Any, **texts: str | None
+) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
@@ -53,7 +58,7 @@ def show(study: str | None, output: str, style: str | None, width: Any, **texts:
         return
     parameters: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     if Path(str(parameters.get("profile"))).suffix == ".csv":
-        parameters["profile"] = table_from(Path(str(parameters["profile"])))
+        parameters["profile"] = table_from(Path(str(parameters["profile"])), smoothing)
     of_shape = bool(parameters) and all(PARAMETERS[name].part == "shape" for name in parameters)
     figure = (draw_profile if of_shape else inspect)(style=style, width=width, **parameters)
     check_writable(output)
