@@ -194,7 +194,7 @@ def test_the_command_shows_a_study(tmp_path, monkeypatch):
     file = tmp_path / "pad.toml"
     file.write_text(STUDY, encoding="utf-8")
     picture = tmp_path / "pad.png"
-    given = ["show", "--study", str(file), "-o", str(picture)]
+    given = ["show", str(file), "-o", str(picture)]
     done = CliRunner().invoke(main, given)
     assert done.exit_code == 2
     assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
@@ -214,5 +214,5 @@ def test_the_command_shows_a_study(tmp_path, monkeypatch):
     assert "tangential_amplitude" in shown
     plain = tmp_path / "plain.toml"
     plain.write_text('title = "t"', encoding="utf-8")
-    done = CliRunner().invoke(main, ["show", "--study", str(plain)])
+    done = CliRunner().invoke(main, ["show", str(plain)])
     assert "a study without units; allowed: one with [units]" in done.stderr

@@ -52,6 +52,11 @@ _PROFILE_DESCRIPTIONS = {
     "height": "Heights f at these radii, in a depth δ0: 0 at the axis.",
     "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
     "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
+    "columns": "Headers of the file's columns radius and height, or position and height, if they are others.",
+    "separator": 'Between the cells of the file: ",", ";", "|", a tab, or a blank for any number of blanks.',
+    "decimal": 'The decimal sign in the file: "." or ",".',
+    "two_sided": "Whether the file is a trace across the body, with the columns position and height.",
+    "level": "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.",
     "geometry": '"axisymmetric", or "plane" for a long body: its radii are then half-widths.',
 }
 _SAMPLE_DESCRIPTIONS = {
