@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from swtstudy.archive.open import open_results
     from swtstudy.audit.audit import audit_study
     from swtstudy.contacts.physical import physical
-    from swtstudy.fields.history import swt_of_history
+    from swtstudy.fields.history import criterion_of_history, swt_of_history
     from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
@@ -27,23 +27,28 @@ if TYPE_CHECKING:
     from swtstudy.runner.run import run
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
+    from swtstudy.study.signal import read_signal
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
+    from swtstudy.units.shear_life import ShearConstants
 
 __all__ = [
     "FatigueConstants",
     "LoadPath",
+    "ShearConstants",
     "Study",
     "StudyError",
     "TabulatedProfile",
     "__version__",
     "audit_study",
+    "criterion_of_history",
     "draw_profile",
     "inspect",
     "inspect_point",
     "open_results",
     "optimise",
     "physical",
+    "read_signal",
     "run",
     "run_suite",
     "sensitivity",
@@ -58,16 +63,19 @@ __all__ = [
 _HOMES = {
     "FatigueConstants": "swtstudy.units.life",
     "LoadPath": "swtstudy.mechanics.load.load_path",
+    "ShearConstants": "swtstudy.units.shear_life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
+    "criterion_of_history": "swtstudy.fields.history",
     "draw_profile": "swtstudy.figures.profile",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",
     "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
+    "read_signal": "swtstudy.study.signal",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "sensitivity": "swtstudy.results.sensitivity",

@@ -11,23 +11,26 @@ from typing import Any
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import pytest
+import xarray as xr
+from real import STUDY
 
+from swtstudy import run
 from swtstudy.study.definition import Study
 
-#: Tests of these files share what is costly: each of them stays with one process.
-TOGETHER = {
-    f"tests/test_{name}.py"
-    for name in (
-        "force_control",
-        "inspected_forces",
-        "inspection_panels",
-        "optimise",
-        "real_archives",
-        "s_error",
-        "sensitivity",
-        "shown",
-    )
-}
+#: Tests of these files share what is costly: the files of each line stay with one process.
+TOGETHER = (
+    ("counted_cycles",),
+    ("critical_distance",),
+    ("force_control",),
+    ("inspected_forces",),
+    ("inspection_panels",),
+    ("optimise",),
+    ("real_archives", "real_contacts", "real_studies"),
+    ("s_error",),
+    ("sensitivity",),
+    ("shown",),
+)
+GROUP_OF = {f"tests/test_{name}.py": group[0] for group in TOGETHER for name in group}
 
 SMALL = """
 title = "A small study"
@@ -56,6 +59,12 @@ def small(small_text) -> Study:
     return Study.from_text(small_text)
 
 
+@pytest.fixture(scope="session")
+def solved(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    """Results of the study with units of `real`."""
+    return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
+
+
 @pytest.fixture(autouse=True)
 def ctrl_c_as_it_was() -> Iterator[None]:
     """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""
@@ -72,7 +81,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     class Scheduling(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
             file = nodeid.split("::")[0]
-            return file if file in TOGETHER else nodeid
+            return GROUP_OF.get(file, nodeid)
 
     return Scheduling(config, log)
 

@@ -74,6 +74,7 @@ def test_other_files_are_not_taken_for_an_audit(tmp_path):
         audit_study("figure3", tmp_path / "audit.nc")
 
 
+@pytest.mark.slow
 def test_a_dense_look_says_whether_a_maximum_was_overlooked(tmp_path):
     path, study = tmp_path / "audit.nc", Study.from_text(STUDY)
     assert np.isnan(audit_study(study, path, workers=1).s_dense).all()

@@ -133,6 +133,7 @@ def test_the_history_at_the_critical_point_has_s_and_so_have_field_and_inspectio
     assert float(point.s) == float(found.s)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("psi", "of_bulk"), [(0.4, 1.0), (2.3, 3.0)])
 def test_the_harmonic_load_as_a_polygon_converges_to_it(psi: float, of_bulk: float) -> None:
     own = {"normal_amplitude": 0.75, "friction": 0.4, "bulk_stress_amplitude": 0.15, "bulk_stress_mean": 0.04}

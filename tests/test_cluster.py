@@ -21,7 +21,7 @@ distributed = pytest.importorskip("distributed")
 from swtstudy.runner.cluster import ClusterPool  # noqa: E402
 
 # Its own warnings about a killed worker are none of ours.
-pytestmark = pytest.mark.filterwarnings("default")
+pytestmark = [pytest.mark.filterwarnings("default"), pytest.mark.slow]
 
 WIDE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 2, num = 400}\n'
 

@@ -13,7 +13,7 @@ from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.planes.criterion import of_maxima
+from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
@@ -94,7 +94,7 @@ def test_newtons_method_finds_the_plane_for_given_instants(seed: int) -> None:
     grid = np.linspace(0.0, 2.0 * np.pi, 721)
     table = np.stack([value(np.full(50, angle)) for angle in grid])
     start = grid[table.argmax(axis=0)]
-    found = value(best_angle(peak, swing, start))
+    found = value(best_angle(peak, swing, start, SWT))
     assert np.all(found >= table.max(axis=0) * (1.0 - 1e-13))
     # Half a step of 0.5° away from the maximum the loss is below (0.25°)² of the curvature.
     np.testing.assert_allclose(found, table.max(axis=0), rtol=2e-4)
@@ -104,7 +104,7 @@ def test_swt_is_zero_where_no_plane_sees_tension() -> None:
     (xx, yy, zz, xz), nu = random_history(3)
     pressed = xx - 100.0, yy - 100.0, zz - 100.0, xz
     assert np.all(coarse(pressed, nu, 36)[0] == 0.0)
-    assert of_maxima(np.array([-1.0]), np.array([2.0]), np.array([2.0])) == 0.0
+    assert SWT.of_maxima(np.array([-1.0]), np.array([2.0]), np.array([2.0])) == 0.0
 
 
 def rotated(sigma: Stress, angle: float) -> Stress:

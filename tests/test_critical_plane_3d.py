@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 import swtstudy
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
-from swtstudy.mechanics.planes.ascent import symmetric_tensor
+from swtstudy.mechanics.planes.weights import symmetric_tensor
 
 POISSON = 0.3
 

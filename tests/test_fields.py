@@ -390,6 +390,7 @@ def swt_at(x, y, z, parameters):
     return swtstudy.swt_field(*places, **parameters).s_local.values.reshape(points[0].shape)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
 def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
     """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""

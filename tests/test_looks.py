@@ -115,7 +115,7 @@ def test_each_extreme_has_its_own_samples():
     """σ_n at the samples around its own maximum, ε_n at those around its largest and its least value."""
     samples = np.arange(2 * 3 * 4 * 3 * 5.0).reshape(2, 3, 4, 3, 5)  # kind, coefficient, X, extreme, sample
     stress, strain = samples[0][:, None], samples[1][:, None]
-    planes = SimpleNamespace(stress=stress.reshape(3, 1, 4, 15), strain=strain.reshape(3, 1, 4, 15))
+    planes = SimpleNamespace(stress=stress.reshape(3, 1, 4, 15), swing=strain.reshape(3, 1, 4, 15))
     found = of_extremes(planes)
     assert found.shape == (3, 1, 4, 3, 5)
     np.testing.assert_array_equal(found[..., 0, :], stress[..., 0, :])

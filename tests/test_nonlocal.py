@@ -167,6 +167,7 @@ def test_all_means_tend_to_s(name):
         assert fall[2] < 1.5e-2
 
 
+@pytest.mark.slow
 def test_errors_are_within_what_is_claimed(monkeypatch):
     """Against means over more places at more instants."""
     distance = np.array([0.05, 0.12])

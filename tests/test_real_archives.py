@@ -9,31 +9,31 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from real import STUDY
+from real import STUDY, plain
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.merge import merge
 from swtstudy.archive.write import save
 from swtstudy.runner.run import Stopped
 
-
-@pytest.fixture(scope="module")
-def solved(tmp_path_factory):
-    return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
+#: Without what takes time beside s.
+SHORT = plain("critical_distance")
+#: At one phase.
+HALF = STUDY.replace('[0, "pi/2"]', "[0]")
 
 
 def test_archives_resume_and_extend(tmp_path, solved):
-    path = tmp_path / "sphere.nc"
-    with pytest.raises(Stopped, match="4 of 8 distinct points are saved"):
-        run(Study.from_text(STUDY), path, workers=1, solver=_StopsAfter(4))
+    path, solved = tmp_path / "sphere.nc", solved.isel(phase=[0])
+    with pytest.raises(Stopped, match="2 of 4 distinct points are saved"):
+        run(Study.from_text(HALF), path, workers=1, solver=_StopsAfter(2))
     partial = open_results(path)
-    assert int(partial.SWT.notnull().sum()) == 4
-    found = run(Study.from_text(STUDY), path, workers=1)
+    assert int(partial.SWT.notnull().sum()) == 2
+    found = run(Study.from_text(HALF), path, workers=1)
     np.testing.assert_array_equal(found.s, solved.s)
     np.testing.assert_array_equal(found.SWT_line, solved.SWT_line)
-    assert "4 of 8 distinct points computed" in found.attrs["history"]
+    assert "2 of 4 distinct points computed" in found.attrs["history"]
     more = (
-        STUDY.replace("[150, 200]", "[150, 200, 250]")
+        HALF.replace("[150, 200]", "[150, 200, 250]")
         .replace("critical_distance = 0.05", "")
         .replace("[axes]", "[axes]\ncritical_distance = [0.02, 0.05]")
         .replace('"SWT_volume", ', "")
@@ -42,11 +42,11 @@ def test_archives_resume_and_extend(tmp_path, solved):
     np.testing.assert_array_equal(longer.SWT.sel(normal_force=[150, 200]), solved.SWT)
     kept = longer.SWT_point.sel(normal_force=[150, 200], critical_distance=0.05)
     np.testing.assert_array_equal(kept, solved.SWT_point)
-    assert "4 of 12 distinct points computed, and quantities that 8 others lacked" in longer.attrs["history"]
+    assert "2 of 6 distinct points computed, and quantities that 4 others lacked" in longer.attrs["history"]
     assert longer.SWT_volume.notnull().all()
     # The same bodies with others units: everything is known.
-    changed = run(Study.from_text(STUDY.replace("927", "800")), path, workers=1)
-    assert "0 of 8 distinct points computed" in changed.attrs["history"]
+    changed = run(Study.from_text(HALF.replace("927", "800")), path, workers=1)
+    assert "0 of 4 distinct points computed" in changed.attrs["history"]
     assert (changed.cycles < solved.cycles).all()
     np.testing.assert_array_equal(changed.dissipation, solved.dissipation)
 
@@ -67,22 +67,22 @@ class _StopsAfter:
 
 
 def test_archives_are_merged(tmp_path):
-    parts = [STUDY.replace("[150, 200]", "[150]"), STUDY.replace("[150, 200]", "[200]")]
+    parts = [SHORT.replace("[150, 200]", "[150]"), SHORT.replace("[150, 200]", "[200]")]
     for index, text in enumerate(parts):
         run(Study.from_text(text), tmp_path / f"{index}.nc", workers=1, solver=stand_in.smooth)
-    whole = run(Study.from_text(STUDY), tmp_path / "whole.nc", workers=1, solver=stand_in.smooth)
+    whole = run(Study.from_text(SHORT), tmp_path / "whole.nc", workers=1, solver=stand_in.smooth)
     merged = merge([tmp_path / "0.nc", tmp_path / "1.nc"])
     for name in ("s", "SWT", "cycles", "contact_radius"):
         np.testing.assert_allclose(merged[name], whole[name], rtol=1e-9)
     assert Study.from_text(merged.attrs["study"]).grid.shape == (2, 2, 2)
-    other = STUDY.replace('"MPa"', '"N/mm²"')
+    other = SHORT.replace('"MPa"', '"N/mm²"')
     run(Study.from_text(other), tmp_path / "other.nc", workers=1, solver=stand_in.smooth)
     with pytest.raises(ValueError, match="other units"):
         merge([tmp_path / "0.nc", tmp_path / "other.nc"])
 
 
 def test_the_contact_of_an_archive_is_checked(tmp_path):
-    run(Study.from_text(STUDY), tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    run(Study.from_text(SHORT), tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
     found = open_results(tmp_path / "a.nc")
     raw = json.loads(found.attrs["contact"])
     wrong = found.assign_attrs(contact=json.dumps({**raw, "materials": [1]}))
@@ -104,7 +104,7 @@ import os, signal, sys
 import swtstudy
 from swtstudy.mechanics import solve_points
 
-left = [4]
+left = [2]
 
 def solver(points, rtol):
     if left[0] <= 0:
@@ -117,13 +117,13 @@ swtstudy.run(swtstudy.Study.from_toml(sys.argv[1]), sys.argv[2], workers=1, solv
 
 
 def test_a_killed_run_goes_on(tmp_path, solved):
-    (tmp_path / "sphere.toml").write_text(STUDY)
-    path = tmp_path / "sphere.nc"
+    (tmp_path / "sphere.toml").write_text(HALF)
+    path, solved = tmp_path / "sphere.nc", solved.isel(phase=[0])
     words = (KILLED, tmp_path / "sphere.toml", path)
     done = subprocess.run([sys.executable, "-c", *map(str, words)], capture_output=True, check=False)
     assert done.returncode == -signal.SIGKILL, done.stderr
     assert not path.exists()
-    found = run(Study.from_text(STUDY), path, workers=1)
-    assert "4 of 8 distinct points computed" in found.attrs["history"]
+    found = run(Study.from_text(HALF), path, workers=1)
+    assert "2 of 4 distinct points computed" in found.attrs["history"]
     for name in solved.data_vars:
         np.testing.assert_array_equal(found[name], solved[name], err_msg=name)

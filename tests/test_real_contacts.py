@@ -11,12 +11,6 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.grid.unique import unique_points
 from swtstudy.units.labels import KNOWN
 
-
-@pytest.fixture(scope="module")
-def solved(tmp_path_factory):
-    return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
-
-
 RIG = {
     "young_modulus": 73.1e3,
     "poisson_ratio": 0.33,

@@ -27,11 +27,6 @@ def sphere(young_modulus, poisson_ratio):
     )
 
 
-@pytest.fixture(scope="module")
-def solved(tmp_path_factory):
-    return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
-
-
 def test_values_are_those_of_the_single_contact(solved):
     assert solved.s.dims == ("normal_force", "tangential_amplitude", "phase")
     point = solved.sel(normal_force=200, tangential_amplitude=2.5e-3).isel(phase=1)

@@ -39,6 +39,7 @@ def run(name, results):
     )
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_a_script(name, tmp_path):
     text = text_of(SCRIPTS[name])

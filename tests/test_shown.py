@@ -38,8 +38,11 @@ NAMES = sorted(
 )
 #: Blocks that the build of the pages makes of files; CI builds them, and their files are tested elsewhere.
 BUILT = {"{include}", "{literalinclude}", "{figure}", "{toctree}", "{eval-rst}"}
-#: A hundred points of an audit are some ten seconds.
-FEWER = {"swtstudy audit figure3 --points 100": "swtstudy audit figure3 --points 2"}
+#: A hundred points of an audit are some ten seconds, a thousand with dense looks an hour.
+FEWER = {
+    "swtstudy audit figure3 --points 100": "swtstudy audit figure3 --points 2",
+    "swtstudy audit figure3 --dense": "swtstudy audit figure3 --dense --points 2",
+}
 
 
 @pytest.fixture(scope="module")
@@ -95,6 +98,7 @@ def slurm(monkeypatch):
         cluster.close()
 
 
+@pytest.mark.pages
 @pytest.mark.filterwarnings("default")  # the cluster has its own
 @pytest.mark.parametrize("page", PYTHON, ids=lambda page: page.name)
 def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
@@ -125,6 +129,7 @@ def test_python_blocks_of_a_page(page, fresh, tmp_path, monkeypatch, slurm):
         assert re.search(r" [1-9]\d* of \d+ distinct points computed", names["ds"].history.splitlines()[0])
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("page", SHELL, ids=lambda page: page.name)
 def test_shell_blocks_of_a_page(page, fresh, tmp_path, monkeypatch):
     shutil.copytree(fresh / "studies", tmp_path / "studies")
@@ -140,6 +145,7 @@ def test_shell_blocks_of_a_page(page, fresh, tmp_path, monkeypatch):
             assert eval(call, {"swtstudy": swtstudy}) is not None
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("block", TOML, ids=str)
 def test_blocks_of_studies(block, tmp_path):
     study = Study.from_text(block.text, folder=tmp_path)
@@ -155,6 +161,7 @@ def test_names_in_prose(name):
     assert operator.attrgetter(name)(swtstudy)
 
 
+@pytest.mark.pages
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_in_prose_and_help(command, clone, monkeypatch):
     monkeypatch.chdir(clone)

@@ -18,8 +18,9 @@ from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
-from swtstudy.mechanics.planes.ascent import symmetric_tensor
-from swtstudy.mechanics.planes.criterion import Walker, derivatives, log_derivatives
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.swt import Swt
+from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.reference.textbook import textbook_s
 
@@ -81,8 +82,9 @@ def test_where_the_critical_point_jumps_s_does_not() -> None:
     assert np.abs(np.diff(np.log(found.s), n=2)).max() < 0.06
 
 
-@pytest.mark.parametrize("exponent", [0.3, 0.8])
-@pytest.mark.parametrize("profile", PROFILE_NAMES)
+@pytest.mark.parametrize(
+    ("profile", "exponent"), [("paraboloid", 0.3), *((profile, 0.8) for profile in PROFILE_NAMES)]
+)
 def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> None:
     point = with_exponent(random_points(3, 1, profile, largest_term=3), exponent)
     ratio = textbook_s(point, **{**ALIGNED, "positions": 400}).s / solve_points(point).s[0]
@@ -90,11 +92,16 @@ def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> No
     assert 1.0 - 4e-2 < ratio < 1.0 + 7e-4
 
 
+def walkers(exponent: float, modulus: float) -> Swt:
+    """The criterion of one point."""
+    return Swt.of(np.full(1, exponent), np.full(1, modulus))
+
+
 @pytest.mark.parametrize("exponent", [0.2, 0.5, 0.7, 0.9])
 def test_all_planes_against_brute_force_and_rotation(exponent: float) -> None:
     nu, modulus = 0.3, 7.0
     stress = smooth_histories(np.random.default_rng(5), 40)
-    swt, normal = swt_of_history(stress, nu, modulus, exponent)
+    swt, normal = swt_of_history(stress, nu, modulus, walkers(exponent, modulus))
     tensor = symmetric_tensor(stress)
     strain = (
         (1.0 + nu) * tensor - nu * np.trace(tensor, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
@@ -117,7 +124,7 @@ def test_all_planes_against_brute_force_and_rotation(exponent: float) -> None:
     np.testing.assert_allclose(brute, swt, rtol=1e-2)
     np.testing.assert_allclose(on(normal[:, None])[:, 0], swt, rtol=1e-12)
     rotations = Rotation.random(40, random_state=3).as_matrix()
-    turned, _ = swt_of_history(rotated(stress, rotations), nu, modulus, exponent)
+    turned, _ = swt_of_history(rotated(stress, rotations), nu, modulus, walkers(exponent, modulus))
     np.testing.assert_allclose(turned, swt, rtol=1e-10)
 
 
@@ -125,8 +132,13 @@ def test_derivatives_are_those_of_the_powers() -> None:
     rng = np.random.default_rng(0)
     first, second = rng.uniform(0.5, 2.0, (2, 6, 40))
     γ = rng.uniform(0.1, 0.9, 40)
-    walker = Walker(γ, np.ones(40))
-    slope, stiffness = log_derivatives(first.T, second.T, walker)
+    walker = Swt(γ, np.ones(40))
+    slope, stiffness = walker.log_derivatives(first.T, second.T)
+    # A new criterion has them from its partial derivatives.
+    for own, general in zip(
+        (slope, stiffness), Criterion.log_derivatives(walker, first.T, second.T), strict=True
+    ):
+        np.testing.assert_allclose(general, own, rtol=1e-11, atol=1e-11)
     α, β = 2.0 - 2.0 * γ, 2.0 * γ
     f, g = first / first[0], second / second[0]
     np.testing.assert_allclose(slope, (α * f[1:3] + β * g[1:3]).T, rtol=1e-13)
@@ -134,7 +146,7 @@ def test_derivatives_are_those_of_the_powers() -> None:
     np.testing.assert_allclose(stiffness[:, 0], -bend, rtol=1e-12)
     # Both first derivatives vanish at one place, and the bends there differ by a positive factor.
     zero = np.zeros(40)
-    rise, fall = derivatives((first[0], zero, first[3]), (second[0], zero, second[3]), walker)
+    rise, fall = walker.derivatives((first[0], zero, first[3]), (second[0], zero, second[3]))
     assert np.all(rise == 0.0)
     np.testing.assert_allclose(fall / first[0] / second[0] * α, α * f[3] + β * g[3], rtol=1e-13)
     # Elsewhere they are those of σ_n ε_n^κ over ε_n^(κ − 1), by differences.
@@ -144,10 +156,12 @@ def test_derivatives_are_those_of_the_powers() -> None:
         tension, swing = (v[0] + at * v[1] + 0.5 * at**2 * v[3] for v in (first, second))
         return tension * swing**κ / second[0] ** (κ - 1.0)
 
-    rise, bent = derivatives(*((v[0], v[1], v[3]) for v in (first, second)), walker)
+    jets = tuple((v[0], v[1], v[3]) for v in (first, second))
+    rise, bent = walker.derivatives(*jets)
     low, here, high = power(-step), power(0.0), power(step)
     np.testing.assert_allclose(rise, (high - low) / (2.0 * step), rtol=1e-5)
     np.testing.assert_allclose(bent, (high - 2.0 * here + low) / step**2, rtol=1e-4, atol=1e-4)
+    np.testing.assert_array_equal(np.sign(Criterion.derivatives(walker, *jets)[0]), np.sign(rise))
 
 
 def test_the_body_says_the_same_as_the_line() -> None:
@@ -202,4 +216,6 @@ def test_a_life_takes_swt_of_every_exponent_in_the_same_equation() -> None:
     wave = np.zeros((2, 6))
     wave[:, 0] = 100.0, -100.0
     for exponent in (0.2, 0.5, 0.9):
-        assert swt_of_history(wave, 0.3, 200e3, exponent).swt == pytest.approx(100.0**2 / 200e3, rel=1e-12)
+        assert swt_of_history(wave, 0.3, 200e3, walkers(exponent, 200e3)).swt == pytest.approx(
+            100.0**2 / 200e3, rel=1e-12
+        )

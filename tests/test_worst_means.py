@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from swtstudy.runner.work import assess
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}
 
 
+@lru_cache
 def jump(count: int) -> tuple[np.ndarray, float, float]:
     """Amplitudes around that at which the critical point jumps, and its places before and after."""
 
@@ -40,6 +42,7 @@ def jump(count: int) -> tuple[np.ndarray, float, float]:
     return np.linspace(low - 0.01, high + 0.01, count), before, after
 
 
+@pytest.mark.slow
 def test_values_that_join_a_jump_of_the_critical_point_have_none() -> None:
     amplitudes, before, after = jump(6)
     found = swtstudy.solve(tangential_amplitude=amplitudes, critical_distance=[0.02, 0.1], rtol=1e-3, **JUMP)
@@ -65,6 +68,7 @@ def test_about_the_critical_point_alone_they_jump() -> None:
     assert (found.volume[1] > 1.03 * found.volume[0]).all()
 
 
+@pytest.mark.slow
 def test_they_are_the_largest_of_those_about_every_local_maximum() -> None:
     batch = points(
         poisson_ratio=0.33,

@@ -2,7 +2,8 @@
 
 ``python studies/checks/overlooked.py``, from the project folder, writes results/overlooked.md: by scene, how
 many points are lower than the dense look by more than s_error, and by how much the worst. ``--points 1000``
-draws fewer of each 10,000; ``--quick`` next to none.
+draws fewer of each 10,000; ``--quick`` next to none. ``--kept build/dense`` keeps what the dense looks found,
+which does not change with the search, and goes on from there.
 """
 
 from __future__ import annotations
@@ -135,24 +136,39 @@ SCENES = {
 }
 
 
-def shortfall(task: tuple[str, int, int]) -> tuple[str, Array, list[str]]:
+def shortfall(task: tuple[str, int, int, Path | None]) -> tuple[str, Array, list[str]]:
     """By how much s is below the dense look, relative, and s_error, at each tolerance, shape (k, 2, rtols).
 
     Also the points at which that is more than s_error.
     """
-    name, seed, chunk = task
+    name, seed, chunk, kept = task
     points = SCENES[name][0](np.random.default_rng([seed, list(SCENES).index(name), chunk]))
     solved = [solve_points(points, rtol) for rtol in RTOLS]
-    rows, words = [], []
+    dense, x = _dense(points, np.isfinite(solved[0].s) & (solved[0].s > 0.0), kept and kept / f"{task[:3]}.npz")
+    some = np.isfinite(dense)
+    low, error = (
+        np.array([values[some] for values in of_each])
+        for of_each in ([1.0 - each.s / dense for each in solved], [each.s_error / dense for each in solved])
+    )
+    words = [
+        f"{name}, {dense[k]:.10g} at {x[k]:.6g}, s {[float(each.s[k]) for each in solved]}: "
+        f"{points.take(np.array([k]))}"
+        for k in np.flatnonzero(some)[(low > error + DENSE).any(axis=0)]
+    ]
+    return name, np.stack([low, error]).transpose(2, 0, 1), words
+
+
+def _dense(points: Points, some: NDArray[np.bool_], kept: Path | None) -> tuple[Array, Array]:
+    """What the dense look finds at some of the points, and where; NaN at the others."""
+    if kept is not None and kept.exists():
+        return tuple(np.load(kept)["found"])
+    found = np.full((2, some.size), np.nan)
     with np.errstate(all="ignore"):
-        for k in np.flatnonzero(np.isfinite(solved[0].s) & (solved[0].s > 0.0)):
-            one = points.take(np.array([k]))
-            dense, x = dense_look(scene_of(one), STEPS, PLANES)
-            row = np.array([[1.0 - each.s[k] / dense, each.s_error[k] / dense] for each in solved]).T
-            rows.append(row)
-            if (row[0] > row[1] + DENSE).any():
-                words.append(f"{name}, {dense:.10g} at {x:.6g}, s {[float(s.s[k]) for s in solved]}: {one}")
-    return name, np.array(rows).reshape(-1, 2, len(RTOLS)), words
+        for k in np.flatnonzero(some):
+            found[:, k] = dense_look(scene_of(points.take(np.array([k]))), STEPS, PLANES)
+    if kept is not None:
+        np.savez(kept, found=found)
+    return found[0], found[1]
 
 
 def lines(found: dict[str, Array]) -> Iterator[str]:
@@ -182,19 +198,23 @@ def main() -> None:
     arguments.add_argument("--points", type=int, default=10_000, help="points in the place of 10,000")
     arguments.add_argument("--seeds", type=int, nargs="+", default=[1, 2], help="half of the points each")
     arguments.add_argument("--scenes", nargs="+", default=list(SCENES), choices=list(SCENES))
+    arguments.add_argument("--kept", type=Path, help="folder for what the dense looks found")
+    arguments.add_argument("--processes", type=int, default=2)
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
     if given.quick:
         global CHUNK
         CHUNK, given.points, given.scenes = 1, 1, given.scenes[:1]
+    if given.kept is not None:
+        given.kept.mkdir(parents=True, exist_ok=True)
     tasks = [
-        (name, seed, chunk)
+        (name, seed, chunk, given.kept)
         for name in given.scenes
         for seed in given.seeds
         for chunk in range(max(SCENES[name][1] * given.points // (10_000 * CHUNK * len(given.seeds)), 1))
     ]
     found: dict[str, list[Array]] = {name: [] for name in given.scenes}
-    with ProcessPoolExecutor(1 if given.quick else 2) as pool:
+    with ProcessPoolExecutor(given.processes) as pool:
         for name, rows, words in map(shortfall, tasks) if given.quick else pool.map(shortfall, tasks):
             found[name].append(rows)
             print("\n".join(words), end="\n" if words else "", flush=True)

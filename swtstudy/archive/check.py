@@ -19,9 +19,10 @@ from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NONLOCAL, NOTHING, Request, attributes_of, every_variable, item_of
 from swtstudy.records.labelled import ATTRIBUTES
-from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
 from swtstudy.records.records import COMPUTED, STATES, made_by
-from swtstudy.records.requested import request_of
+from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.units.reading import read_contact
+from swtstudy.units.results import without_units
 
 #: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")
@@ -63,7 +64,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     if "definitions" in attributes:
         yield from _unread("definitions", attributes["definitions"], read_definitions)
     if "figure" in attributes:
-        others = [str(name) for name in dataset.data_vars] if is_real(dataset) else []
+        others = [str(name) for name in dataset.data_vars] if has_units(dataset) else []
         yield from _unread("figure", attributes["figure"], partial(read_figure, others=others))
     yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)
     for name, words in (("regime", REGIMES), ("status", STATES)):
@@ -71,9 +72,9 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         # An older archive may not know the last of them.
         if not isinstance(meanings, str) or tuple(meanings.split()) != words[: len(meanings.split())]:
             yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
-    real = is_real(dataset)
+    real = has_units(dataset)
     if real:
-        yield from _unread(ATTRIBUTE, attributes[ATTRIBUTE], read_contact)
+        yield from _unread(CONTACT, attributes[CONTACT], read_contact)
     expected = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
     expected |= {name: attributes_of(name)["units"] for name in every_variable()}
@@ -93,7 +94,7 @@ def _unread(name: str, text: object, read: Callable[[object], object]) -> Iterat
 
 def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     asked = _asked(dataset)
-    dataset = without_units(dataset) if is_real(dataset) else dataset
+    dataset = without_units(dataset) if has_units(dataset) else dataset
     for name in asked.variables:
         if name not in dataset and not (name in NONLOCAL and NONLOCAL[name].is_place):
             yield name, "nothing", "a quantity that the attribute runs says is there"

@@ -14,9 +14,10 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
-from swtstudy.records.real import ATTRIBUTE, is_real, is_uncounted, read_contact
 from swtstudy.records.records import COMPUTED, STATES, made_by
-from swtstudy.records.requested import request_of
+from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.units.reading import read_contact
+from swtstudy.units.results import is_uncounted
 from swtstudy.wording import value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -98,8 +99,8 @@ def _failures(dataset: xr.Dataset) -> Iterator[str]:
 
 def _contact(dataset: xr.Dataset) -> Iterator[str]:
     """What the results of a study with units say of its contacts, beside the values of parameters."""
-    if is_real(dataset):
-        given, _ = read_contact(dataset.attrs[ATTRIBUTE])
+    if has_units(dataset):
+        given, _ = read_contact(dataset.attrs[CONTACT])
         yield f"  units          {', '.join(vars(given.units).values())}"
         for material in dict.fromkeys(given.materials):
             yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"

@@ -24,9 +24,8 @@ from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request
 from swtstudy.records.columns import wanted
-from swtstudy.records.real import ATTRIBUTE, is_real
 from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
-from swtstudy.records.requested import request_of
+from swtstudy.records.requested import CONTACT, has_units, request_of
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 
@@ -96,7 +95,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
 
 def _asked(datasets: Sequence[xr.Dataset], items: tuple[str, ...], axis: bool) -> Request:
     """What the archives have together; distances of real contacts are lengths."""
-    if not is_real(datasets[0]):
+    if not has_units(datasets[0]):
         return Request.of(items, axis)
     own = [request_of(dataset, made_by(read_runs(dataset.attrs["runs"]))) for dataset in datasets]
     lengths = sorted({length for each in own for length in each.distances})
@@ -163,7 +162,7 @@ def _refuse_gaps_in_quantities(
 
 
 def _refuse_other_contacts(datasets: Sequence[xr.Dataset]) -> None:
-    if len({dataset.attrs.get(ATTRIBUTE) for dataset in datasets}) > 1:
+    if len({dataset.attrs.get(CONTACT) for dataset in datasets}) > 1:
         raise ConflictError("results with other units, materials or pairs of bodies cannot be merged")
 
 

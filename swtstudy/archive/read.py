@@ -13,8 +13,8 @@ from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.lock import LockedError, is_locked
 from swtstudy.archive.recall import grid_of
 from swtstudy.records.labelled import control_coordinate
-from swtstudy.records.real import is_uncounted
 from swtstudy.units.life import UNCOUNTED
+from swtstudy.units.results import is_uncounted
 
 #: What xarray and netCDF4 raise for files that they cannot read.
 _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)

@@ -24,12 +24,12 @@ from swtstudy.prescribed import Control, replaced_by
 from swtstudy.quantities import DISTANCE, Request
 from swtstudy.records.columns import columns_back
 from swtstudy.records.labelled import arrays_of
-from swtstudy.records.real import ATTRIBUTE, is_real, read_contact, without_units
 from swtstudy.records.records import FAILED, Records, made_by
-from swtstudy.records.requested import columns_from, request_of
+from swtstudy.records.requested import CONTACT, columns_from, has_units, request_of
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.reading import completed
+from swtstudy.units.reading import completed, read_contact
+from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
 
 
@@ -46,7 +46,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     axes: list[str] = []
     sampled: list[str] = []
     dims = [str(name) for name in dataset.s.dims]
-    given, pairs = read_contact(dataset.attrs[ATTRIBUTE]) if is_real(dataset) else (None, {})
+    given, pairs = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else (None, {})
     table = PARAMETERS if given is None else rows(given.units)
     for name in dims:
         if name != SAMPLE and (name not in table or name not in dataset.coords):
@@ -146,7 +146,7 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
         )
     grid = grid_of(dataset)
     points = unique_points(grid)
-    dataset = without_units(dataset) if is_real(dataset) else dataset
+    dataset = without_units(dataset) if has_units(dataset) else dataset
     at = np.zeros(len(points.table), np.int64)
     at[points.index] = np.arange(len(points.index))
     flat = {

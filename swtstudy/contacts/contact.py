@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.grid.values import as_number
@@ -136,17 +137,20 @@ class PhysicalContact:
         """
         contact, grid = self._one, self._with_bodies((float(checked_body(body)),))
         control, shape = grid.control, family_of(contact.profile).shape
-        own: dict[str, Any] = {name: grid.values(name)[0] for name in ("frequency_ratio", "load")}
+        names = ("frequency_ratio", "load", "criterion")
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
         own["profile"] = contact.pure_profile
         for column, values in grid.numbers.items():
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
         # What scales a loop is 1 unless it is given.
-        scaling = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        needed = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        if own["criterion"] != SWT:
+            needed = (*needed, "normal_sensitivity")
         return {
             name: own[name]
             for name, row in PARAMETERS.items()
-            if name in own and (name in scaling or not row.goes_without_saying(own[name]))
+            if name in own and (name in needed or not row.goes_without_saying(own[name]))
         }
 
     def _with_bodies(self, bodies: tuple[float, ...]) -> PhysicalGrid:

@@ -23,6 +23,8 @@ from swtstudy.prescribed import Control, replaced_by
 from swtstudy.quantities import Request, item_of
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from swtstudy.mechanics.points import FloatArray, IntArray
 
 
@@ -120,6 +122,10 @@ class Grid:
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """Names and dimensions of what results have beside what is asked: that with units."""
         return {}
+
+    def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
+        """Results as users see them, with units if the grid has some."""
+        return dataset
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """The critical distances that are asked, as items, and which of these each point of the grid wants.

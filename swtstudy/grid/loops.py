@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from swtstudy.grid.grid import Grid
 from swtstudy.grid.values import Value
@@ -52,12 +52,26 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
             low, high = load.normal_ends
             found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
             allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
+            allowed += " (absolute = true, LoadPath.absolute)"
             report(keys("load"), found, allowed)
     moving = [load for load in loops if grid.control.mixed and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
         report(keys("load"), found, "two displacements or two forces")
+
+
+def check_sizes(grid: Grid, given: Collection[str], keys: Callable[[str], str], report: Report) -> None:
+    """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
+    from swtstudy.mechanics.load.loop import Loop
+
+    sized = [load for load in grid.values("load") if isinstance(load, Loop) and load.mean_normal is not None]
+    for load in sized[: not {"normal_amplitude", "normal_force_amplitude"} & {*given}]:
+        found = f"{literal(load.name)} with a mean normal load of {load.mean_normal:g}, without units"
+        allowed = (
+            f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{load.mean_normal:g} or the like"
+        )
+        report(keys("load"), found, allowed)
 
 
 def check_largest(

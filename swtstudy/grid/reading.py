@@ -12,9 +12,10 @@ from typing import Literal
 
 from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number
+from swtstudy.grid.criteria import check_criteria
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
-from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops
+from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
 from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
@@ -93,9 +94,11 @@ def read_grid(
     check_amplitudes(good_fixed, along, keys, report)
     check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
     check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
+    check_criteria((*fixed, *axes, *samples), good_fixed, along, keys, report)
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)
+    check_sizes(grid, (*fixed, *axes, *samples), keys, report)
     check_loops(grid, keys, report)
     given = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
     largest = {name: max(map(as_number, values), default=0.0) for name, values in given.items()}

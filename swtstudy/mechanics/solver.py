@@ -18,7 +18,7 @@ from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_f
 from swtstudy.mechanics.line.surface_maximum import surface_maximum
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
+from swtstudy.mechanics.planes.swt import SWT_EXPONENT
 from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene
@@ -136,6 +136,8 @@ def _idle(scene: Scene) -> NDArray[np.bool_]:
     rests = load.largest_normal == load.least_normal
     if scene.bulk is not None:
         return np.asarray((scene.friction == 0.0) & rests & ~scene.bulk.moves)
+    if not scene.criterion.needs_tension:
+        return np.asarray((scene.friction == 0.0) & rests)
     compressed = (scene.poisson_ratio == 0.5) | scene.profile.plane
     return np.asarray((scene.friction == 0.0) & (compressed | rests))
 
@@ -144,11 +146,11 @@ def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
     """The maxima, or swt far from the contact where no point exceeds it: there is no critical point then."""
     if scene.bulk is None:
         return found
-    far = scene.bulk.far_field(scene.poisson_ratio, scene.walker_exponent, scene.profile.plane)
+    far, plane = scene.bulk.far_field(scene.poisson_ratio, scene.criterion, scene.profile.plane)
     # Not where s is not finite.
     higher = (far > 0.0) & (far >= (1.0 - SAME) * found.swt)
     none = np.zeros(len(far))
-    return found.put(higher, Maximum(far, none, none + np.nan, none).take(higher))
+    return found.put(higher, Maximum(far, none, none + np.nan, plane).take(higher))
 
 
 def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:

@@ -24,7 +24,14 @@ from swtstudy.quantities import (
     item_of,
     rows_of,
 )
-from swtstudy.records.real import is_real
+
+#: The attribute of results with units that says what their coordinates do not say of the contacts.
+CONTACT = "contact"
+
+
+def has_units(dataset: xr.Dataset) -> bool:
+    """Whether results are those of real contacts."""
+    return CONTACT in dataset.attrs
 
 
 def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple[tuple[str, ...], NDArray]]:
@@ -69,7 +76,7 @@ def coordinates(asked: Request, row: Parameter) -> dict[str, Any]:
 def request_of(dataset: xr.Dataset, items: Iterable[str]) -> Request:
     """What was asked for a Dataset whose points have these items; of real contacts distances are lengths."""
     own = Request.of(items, DISTANCE in dataset.dims)
-    if not own.distances or not is_real(dataset):
+    if not own.distances or not has_units(dataset):
         return own
     lengths = np.atleast_1d(dataset[DISTANCE].values).tolist() if DISTANCE in dataset.coords else []
     return Request(own.names, tuple(lengths), DISTANCE in dataset.dims, own.counts)

@@ -1,23 +1,62 @@
-"""Columns of numbers from a CSV file with a header."""
+"""Columns of numbers from a file of a user: a table with a header, as rigs and spreadsheets write them."""
 
 from __future__ import annotations
 
+import csv
+import io
 import math
-from collections.abc import Sequence
+import re
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.files import plain_float, read_table
+from swtstudy.files import LARGEST_TABLE, plain_float, read_text
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal, meant
+from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
 
-#: More rows than this are no table that someone made for a study.
-MOST_ROWS = 100_000
+if TYPE_CHECKING:
+    import pandas as pd
+
+#: More rows than this are no table that someone recorded for a study.
+MOST_ROWS = 1_000_000
+#: What may stand between cells and within numbers; a blank stands for any number of them.
+SEPARATORS, DECIMALS = (",", ";", "\t", " ", "|"), (".", ",")
 
 
-def read_columns(path: Path, names: Sequence[str], optional: Sequence[str] = ()) -> FloatArray:
-    """The columns of a CSV file, shape (rows, k), in the order of the names.
+@dataclass(frozen=True)
+class Form:
+    """How a table is written.
+
+    Attributes
+    ----------
+    separator
+        What is between cells, one of `SEPARATORS`.
+    decimal
+        The decimal sign of numbers, "." or ",".
+    headers
+        The headers of columns that are not those names that they have here.
+    """
+
+    separator: str = ","
+    decimal: str = "."
+    headers: Mapping[str, str] = field(default_factory=dict)
+
+    def header(self, name: str) -> str:
+        """What stands above a column."""
+        return self.headers.get(name, name)
+
+
+PLAIN = Form()
+
+
+def read_columns(
+    path: Path, names: Sequence[str], optional: Sequence[str] = (), form: Form = PLAIN
+) -> FloatArray:
+    """The columns of a table, shape (rows, k), in the order of the names.
 
     Parameters
     ----------
@@ -27,6 +66,8 @@ def read_columns(path: Path, names: Sequence[str], optional: Sequence[str] = ())
         Names of columns; others in the file are left alone.
     optional
         Names of columns that come behind them if the file has them.
+    form
+        How it is written.
 
     Raises
     ------
@@ -35,51 +76,109 @@ def read_columns(path: Path, names: Sequence[str], optional: Sequence[str] = ())
     """
     source = str(path)
     try:
-        header, rows = read_table(path, MOST_ROWS)
+        text = read_text(path, LARGEST_TABLE)
     except (OSError, ValueError) as error:
         found = getattr(error, "strerror", None) or str(error)
         raise StudyError([Mistake("", found, "a CSV file in UTF-8 that can be read", source)]) from None
-    if wrong := _wrong_header(header, names, optional):
-        raise StudyError([Mistake("line 1", *wrong, source)])
-    names = [*names, *(name for name in optional if name in header)]
-    places = [header.index(name) for name in names]
-    values = []
-    for line, row in rows:
-        if any(row[len(header) :]):
-            found = f"{len(row)} cells under {len(header)} columns"
-            allowed = "as many as columns: a comma between cells, a point in numbers"
-            raise StudyError([Mistake(f"line {line}", found, allowed, source)])
-        values.append(_numbers(row, places, names, line, source))
-    return np.array(values, dtype=np.float64).reshape(len(values), len(names))
+    line, header = _header(text, form)
+    if wrong := _wrong_header(header, names, optional, form):
+        raise StudyError([Mistake(f"line {line}", *wrong, source)])
+    names = [*names, *(name for name in optional if form.header(name) in header)]
+    table = _cells(text, line, len(header), form, source)
+    columns = [_numbers(table[header.index(form.header(name))], form, name, source) for name in names]
+    return np.stack(columns, axis=1)
 
 
-def _wrong_header(header: list[str], names: Sequence[str], optional: Sequence[str]) -> tuple[str, str] | None:
+def _header(text: str, form: Form) -> tuple[int, list[str]]:
+    """The first line that is not empty: its number, and its cells."""
+    for number, line in enumerate(io.StringIO(text), start=1):
+        if line.strip():
+            between = {"delimiter": form.separator, "skipinitialspace": True}
+            cells = next(csv.reader([" ".join(line.split()) if form.separator == " " else line], **between))  # type: ignore[arg-type]
+            return number, [cell.strip() for cell in cells]
+    return 1, []
+
+
+def _cells(text: str, line: int, width: int, form: Form, source: str) -> pd.DataFrame:
+    """The cells below the header as texts, by column from 0 on and by the number of their line."""
+    import pandas as pd
+
+    options: dict[str, Any] = {"header": None, "dtype": str, "keep_default_na": False}
+    options |= {"skip_blank_lines": False, "skipinitialspace": True, "skiprows": line}
+    options["sep"] = r"\s+" if form.separator == " " else form.separator
+    try:
+        with warnings.catch_warnings():
+            # Of a first row that is longer than the names pandas would drop the rest.
+            warnings.simplefilter("error", pd.errors.ParserWarning)
+            table = pd.read_csv(io.StringIO(text), names=range(width + 1), index_col=False, **options)
+    except pd.errors.ParserWarning:
+        cells = text.splitlines()[line].count(form.separator) + 1
+        raise StudyError([_too_long(cells, width, line + 1, source)]) from None
+    except (pd.errors.ParserError, ValueError) as error:
+        raise StudyError([_unreadable(str(error), width, source)]) from None
+    if len(table) > MOST_ROWS:
+        raise StudyError([Mistake("", f"{len(table)} rows", f"at most {MOST_ROWS}", source)])
+    table = table.fillna("").apply(lambda column: column.str.strip())
+    table.index = table.index + line + 1
+    table = table[(table != "").any(axis=1)]
+    if (table[width] != "").any():
+        raise StudyError([_too_long(width + 1, width, int((table[width] != "").idxmax()), source)])
+    return table
+
+
+def _unreadable(error: str, width: int, source: str) -> Mistake:
+    """What pandas could not read."""
+    counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", error)
+    if counts:
+        return _too_long(int(counts[2]), width, int(counts[1]), source)
+    return Mistake("", error.rpartition("C error: ")[2].strip(), "a CSV file that can be read", source)
+
+
+def _too_long(found: int, width: int, line: int, source: str) -> Mistake:
+    allowed = "as many as columns: a comma between cells, a point in numbers; or say separator and decimal"
+    return Mistake(f"line {line}", f"{found} cells under {width} columns", allowed, source)
+
+
+def _wrong_header(
+    header: list[str], names: Sequence[str], optional: Sequence[str], form: Form
+) -> tuple[str, str] | None:
     """What was found in a header and what is allowed, if it lacks a column or leaves one in doubt."""
-    allowed = f"a header with {', '.join(names)}"
-    if not {*names} <= {*header}:
+    for own, other in form.headers.items():
+        if other not in header:
+            return f"no column {literal(other)}, which is to be {own}", nearest(other, header, {})
+    allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
+    if not {*map(form.header, names)} <= {*header}:
         return f"the columns {', '.join(header) or 'of an empty file'}", allowed
     lower = [name.lower() for name in header]
-    for name in (*names, *optional):
-        if lower.count(name) > 1:
+    for name in map(form.header, (*names, *optional)):
+        if lower.count(name.lower()) > 1:
             return f"the column {name} twice", "each column once"
     # Such as Bulk, or bulk_stress: left alone it would count as 0.
-    for name in (name for name in optional if name not in header):
+    for name in () if form.headers else (name for name in optional if name not in header):
         for other in header:
             if name in other.lower() or meant(other, [name], {}):
                 return f"the column {literal(other)}", f"{name}, if that is meant, or another name"
     return None
 
 
-def _numbers(row: list[str], places: list[int], names: Sequence[str], line: int, source: str) -> list[float]:
-    numbers = []
-    for place, name in zip(places, names, strict=True):
-        word = row[place] if place < len(row) else ""
+def _numbers(cells: pd.Series, form: Form, name: str, source: str) -> FloatArray:
+    """The numbers in a column."""
+    values = np.empty(len(cells))
+    for row, (line, cell) in enumerate(cells.items()):
         try:
-            number = plain_float(word)
+            values[row] = _number(cell, form.decimal)
         except ValueError:
-            number = math.nan
-        if not math.isfinite(number):
-            found = literal(word) if word else "nothing"
-            raise StudyError([Mistake(f"line {line}, {name}", found, "a finite number", source)])
-        numbers.append(number)
-    return numbers
+            values[row] = math.nan
+        if not math.isfinite(values[row]):
+            found = literal(cell) if cell else "nothing"
+            raise StudyError([Mistake(f"line {line}, {form.header(name)}", found, "a finite number", source)])
+    return values
+
+
+def _number(cell: str, decimal: str) -> float:
+    """The number in a cell; with a decimal comma, a point would be one of thousands."""
+    if decimal == ".":
+        return plain_float(cell)
+    if "." in cell:
+        raise ValueError("a point beside a decimal comma")
+    return plain_float(cell.replace(decimal, "."))

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.study.columns import read_columns
-
-#: Columns of the file of a loop, and one that it may have.
-COLUMNS, BULK = ("normal", "tangential"), "bulk"
+from swtstudy.study.signal import BULK, COLUMNS, KEYS, signal_from
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
+#: The same for one that a real contact may be given without its mean load.
+_ANY_ABSOLUTE = LoadPath("any", _ANY.vertices, 1.0)
+#: What may be said of vertices and of harmonics besides.
+_BESIDE = {"vertices": ("absolute", "mean_normal"), "normal": ("mean_normal",), "file": KEYS}
 
 
 def read_loops(
@@ -31,37 +32,62 @@ def read_loops(
     source
         The study, for messages.
     """
-    # A wrong loop stands for any: that it is used is no mistake of its own.
-    found: dict[str, Named] = {name: _ANY for name in tables}
+    found: dict[str, Named] = {}
     mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"loads.{name}"
+        # A wrong loop stands for any: that it is used is no mistake of its own.
+        found[name] = _ANY_ABSOLUTE if {"absolute", "mean_normal"} & {*table} else _ANY
         if not isinstance(table.get("file", ""), str):
             continue  # reported with the structure
-        keys = ("vertices", "file", *COLUMNS, BULK)
-        given = [each for each in keys if table.get(each) is not None]
-        if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
-            given_words = " and ".join(given) or "nothing"
-            allowed = "vertices, file, or normal and tangential, with or without bulk"
-            mistakes.append(Mistake(key, given_words, allowed, source))
+        kind = _kind(table)
+        if isinstance(kind, Mistake):
+            mistakes.append(Mistake(key, kind.found, kind.allowed, source))
             continue
         try:
-            found[name] = _loop(name, table, given[0], folder)
+            found[name] = _loop(name, table, kind, folder)
         except StudyError as error:
-            where = f"{key}.{given[0]}" if len(given) == 1 else key
-            mistakes += [
-                Mistake(where, f"{each.found}{place_of(each)}", each.allowed, source)
-                for each in error.mistakes
-            ]
+            mistakes += [_placed(each, key, kind, source) for each in error.mistakes]
     return found, mistakes
 
 
+def _kind(table: Mapping[str, Any]) -> str | Mistake:
+    """Whether a loop has vertices, a file, or harmonics of which "normal" is the first."""
+    given = [each for each in ("vertices", "file", *COLUMNS, BULK) if table.get(each) is not None]
+    if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
+        allowed = "vertices, file, or normal and tangential, with or without bulk"
+        return Mistake("", " and ".join(given) or "nothing", allowed)
+    kind = given[0]
+    strange = [key for key in table if table[key] is not None and key not in (*given, *_BESIDE[kind])]
+    strange = [key for key in strange if key in (*KEYS, "mean_normal")]  # others are reported elsewhere
+    if strange:
+        of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
+        return Mistake("", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
+    return kind
+
+
+def _placed(mistake: Mistake, key: str, kind: str, source: str) -> Mistake:
+    """A mistake in a loop, at its key in the study."""
+    first = mistake.key.partition(",")[0].partition(".")[0]
+    if kind == "file" and first in KEYS and not mistake.source:
+        return Mistake(f"{key}.{mistake.key}", mistake.found, mistake.allowed, source)
+    where = key if kind == "normal" else f"{key}.{kind}"
+    return Mistake(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed, source)
+
+
 def _loop(name: str, table: Mapping[str, Any], kind: str, folder: Path) -> Named:
+    if kind == "file":
+        return signal_from(folder / table["file"], name, table).loop
+    mean, absolute = table.get("mean_normal"), table.get("absolute")
     if kind == "normal":
-        return LoadPath.harmonic_sum(name, table["normal"], table["tangential"], table.get("bulk") or ())
-    if kind == "vertices":
-        return LoadPath(name, table["vertices"])
-    return LoadPath(name, read_columns(folder / table["file"], COLUMNS, (BULK,)))
+        rows = table["normal"], table["tangential"], table.get("bulk") or ()
+        return LoadPath.harmonic_sum(name, *rows, mean_normal=mean)
+    if absolute not in (None, False, True) or (absolute and mean is not None):
+        found = literal(absolute) if mean is None else "absolute and mean_normal"
+        raise StudyError([Mistake("absolute", found, "true or false; without mean_normal")])
+    if absolute:
+        return LoadPath.absolute(name, table["vertices"])
+    return LoadPath(name, table["vertices"], mean)
 
 
 def place_of(mistake: Mistake) -> str:

@@ -64,11 +64,20 @@ _SAMPLE_DESCRIPTIONS = {
 _LOAD_DESCRIPTIONS = {
     "vertices": "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "
     "tangential one its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b.",
-    "file": "Path of a CSV file, relative to the study, with a header and the columns normal, tangential "
-    "and, optionally, bulk.",
+    "file": "Path of a table, relative to the study, with a header and the columns normal, tangential "
+    "and, optionally, bulk, of one cycle or of several.",
     "normal": "Harmonics of c_n instead of vertices: rows of order, amplitude and phase.",
     "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
     "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
+    "mean_normal": "The mean normal load from which c_n of vertices or harmonics deviates, in its unit.",
+    "columns": "Headers of the file's columns normal, tangential and bulk, where they are not these words.",
+    "absolute": "Whether the normal column is the load itself: its mean is the mean load of the study.",
+    "separator": 'Between the cells of the file: ",", ";", "|", a tab, or a blank for any number of blanks.',
+    "decimal": 'The decimal sign in the file: "." or ",".',
+    "time": "Header of the file's column of the time; without it samples are even.",
+    "recorded_cycles": "Number of cycles that the file holds: they are folded into their mean.",
+    "period": "Length of a cycle in the place of their number, in the unit of the time, or in samples.",
+    "harmonics": "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "

@@ -57,13 +57,23 @@ class FigureTable(_Table):
 
 
 class LoadTable(_Table):
-    """A loop of loads: its vertices, the file that has them, or its harmonics."""
+    """A loop of loads: its vertices, its harmonics, or the file of a signal."""
 
     vertices: Any = None
     file: str | None = None
     normal: Any = None
     tangential: Any = None
     bulk: Any = None
+    mean_normal: Any = None
+    # Checked where the signal is read.
+    columns: Any = None
+    absolute: Any = None
+    separator: Any = None
+    decimal: Any = None
+    time: Any = None
+    recorded_cycles: Any = None
+    period: Any = None
+    harmonics: Any = None
 
 
 class ProfileTable(_Table):

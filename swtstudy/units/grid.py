@@ -15,7 +15,7 @@ from swtstudy.families import is_plane
 from swtstudy.grid.canonical import COLUMNS, SHAPE_COLUMNS, rounded
 from swtstudy.grid.codes import code_of
 from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import as_number
+from swtstudy.grid.values import Value, as_number
 from swtstudy.named import Named
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
@@ -23,6 +23,7 @@ from swtstudy.quantities import Request, item_of
 from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
+from swtstudy.units.loads import mean_of_loads
 from swtstudy.units.rows import rows
 from swtstudy.units.seats import Seats, seats_of
 from swtstudy.units.strips import labels_of
@@ -59,6 +60,21 @@ class PhysicalGrid(Grid):
     materials: tuple[FatigueConstants, ...] = ()
     bulk_stress_body: int = 0
     similar: float = math.inf
+
+    @property
+    def of_loads(self) -> str | None:
+        """What each load has a mean of, "depth" or "normal_force", where it is not given by itself."""
+        return mean_of_loads({*self.fixed, *self.axes, *self.samples}, super().values("load"))
+
+    def values(self, name: str) -> tuple[Value, ...]:
+        """See `Grid.values`."""
+        if name == self.of_loads:
+            return tuple(load.mean_normal for load in super().values("load"))  # type: ignore[union-attr]
+        return super().values(name)
+
+    def dimension(self, name: str) -> str | None:
+        """See `Grid.dimension`."""
+        return super().dimension("load" if name == self.of_loads else name)
 
     @property
     def labels(self) -> Units:
@@ -188,6 +204,12 @@ class PhysicalGrid(Grid):
         from swtstudy.units.variables import dims_of
 
         return dims_of(self, asked)
+
+    def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
+        """See `Grid.presented`."""
+        from swtstudy.units.results import with_units
+
+        return with_units(dataset, self, asked)
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""

@@ -11,9 +11,7 @@ from swtstudy.mechanics.events.nodes import cosine_nodes
 from swtstudy.mechanics.events.stretches import stretches
 from swtstudy.mechanics.numerics.peaks import near_maximum
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
-from swtstudy.mechanics.planes.ascent import normal_weights
-from swtstudy.mechanics.planes.criterion import curves
-from swtstudy.mechanics.planes.hooke import strain_history
+from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import Scene
@@ -72,25 +70,20 @@ class Body:
 
     def swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> CriticalPlane:
         """swt over E* δ0/R at points of shape S, with the normals of the critical planes."""
-        ν, γ = float(self.scene.poisson_ratio[0]), self.walker_exponent
+        ν, criterion = float(self.scene.poisson_ratio[0]), self.scene.criterion
         x, y, z = np.broadcast_arrays(x, y, z)
         swt, normal = np.empty(x.size), np.empty((x.size, 3))
         columns = max(1, VALUES // self.nodes.instant.size)
         for first in range(0, x.size, columns):
             part = slice(first, first + columns)
             stress = self.stress(x.flat[part], y.flat[part], z.flat[part])
-            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2, γ)
+            swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2, criterion)
         return CriticalPlane(swt.reshape(x.shape), normal.reshape(*x.shape, 3))
 
     def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
         """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
         ν = float(self.scene.poisson_ratio[0])
-        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2, self.walker_exponent)
-
-    @property
-    def walker_exponent(self) -> float:
-        """γ of the criterion."""
-        return self.scene.one_walker_exponent
+        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2, self.scene.criterion)
 
 
 def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
@@ -134,8 +127,8 @@ def closer_nodes(
     share = np.arange(1, SUBDIVISIONS) / SUBDIVISIONS
     for _ in range(looks):
         body = Body(scene, nodes, cells)
-        stress, strain = _on_critical_plane(body, point)
-        extremes = np.array([stress.argmax(), strain.argmax(), strain.argmin()])
+        stress, swing = _on_critical_plane(body, point)
+        extremes = np.array([stress.argmax(), swing.argmax(), swing.argmin()])
         left = np.concatenate([extremes - 1, extremes])
         left = left[(left >= 0) & (left < len(nodes.instant) - 1)]
         low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
@@ -171,9 +164,9 @@ def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> S
     point
         x, y, z in a_H; close to it, the same parts make swt.
     """
-    stress, strain = _on_critical_plane(body, point)
+    stress, swing = _on_critical_plane(body, point)
     hot = np.zeros(len(nodes.instant), dtype=bool)
-    for curve in curves(stress, strain):
+    for curve in body.scene.criterion.curves(stress, swing):
         hot |= near_maximum(curve, HOT)
     return Spells(nodes.instant, hot[1:] | hot[:-1])
 
@@ -190,11 +183,13 @@ def nodes_at(scene: Scene, instant: FloatArray) -> TimeNodes:
 
 
 def _on_critical_plane(body: Body, point: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
-    """σ_n and E ε_n over the instants, shape (T,), on the critical plane of one point."""
+    """σ_n and the swing (E ε_n) over the instants, shape (T,), on the critical plane of one point."""
     ν = float(body.scene.poisson_ratio[0])
     stress = body.stress(*point)
-    weights = normal_weights(swt_of_history(stress, ν, 1.0, body.walker_exponent).normal)
-    return stress @ weights, strain_history(stress, ν) @ weights
+    criterion = body.scene.criterion
+    normal = swt_of_history(stress, ν, 1.0 - ν**2, criterion).normal
+    swing = criterion.swing.on_plane(criterion.swing.tensor(stress, ν), normal)
+    return stress @ normal_weights(normal), swing
 
 
 def _sorted_nodes(scene: Scene, instant: FloatArray) -> TimeNodes:

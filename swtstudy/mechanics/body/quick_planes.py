@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
-from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by, normal_weights
-from swtstudy.mechanics.planes.criterion import Walker, combined
-from swtstudy.mechanics.planes.hooke import strain_history
+from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 13° apart.
@@ -63,27 +63,27 @@ class CoarsePlanes:
         own = np.arange(len(beside))[:, None]
         return CoarsePlanes(self.normal[which], np.where(beside < 0, own, beside))
 
-    def swt(self, stress: FloatArray, ν: float, γ: float) -> NDArray[np.float32]:
+    def swt(self, stress: FloatArray, ν: float, criterion: Criterion) -> NDArray[np.float32]:
         """swt of histories, (m, T, 6), on the planes, shape (m, k)."""
         single = self.normal.astype(np.float32)
         swt = np.empty((len(stress), len(single)), dtype=np.float32)
         for first in range(0, len(stress), BLOCK):
             part = slice(first, first + BLOCK)
-            swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, γ)
+            swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, criterion)
         return swt
 
 
-def planes_like(stress: FloatArray, ν: float, γ: float) -> CoarsePlanes:
+def planes_like(stress: FloatArray, ν: float, criterion: Criterion) -> CoarsePlanes:
     """Those near to the highest in some of the histories, and those beside them."""
     every = CoarsePlanes.everywhere()
-    swt = every.swt(stress, ν, γ)
+    swt = every.swt(stress, ν, criterion)
     high = (swt >= NEAR * swt.max(axis=1, keepdims=True)).any(axis=0)
     high[every.beside[high]] = True
     return every.some(high)
 
 
 def rival_planes(
-    stress: FloatArray, planes: CoarsePlanes, ν: float, γ: float
+    stress: FloatArray, planes: CoarsePlanes, ν: float, criterion: Criterion
 ) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
     """Planes on which swt has its summits, if not much lower than the highest of their history.
 
@@ -93,23 +93,23 @@ def rival_planes(
         Shape (m, T, 6), in E* √(δ0/R).
     planes
         From which to climb.
-    ν, γ
-        Poisson's ratio and Walker's exponent.
+    ν, criterion
+        Poisson's ratio; criterion of shape (1,).
 
     Returns
     -------
     history, swt, normal
         Shape (n,), ascending, (n,) over E* δ0/R, and (n, 3): at least one plane of each history.
     """
-    coarse = planes.swt(stress, ν, γ)
+    coarse = planes.swt(stress, ν, criterion)
     peaked = coarse >= coarse[:, planes.beside].max(axis=-1)
     first = np.where(peaked & (coarse > RIVALS * coarse.max(axis=1, keepdims=True)), -2.0 * coarse, -coarse)
     highest = np.argpartition(first, CANDIDATES, axis=1)[:, :CANDIDATES]
-    swt, normal = _climb(stress, ν, planes.normal[highest], γ)
+    swt, normal = _climb(stress, ν, planes.normal[highest], criterion)
     # Tension may be confined to few planes.
     none = np.flatnonzero(swt.max(axis=1) <= 0.0)
     if none.size:
-        swt[none, 0], normal[none, 0] = swt_of_history(stress[none], ν, 1.0 - ν**2, γ)
+        swt[none, 0], normal[none, 0] = swt_of_history(stress[none], ν, 1.0 - ν**2, criterion)
     order = np.argsort(-swt, axis=1)
     swt, normal = gather(swt, order), normal[np.arange(len(swt))[:, None], order]
     rival = swt > RIVALS * swt[:, :1]
@@ -121,15 +121,17 @@ def rival_planes(
 
 
 def highest_coarse_planes(
-    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, walker_exponent: float
+    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, criterion: Criterion
 ) -> FloatArray:
     """Normals, (m, 3), some degrees off those of `rival_planes`."""
-    return planes.normal[planes.swt(stress, poisson_ratio, walker_exponent).argmax(axis=1)]
+    return planes.normal[planes.swt(stress, poisson_ratio, criterion).argmax(axis=1)]
 
 
-def climb_from(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
+def climb_from(
+    stress: FloatArray, ν: float, start: FloatArray, criterion: Criterion
+) -> tuple[FloatArray, FloatArray]:
     """Summits of swt over E* δ0/R, (m,), and their normals, (m, 3), from normals nearby."""
-    swt, normal = _climb(stress, ν, start[:, None], γ)
+    swt, normal = _climb(stress, ν, start[:, None], criterion)
     return swt[:, 0], normal[:, 0]
 
 
@@ -140,13 +142,15 @@ def on_planes(stress: FloatArray, ν: float, normal: FloatArray) -> tuple[FloatA
     return tension, (1.0 + ν) * tension - ν * trace[:, None]
 
 
-def _climb(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple[FloatArray, FloatArray]:
+def _climb(
+    stress: FloatArray, ν: float, start: FloatArray, criterion: Criterion
+) -> tuple[FloatArray, FloatArray]:
     """Summits, (m, k), and their normals, (m, k, 3), from normals, (m, k, 3)."""
     several, modulus = start.shape[1], 1.0 - ν**2
     flat = start.reshape(-1, 3)
     every, current = np.arange(len(flat)), flat.copy()
 
-    def active(rows: Rows, normal: FloatArray, own: Walker | None) -> ActiveForms:
+    def active(rows: Rows, normal: FloatArray, own: Criterion) -> ActiveForms:
         current[rows] = normal
         history, number = np.divmod(every[rows], several)
         some = np.unique(history)
@@ -156,11 +160,11 @@ def _climb(stress: FloatArray, ν: float, start: FloatArray, γ: float) -> tuple
         tension, strain = tension[history, number], strain[history, number]
         row = np.arange(len(history))
         top, high, low = tension.argmax(axis=1), strain.argmax(axis=1), strain.argmin(axis=1)
-        swing = strain_history(0.5 * (histories[history, high] - histories[history, low]), ν, modulus)
-        swt = combined(tension[row, top], 0.5 / modulus * (strain[row, high] - strain[row, low]), own)
+        swing = own.swing.tensor(0.5 * (histories[history, high] - histories[history, low]), ν, modulus)
+        swt = own.value(tension[row, top], 0.5 / modulus * (strain[row, high] - strain[row, low]))
         return swt, histories[history, top], swing
 
-    swt, normal = climb_by(active, flat, Walker.of(γ, modulus, len(flat)), LAST_STEP)
+    swt, normal = climb_by(active, flat, criterion.take(np.zeros(len(flat), dtype=np.intp)), LAST_STEP)
     return swt.reshape(start.shape[:2]), normal.reshape(start.shape)
 
 

@@ -19,6 +19,8 @@ from swtstudy.mechanics.points import FloatArray, IntArray
 #: by rounding. 1e-14 or 1e-10: no change at 128 points. A coordinate below this is 0: next to a tip the
 #: ground within what rounding leaves of it would count.
 NO_GROWTH = 1e-12
+#: Room for pieces with which a march begins. Few stacks need more, however many intervals there are.
+DEPTH = 32
 
 
 @dataclass(frozen=True)
@@ -60,11 +62,16 @@ def solve_cycle(load: Load) -> Cycle:
     """
     course = _course(load)
     n, intervals = course.grows.shape
-    depth = 2 * intervals + 3
+    most = 2 * intervals + 3
+    depth = min(most, DEPTH)
     stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
     stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
     for period in range(2):
         for i in range(intervals):
+            # An interval pushes two pieces at most.
+            if depth < most and np.isfinite(stack.start[:, 0, depth - 2]).any():
+                depth *= 2
+                stack, record = stack.deeper(depth), record.deeper(depth)
             _grow(stack, course, i)
             if period == 1:
                 record.write((slice(None), i), stack.take((slice(None), 0)))

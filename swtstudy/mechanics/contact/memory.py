@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,11 +49,18 @@ class Memory:
         zero, number = np.zeros(shape), np.zeros(shape, dtype=np.int64)
         return cls(np.full(shape, np.inf), zero, zero.copy(), zero.copy(), number, number.copy())
 
+    def deeper(self, depth: int) -> Memory:
+        """The same stacks with room for more pieces."""
+        *lead, own = self.start.shape
+        deeper = Memory.empty(*lead, depth)
+        deeper.write((..., slice(own)), self)
+        return deeper
+
     def take(self, index: tuple[NDArray[np.intp] | slice | int, ...]) -> Memory:
         """The stacks at ``index`` of the leading axes."""
         return Memory(*(values[index] for values in vars(self).values()))
 
-    def write(self, index: tuple[NDArray[np.intp] | slice | int, ...], pieces: Memory) -> None:
+    def write(self, index: tuple[Any, ...], pieces: Memory) -> None:
         """Write pieces at ``index``, in place."""
         for values, new in zip(vars(self).values(), vars(pieces).values(), strict=True):
             values[index] = new

@@ -11,7 +11,6 @@ from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -81,7 +80,8 @@ class Climb:
         if least is None:
             least = np.zeros(len(scene))
             np.maximum.at(least, point, swt)
-        high = swt >= (1.0 - SHARE) * least[point]
+        # Positions that were predicted by half of them leave less than half of the share.
+        high = swt >= (1.0 - 0.5 * SHARE) * least[point]
         row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
         heights = zero, zero + FIRST_WIDTH, zero, zero, zero
         return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)
@@ -152,8 +152,8 @@ def _summits(
     """
 
     def height(some: PlaneHistory, angle: FloatArray, within: NDArray[np.bool_]) -> FloatArray:
-        tops = (lifted(curve, within).max(axis=-1) for curve in curves(*some.on_plane(angle)))
-        return of_maxima(*tops, walker=some.walker)
+        of_swt = some.criterion.curves(*some.on_plane(angle))
+        return some.criterion.of_maxima(*(lifted(curve, within).max(axis=-1) for curve in of_swt))
 
     angles = 2.0 * np.pi / PLANES * np.arange(PLANES)
     table = np.array([height(planes, np.full(len(inside), angle), inside) for angle in angles])

@@ -24,7 +24,7 @@ from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
-from swtstudy.mechanics.planes.criterion import Walker, combined, curves, of_maxima
+from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
@@ -50,38 +50,34 @@ NONE, BESIDE = 1e-6, 1e-6
 
 
 class Histories(NamedTuple):
-    """σ_n and ε_n of h planes at places, (h, T), which instants are inside of stretches; the criterion."""
+    """σ_n and the swing of h planes at places, (h, T), which instants are in stretches; criterion, (h,)."""
 
     stress: FloatArray
-    strain: FloatArray
+    swing: FloatArray
     inside: NDArray[np.bool_]
-    walker: Walker | None
+    criterion: Criterion
 
     @classmethod
     def at(cls, look: Look, planes: PlaneHistory, double_angle: FloatArray) -> Histories:
         """On planes at 2θ, shape (h, X), of the positions (h, X) of a look."""
-        stress, strain = planes.on_plane(double_angle)
+        stress, swing = planes.on_plane(double_angle)
         count, inside = stress.shape[-1], np.broadcast_to(look.inside, stress.shape)
-        walker = planes.walker
-        if walker is not None:
-            shape = double_angle.shape
-            walker = Walker(*(np.broadcast_to(v, shape).ravel() for v in (walker.exponent, walker.modulus)))
-        stress, strain = stress.reshape(-1, count), strain.reshape(-1, count)
-        return cls(stress, strain, inside.reshape(-1, count), walker)
+        criterion = planes.criterion.spread(*double_angle.shape).reshape(-1)
+        stress, swing = stress.reshape(-1, count), swing.reshape(-1, count)
+        return cls(stress, swing, inside.reshape(-1, count), criterion)
 
     def take(self, rows: NDArray[np.intp]) -> Histories:
         """Some of them."""
-        stress, strain, inside, walker = self
-        return Histories(stress[rows], strain[rows], inside[rows], walker and walker.take(rows))
+        stress, swing, inside, criterion = self
+        return Histories(stress[rows], swing[rows], inside[rows], criterion.take(rows))
 
     def swt(self) -> FloatArray:
         """swt of the closed cycles, descending, shape (h, k)."""
-        tops = (lifted(curve, self.inside) for curve in curves(self.stress, self.strain))
-        tension, longest, shortest = tops
-        strain = np.where(longest > self.strain, longest, -shortest)
-        found = closed_cycles(strain, tension)
-        walker = self.walker and self.walker.reshape(-1, 1)
-        return -np.sort(-combined(found.tension, found.amplitude, walker), axis=1)
+        tops = (lifted(curve, self.inside) for curve in self.criterion.curves(self.stress, self.swing))
+        tension, largest, least = tops
+        swing = np.where(largest > self.swing, largest, -least)
+        found = closed_cycles(swing, tension)
+        return -np.sort(-self.criterion.reshape(-1, 1).value(found.tension, found.amplitude), axis=1)
 
 
 def sums(swt: FloatArray) -> FloatArray:
@@ -151,7 +147,7 @@ def far_cycles(scene: Scene) -> list[list[FloatArray]]:
     stress = scene.bulk.at(instants)
     modulus = (1.0 - scene.poisson_ratio**2)[:, None]
     found = closed_cycles(stress / modulus, stress)
-    swt = -np.sort(-combined(found.tension, found.amplitude, scene.walker), axis=1)
+    swt = -np.sort(-scene.criterion_along.value(found.tension, found.amplitude), axis=1)
     return [[shares[shares > NONE]] for shares in swt / swt[:, :1]]
 
 
@@ -204,30 +200,26 @@ def _higher_of_some(split: Scene, r: FloatArray, largest: FloatArray, least: Flo
 
 
 def _bounds(histories: Histories) -> FloatArray:
-    """Upper bounds of `sums`, from the way that the strain goes in a round, shape (powers, h)."""
-    stress, strain, _, walker = histories
-    tops = (curve.max(axis=-1) for curve in curves(stress, strain))
-    swt = of_maxima(*tops, walker=walker)
-    steps = np.diff(strain, append=strain[:, :1])
-    way, reach = np.abs(steps).sum(axis=1), np.ptp(strain, axis=1)
+    """Upper bounds of `sums`, from the way that the swing goes in a round, shape (powers, h)."""
+    stress, swing, _, criterion = histories
+    tops = (curve.max(axis=-1) for curve in criterion.curves(stress, swing))
+    swt = criterion.of_maxima(*tops)
+    steps = np.diff(swing, append=swing[:, :1])
+    way, reach = np.abs(steps).sum(axis=1), np.ptp(swing, axis=1)
     # The amplitudes of the cycles, over the largest, add up to so much.
     number = np.divide(way, 2.0 * reach, out=np.ones_like(way), where=reach > 0.0)
     turns = np.maximum((steps * np.roll(steps, 1, axis=1) < 0.0).sum(axis=1), 1.0)
-    of_strain = POWERS[:, None] * (1.0 if walker is None else 2.0 * walker.exponent)
+    of_swing = POWERS[:, None] * criterion.powers(swt, reach)[1]
     # A root of the amplitudes adds up to most where all are equal.
-    equal = turns ** np.maximum(1.0 - of_strain, 0.0) * number ** np.minimum(of_strain, 1.0)
+    equal = turns ** np.maximum(1.0 - of_swing, 0.0) * number ** np.minimum(of_swing, 1.0)
     return np.asarray(swt ** POWERS[:, None] * equal)
 
 
 def _counted(histories: list[Histories]) -> FloatArray:
     """`sums` of many histories, some at a time, which have as many instants each, shape (powers, h)."""
-    stress, strain, inside = (np.concatenate([each[k] for each in histories]) for k in range(3))
-    walkers = [each.walker for each in histories if each.walker is not None]
-    walker = None
-    if walkers:
-        exponent, modulus = (np.concatenate([vars(w)[k] for w in walkers]) for k in ("exponent", "modulus"))
-        walker = Walker(exponent, modulus)
-    every = Histories(stress, strain, inside, walker)
+    stress, swing, inside = (np.concatenate([each[k] for each in histories]) for k in range(3))
+    first, *others = (each.criterion for each in histories)
+    every = Histories(stress, swing, inside, first.joined(others))
     parts = np.array_split(np.arange(len(stress)), -(-len(stress) // COUNT_SIZE) or 1)
     return np.concatenate([sums(every.take(rows).swt()) for rows in parts], axis=1)
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
-from swtstudy.mechanics.planes.criterion import curves, of_maxima
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -23,11 +22,12 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Share of the largest swt that positions may leave unseen, and so may instants and planes. Twice or half: no
 #: maximum more or less is overlooked (`studies/checks/overlooked.py`).
 SHARE = 0.05
-#: Steps with which a piece begins, the fewest that say whether they are enough; and steps at most.
-STEPS, MOST_STEPS = 4, 256
-#: A layer is thin if it is shorter than this share of a step. Without: 1.4e-4 at a point of
+#: Steps with which a piece begins, and steps at most; a piece whose first values are below this share of the
+#: largest needs no more.
+STEPS, MOST_STEPS, LOW = 2, 256, 0.5
+#: A layer is thin if it is shorter than this share of a piece. Without: 1.4e-4 at a point of
 #: tests/test_overlooked.py.
-THIN = 1.0 / 3.0
+THIN = 1.0 / 12.0
 #: Planes that are tried, and instants, which leave such a share unseen.
 PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
 #: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
@@ -36,6 +36,8 @@ OTHER_PLANE = 0.08
 #: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
 #: what is looked at stays in the processor's cache.
 LOOK_SIZE = 32_000
+#: Positions of a point that are looked at together at least, however many intervals its cycle has.
+LEAST_PART = 16
 
 
 @dataclass(frozen=True)
@@ -89,8 +91,8 @@ def _seen(
     highest = swt.copy()
     at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))
     some = planes.take(*at)
-    of_swt = curves(*some.on_plane(angle[at]))
-    highest[at] = of_maxima(*(reach(curve, inside[at]) for curve in of_swt), walker=some.walker)
+    of_swt = some.criterion.curves(*some.on_plane(angle[at]))
+    highest[at] = some.criterion.of_maxima(*(reach(curve, inside[at]) for curve in of_swt))
     return swt, angle, highest
 
 
@@ -99,17 +101,24 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     steps, going = STEPS, np.arange(len(pieces.point))
     # The last piece of a point has its end, too; the others end where the next one begins.
     count = steps + pieces.is_last
-    piece = np.repeat(going, count)
-    share = (np.arange(piece.size) - np.repeat(np.cumsum(count) - count, count)) / steps
-    found = [(piece, share, look_at(scene, pieces, piece, share))]
-    values = found[0][2].swt[np.flatnonzero(share == 0.0)[:, None] + np.arange(steps + 1)]
+    layer, of_layer = pieces.layers(THIN)
+    piece = np.concatenate([np.repeat(going, count), layer])
+    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / steps
+    share = np.concatenate([share, of_layer])
+    order = np.lexsort((share, piece))
+    place = np.argsort(order)[: count.sum()]
+    found = [(piece[order], share[order], look_at(scene, pieces, piece[order], share[order]))]
+    values = found[0][2].swt[place][(np.cumsum(count) - count)[:, None] + np.arange(steps + 1)]
     largest = np.zeros(len(scene))
     while True:
         highest = values.max(axis=(1, 2))
         np.maximum.at(largest, pieces.point[going], highest)
         unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
         top = largest[pieces.point[going]]
-        open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
+        if steps == STEPS:
+            open_ = highest + unseen > LOW * top
+        else:
+            open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
         going, values = going[open_], values[open_]
         if not going.size or steps == MOST_STEPS:
             break
@@ -118,8 +127,6 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
         finer = np.empty((going.size, 2 * steps + 1, values.shape[-1]))
         finer[:, ::2], finer[:, 1::2] = values, found[-1][2].swt.reshape(going.size, steps, -1)
         values, steps = finer, 2 * steps
-    piece, share = pieces.layers(THIN / STEPS)
-    found.append((piece, share, look_at(scene, pieces, piece, share)))
     piece, share = (np.concatenate([part[k] for part in found]) for k in range(2))
     order = np.lexsort((share, piece))
     seen = Seen.joined([part[2] for part in found]).take(order)
@@ -127,7 +134,9 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
 
 
 def _predicted(values: FloatArray) -> FloatArray:
-    """Values midway between evenly spaced ones, (m, k, sides), by the nearest four, or three, of them."""
+    """Values midway between evenly spaced ones, (m, k, sides), by the nearest four of them, or all."""
+    if values.shape[1] == 2:
+        return np.asarray(values.mean(axis=1, keepdims=True))
     if values.shape[1] == 3:
         weights = np.array([[3.0, 6.0, -1.0], [-1.0, 6.0, 3.0]]) / 8.0
         return np.asarray(np.einsum("ij,mjs->mis", weights, values))
@@ -137,21 +146,36 @@ def _predicted(values: FloatArray) -> FloatArray:
     return np.concatenate([first, inner, last], axis=1) / 16.0
 
 
-def look_at(scene: Scene, pieces: Pieces, piece: NDArray[np.intp], share: FloatArray) -> Seen:
+def look_at(
+    scene: Scene,
+    pieces: Pieces,
+    piece: NDArray[np.intp],
+    share: FloatArray,
+    resolution: Resolution = RESOLUTION,
+) -> Seen:
     """Look at shares of the angle of pieces, (m,) each, the pieces in ascending order."""
     point, r = pieces.point[piece], pieces.radius(piece, np.pi * share)
-    count = np.bincount(point, minlength=len(scene))
     found = Seen(*np.empty((3, point.size, 1 if scene.mirrored_half else 2)))
-    # Points with as many positions together: rows are as long as the longest.
-    left = np.argsort(-count, kind="stable")[: np.count_nonzero(count)]
+    intervals = scene.cycle.begin.shape[1]
+    owner, part = _parts(point, max(LOOK_SIZE // intervals, LEAST_PART))
+    count = np.bincount(part)
+    # Parts with as many positions together: rows are as long as the longest.
+    left = np.argsort(-count, kind="stable")
     while left.size:
-        size = max(LOOK_SIZE // (count[left[0]] * scene.cycle.begin.shape[1]), 1)
+        size = max(LOOK_SIZE // (count[left[0]] * intervals), 1)
         rows, left = left[:size], left[size:]
-        index, real = as_rows(point, rows)
-        look = first_look(scene.take(rows), r[index], RESOLUTION, PLANES)
+        index, real = as_rows(part, rows)
+        look = first_look(scene.take(owner[rows]), r[index], resolution, PLANES)
         for values, seen in zip(vars(found).values(), vars(look).values(), strict=True):
             values[index[real]] = seen[real]
     return found
+
+
+def _parts(point: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The positions of points, (m,) ascending, in parts of so many at most: of whom each is, and which."""
+    number = np.arange(point.size) - np.searchsorted(point, point)
+    first = number % most == 0
+    return point[first], np.cumsum(first) - 1
 
 
 def high_positions(
@@ -170,14 +194,14 @@ def high_positions(
         np.maximum.at(largest, point, seen.swt.max(axis=1))
         least = largest
     enough = least[point][:, None]
-    chosen = _peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
-    chosen |= _peaks(point, seen.highest) & (seen.highest >= enough)
-    chosen |= _flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
+    chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
+    chosen |= peaks(point, seen.highest) & (seen.highest >= enough)
+    chosen |= flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
     place, side = np.nonzero(chosen)
     return place, side
 
 
-def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
+def flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     """Which positions, (m, sides), have a higher neighbour on another plane."""
     angle, swt = seen.double_angle, seen.swt
     turn = apart(np.diff(angle, axis=0)) > OTHER_PLANE
@@ -188,7 +212,7 @@ def _flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     return flank
 
 
-def _peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
+def peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
     """Local maxima of values, (m, sides), at the positions of points, (m,); of equal ones the first."""
     same = (np.diff(point) == 0)[:, None]
     peak = np.ones(values.shape, dtype=bool)

@@ -14,7 +14,6 @@ from swtstudy.mechanics.events.stretches import Stretches, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.peaks import parabola
-from swtstudy.mechanics.planes.criterion import curves
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.history import History
@@ -102,8 +101,8 @@ class Look:
 
 
 def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Instants nearest to the largest σ_n, largest ε_n, smallest ε_n, shape (…, 3); see `Look.inside`."""
-    of_swt = curves(*planes.on_plane(angle))
+    """Instants nearest to the largest σ_n, largest swing, smallest swing, shape (…, 3); see `Look.inside`."""
+    of_swt = planes.criterion.curves(*planes.on_plane(angle))
     return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in of_swt], axis=-1)
 
 
@@ -115,7 +114,7 @@ def extremes_and_rivals(
     And whether the curves fall from the extremes to both sides, shape (…, 3, 2).
     """
     found, rivals, falling = [], [], []
-    for curve in curves(*planes.on_plane(angle)):
+    for curve in planes.criterion.curves(*planes.on_plane(angle)):
         crests = _crests(curve, inside)
         heights = curve.copy()
         heights.ravel()[crests.at] = crests.lifted

@@ -12,6 +12,7 @@ from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Resolution
+from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
@@ -27,8 +28,6 @@ SHARES = 0.97, 0.995, 0.999
 LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
 PART_SIZE = 100_000
-#: Least error that is claimed, as a share of the tolerance. Half: none of 128 points misses s_error.
-LEAST_SHARE = 0.25
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
 #: sharp tip, lost contact and large friction miss s_error.
 SLOWNESS = 3.0
@@ -81,7 +80,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
     Points that miss the tolerance are climbed to once more with twice the instants and more rounds.
     """
     split = scene.split_at_breakpoints()
-    positions, seen = resolved(scene, Pieces.of(split))
+    positions, seen = resolved(scene, joined_pieces(scene, Pieces.of(split)))
     start = Climb.start(split, positions, seen, accuracy.search)
     found = _climbed(split, positions, start, accuracy)
     doubtful = np.flatnonzero(found.error > accuracy.tolerance * found.swt)
@@ -107,7 +106,9 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
     """How far off swt > 0 may be by rounding and tables, shape (n,)."""
-    size = np.sqrt(found.swt)
+    # What swt is made of is as large as its root; it is a stress times a strain.
+    is_product = scene.criterion.degree == 2
+    size = np.sqrt(found.swt) if is_product else found.swt
     # Two bounds of one thing.
     rounding = np.minimum(
         _rounding(scene, np.abs(found.position)[:, None]), _share_within_rounding(scene, found) * size
@@ -117,8 +118,7 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    # swt is a stress times a strain.
-    return np.asarray(rounding * size)
+    return np.asarray(rounding * size if is_product else rounding)
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
@@ -186,5 +186,5 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
     swt = value[best, 0]
     error = np.abs(swt - climb.top[best]) + climb.remaining[best]
     # Nothing finer than this was looked at.
-    error = np.maximum(error, LEAST_SHARE * accuracy.tolerance * swt)
+    error = np.maximum(error, accuracy.tolerance * swt)
     return Maximum(swt, error, climb.side[best] * r[best, 0], angle[best, 0])

@@ -79,6 +79,10 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 
+#: Steps to both sides that differ by less, relative, are equal.
+EVEN = 1e-9
+
+
 @dataclass(frozen=True)
 class Pieces:
     """The P smooth pieces of the line between the cusps of n points, point by point, ascending.
@@ -98,7 +102,7 @@ class Pieces:
     @classmethod
     def of(cls, split: Scene) -> Pieces:
         """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
-        ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
+        ends = cusps(split.cycle, split.coordinate, split.critical_everywhere)
         return cls.between(ends, split.profile.feature_length)
 
     @classmethod
@@ -199,6 +203,11 @@ class Positions:
             (self.alpha[:, 0] == np.pi) | (self.alpha[:, 1] == 0.0) | (self.alpha[:, 1] == np.pi)
         )
 
+    @property
+    def is_even(self) -> NDArray[np.bool_]:
+        """Shape (m,): whether both neighbours are equally far."""
+        return np.asarray(np.abs(np.diff(self.step)[:, 0]) <= EVEN * self.step[:, 0])
+
     def around(self, c: FloatArray) -> FloatArray:
         """r beside the positions, shape (m, k), at c from −1, the left neighbour, to 1, the right one."""
         right = c > 0.0
@@ -206,7 +215,14 @@ class Positions:
         def of_side(values: FloatArray) -> FloatArray:
             return np.where(right, values[:, 1:], values[:, :1])
 
-        alpha = np.clip(of_side(self.alpha) + c * of_side(self.step), 0.0, np.pi)
+        turn = c * of_side(self.step)
+        # Within a piece r is a smooth function of c, also where the neighbours are not equally far.
+        rows = np.flatnonzero(~self.is_corner & ~self.is_even)
+        if rows.size:
+            left, far = self.step[rows, :1], self.step[rows, 1:]
+            ratio = np.log(far / left)
+            turn[rows] = far * np.expm1(ratio * c[rows]) / np.expm1(ratio)
+        alpha = np.clip(of_side(self.alpha) + turn, 0.0, np.pi)
         return _places(of_side(self.low), of_side(self.high), alpha)
 
 

@@ -118,8 +118,9 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     centre = climb.centre[:, None]
     c = np.clip(centre + climb.width[:, None] * OFFSETS, -1.0, 1.0)
     # A corner's other side is another function.
-    c = np.where(centre > 0.0, np.maximum(c, 0.0), c)
-    c = np.where(centre < 0.0, np.minimum(c, 0.0), c)
+    corner = brackets.is_corner[:, None]
+    c = np.where(corner & (centre > 0.0), np.maximum(c, 0.0), c)
+    c = np.where(corner & (centre < 0.0), np.minimum(c, 0.0), c)
     start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
     chosen = scene.take(climb.point)
     values, angles = refine(chosen, brackets.around(c), climb.side, start, accuracy.search)
@@ -134,13 +135,15 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     beside_corner = is_corner & (np.abs(climb.centre) < OFFSETS[-1] * climb.width)
     share = np.where(beside_corner, CORNER_CHANGE_SHARE, CHANGE_SHARE)
     remaining, clear = share * np.abs(top - climb.top), np.zeros(len(top), dtype=bool)
-    # Five values on a smooth maximum may be enough.
-    first = (climb.width == FIRST_WIDTH) & (climb.centre == 0.0) & ~is_corner
+    # Five values on a smooth maximum may be enough, between neighbours that predict one another.
+    first = (climb.width == FIRST_WIDTH) & (climb.centre == 0.0) & ~is_corner & seen.brackets.is_even
     smooth = np.flatnonzero(accuracy.hasty & first & (np.abs(seen.place) < seen.c[:, -1]))
     parabola = top[smooth]
     centre[smooth], top[smooth] = _polynomial_maximum(seen.values[smooth], centre[smooth])
     remaining[smooth] = POLYNOMIAL_SHARE * np.abs(top[smooth] - parabola)
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
+    # A maximum below what was seen is none.
+    clear &= top >= seen.largest
     # Values on different planes are no polynomial.
     clear &= (apart(np.diff(seen.angles)) <= JUMP).all(axis=1)
     return _Vertex(centre, top, remaining, clear)
@@ -168,7 +171,8 @@ def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tol
         angle=pick(seen.angles, seen.best),
         top=vertex.top,
         seen=seen.largest,
-        remaining=vertex.remaining,
+        # The rise of a parabola is a promise, too.
+        remaining=np.where(vertex.clear, vertex.remaining, np.maximum(vertex.remaining, rise)),
         rounds=climb.rounds + ~outermost,
         settled=vertex.clear | (~outermost & small & enough & (flat | ~stays)),
     )

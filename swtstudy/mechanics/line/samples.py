@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.planes.criterion import Walker, of_maxima
+from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle
 from swtstudy.mechanics.points import FloatArray
 
@@ -28,19 +28,17 @@ class Samples:
         Where they lie.
     near
         Shape (3, n, X, 3, k), see `of_extremes`.
-    walker
-        The criterion, shape (n, 1); None for swt.
+    criterion
+        Shape (n, 1).
     """
 
     brackets: TimeBrackets
     near: FloatArray
-    walker: Walker | None = None
+    criterion: Criterion
 
     def take(self, index: NDArray[np.intp]) -> Samples:
         """Those of the points at ``index``."""
-        return Samples(
-            self.brackets.take(index), self.near[:, index], self.walker and self.walker.take(index)
-        )
+        return Samples(self.brackets.take(index), self.near[:, index], self.criterion.take(index))
 
     def or_other(self, own: NDArray[np.bool_], other: Samples) -> Samples:
         """These around the extremes that are ``own``, shape (n, X, 3), and other ones around the others."""
@@ -52,16 +50,16 @@ class Samples:
         return self.brackets.narrowed(on_plane(self.near, angle).argmax(axis=-1))
 
     def tops(self, angle: FloatArray) -> FloatArray:
-        """Maxima of σ_n, ε_n and −ε_n between the samples, on planes (n, X), shape (n, X, 3)."""
+        """Maxima of the three curves between the samples, on planes (n, X), shape (n, X, 3)."""
         return on_plane(self._at_peaks(angle), angle)
 
     def best_plane(self, angle: FloatArray, gain: float) -> tuple[FloatArray, FloatArray]:
         """swt and 2θ of the best planes near some, each (n, X), until they rise by less than a share."""
         for _ in range(ANGLE_ROUNDS):
             peaks, start = self._at_peaks(angle), angle
-            angle = _turned(peaks, start, self.walker)
-        before, peaks = _swt(peaks, start, self.walker), self._at_peaks(angle)
-        swt = _swt(peaks, angle, self.walker)
+            angle = _turned(peaks, start, self.criterion)
+        before, peaks = _swt(peaks, start, self.criterion), self._at_peaks(angle)
+        swt = _swt(peaks, angle, self.criterion)
         rows, some = np.arange(len(angle)), self
         for _ in range(ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS):
             rises = np.flatnonzero((swt[rows] - before > gain * swt[rows]).any(axis=1))
@@ -69,32 +67,32 @@ class Samples:
                 break
             rows, some, before = rows[rises], some.take(rises), swt[rows[rises]]
             start = angle[rows]
-            turned = _turned(peaks[:, rises], start, some.walker)
+            turned = _turned(peaks[:, rises], start, some.criterion)
             peaks = some._at_peaks(turned)
-            found = _swt(peaks, turned, some.walker)
+            found = _swt(peaks, turned, some.criterion)
             swt[rows], angle[rows] = found, turned
         return swt, angle
 
     def _at_peaks(self, angle: FloatArray) -> FloatArray:
-        """Coefficients of σ_n, ε_n and −ε_n at their maxima between the samples, shape (3, n, X, 3)."""
+        """Coefficients of the three curves at their maxima between the samples, shape (3, n, X, 3)."""
         weights = self.brackets.weights_at_peak(on_plane(self.near, angle))
         return np.asarray((self.near * weights).sum(axis=-1))
 
 
-def _turned(peaks: FloatArray, angle: FloatArray, walker: Walker | None) -> FloatArray:
+def _turned(peaks: FloatArray, angle: FloatArray, criterion: Criterion) -> FloatArray:
     """2θ at which the extremes (3, n, X, 3) of planes (n, X) make the largest swt."""
-    return best_angle(peaks[..., 0], peaks[..., 1] + peaks[..., 2], angle, walker)
+    return best_angle(peaks[..., 0], 0.5 * (peaks[..., 1] + peaks[..., 2]), angle, criterion)
 
 
-def _swt(peaks: FloatArray, angle: FloatArray, walker: Walker | None) -> FloatArray:
+def _swt(peaks: FloatArray, angle: FloatArray, criterion: Criterion) -> FloatArray:
     """swt by the extremes (3, n, X, 3) of planes (n, X)."""
-    return of_maxima(*np.moveaxis(on_plane(peaks, angle), -1, 0), walker=walker)
+    return criterion.of_maxima(*np.moveaxis(on_plane(peaks, angle), -1, 0))
 
 
 def of_extremes(planes: PlaneHistory) -> FloatArray:
-    """Coefficients of σ_n, ε_n and −ε_n, whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
-    stress, strain = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.strain))
-    return np.stack([stress[..., 0, :], strain[..., 1, :], -strain[..., 2, :]], axis=-2)
+    """Coefficients of the curves whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
+    stress, swing = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.swing))
+    return np.stack([stress[..., 0, :], swing[..., 1, :], -swing[..., 2, :]], axis=-2)
 
 
 def on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:

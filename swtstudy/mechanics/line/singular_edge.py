@@ -31,10 +31,9 @@ from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.maximum import LEAST_SHARE, Maximum, reach_of_edge
+from swtstudy.mechanics.line.maximum import Maximum, reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, curves, of_maxima
 from swtstudy.mechanics.planes.through_y import climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -106,10 +105,9 @@ def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
         return np.zeros(len(scene), dtype=bool)
     face = profile.flat_radius >= SMALLEST_FACE * profile.radius(profile.largest_depth)
     slides = cycle.gross_slip & (cycle.load.least_normal > 0.0)
-    least: float | FloatArray = LEAST_FRICTION
-    if scene.walker_exponent is not None:
-        # The maximum is at an L in proportion to γ/(1 − μ).
-        least = 1.0 - (1.0 - LEAST_FRICTION) * scene.walker_exponent / SWT_EXPONENT
+    # The maximum is at an L in proportion to γ/(1 − μ), γ being half the power of the strain.
+    _, power = scene.criterion.powers(np.ones(len(scene)), np.ones(len(scene)))
+    least = 1.0 - (1.0 - LEAST_FRICTION) * power
     return np.asarray(face & slides & (scene.friction >= least))
 
 
@@ -148,7 +146,7 @@ def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
             value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
-            error = change + (LEFT_OUT + LEAST_SHARE * accuracy.tolerance) * value
+            error = np.maximum(change + LEFT_OUT * value, accuracy.tolerance * value)
             larger = value > found.swt
             found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
     return found
@@ -195,8 +193,8 @@ def _swt(
     inside = look.inside & (look.placed.stretch % PER_INTERVAL == 0) & sticks
     planes = scene.planes(look.history, side)
     angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
-    of_swt = curves(*planes.on_plane(angle))
-    return of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt), walker=planes.walker), angle
+    of_swt = planes.criterion.curves(*planes.on_plane(angle))
+    return planes.criterion.of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt)), angle
 
 
 class _SeenFromEdge(TruncatedParaboloid):

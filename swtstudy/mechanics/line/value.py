@@ -91,7 +91,7 @@ class _Zoom:
     def _within(self, brackets: TimeBrackets) -> Samples:
         history = self.look.line.history(brackets.samples())
         near = of_extremes(self.scene.planes(history, self.side[:, None, None]))
-        return Samples(brackets, near, self.scene.walker)
+        return Samples(brackets, near, self.scene.criterion_along)
 
     def to_maximum(self, samples: Samples, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
         """swt and 2θ near a plane (n, X)."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.loop import FINITE, LARGEST, Loop, checked_name
+from swtstudy.mechanics.load.loop import FINITE, LARGEST, Loop, checked_mean, checked_name, mean_of
 from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
 from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
@@ -42,6 +42,9 @@ class LoadPath(Loop):
         c_n, the tangential one its amplitude times c_t, of whatever is prescribed; the bulk stress is its
         mean plus its amplitude times c_b, 0 without that column. Vertices on the line between their
         neighbours in all columns are left out.
+    mean_normal
+        The mean normal load from which the first column is the deviation, in its unit: then a real contact
+        need not be told its normal force. `LoadPath.absolute` takes it off.
 
     Raises
     ------
@@ -56,10 +59,26 @@ class LoadPath(Loop):
     0.1276
     """
 
-    def __init__(self, name: str, vertices: ArrayLike) -> None:
+    def __init__(self, name: str, vertices: ArrayLike, mean_normal: float | None = None) -> None:
         self.name = checked_name(name)
+        self.mean_normal = checked_mean(mean_normal, self.name)
         #: Shape (k, 2), or (k, 3) unless c_b is 0, from the vertex that is the first in lexicographic order.
         self.vertices = _canonical(_checked(vertices, self.name), self.name)
+
+    @classmethod
+    def absolute(cls, name: str, loads: ArrayLike) -> LoadPath:
+        """A loop of loads as they are measured: the mean of the normal one is taken off.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        loads
+            As ``vertices``, with the normal load itself in the place of its deviation.
+        """
+        found = _checked(loads, checked_name(name))
+        mean = float(found[:, 0].mean())
+        return cls(name, found - np.eye(1, found.shape[1]) * mean, mean)
 
     @classmethod
     def trapezoid(
@@ -100,7 +119,7 @@ class LoadPath(Loop):
         return cls(name, [[normal, tangential, bulk], [-normal, -tangential, -bulk]])
 
     def content(self) -> dict[str, Any]:
-        return {"vertices": self.vertices.tolist()}
+        return {"vertices": self.vertices.tolist()} | mean_of(self)
 
     @staticmethod
     def harmonic_sum(
@@ -108,6 +127,8 @@ class LoadPath(Loop):
         normal: Sequence[tuple[int, float, float]],
         tangential: Sequence[tuple[int, float, float]],
         bulk: Sequence[tuple[int, float, float]] = (),
+        *,
+        mean_normal: float | None = None,
     ) -> SmoothPath:
         """Major and minor cycles: sums of harmonics, which are solved without sampling.
 
@@ -118,13 +139,15 @@ class LoadPath(Loop):
         normal, tangential, bulk
             Order (0 to 64), amplitude and phase (rad) of each harmonic of c_n, c_t and c_b, which are
             Σ amplitude · sin(order · φ + phase) over a period 2π of φ.
+        mean_normal
+            As of a `LoadPath`.
 
         Raises
         ------
         StudyError
             A ValueError with what is wrong with them.
         """
-        return SmoothPath(name, normal, tangential, bulk)
+        return SmoothPath(name, normal, tangential, bulk, mean_normal=mean_normal)
 
     @staticmethod
     def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:
@@ -148,7 +171,7 @@ class LoadPath(Loop):
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> Loop:
         if "vertices" in content:
-            return cls(name, content["vertices"])
+            return cls(name, content["vertices"], content.get("mean_normal"))
         return SmoothPath.of_content(name, content)
 
     @cached_property
@@ -220,7 +243,10 @@ def _canonical(vertices: FloatArray, name: str) -> FloatArray:
         raise StudyError([Mistake(f"vertices of {name}", "a single point", "2 distinct points at least")])
     if len(lean) > MOST_VERTICES:
         found = f"{len(lean)} vertices that are not on a line between their neighbours"
-        allowed = f"at most {MOST_VERTICES}; a smooth loop is a harmonic sum (LoadPath.harmonic_sum)"
+        allowed = (
+            f"at most {MOST_VERTICES}; of more a smooth loop is the harmonic sum (LoadPath.harmonic_sum; "
+        )
+        allowed += "harmonics of a signal), and several cycles are folded (recorded_cycles)"
         raise StudyError([Mistake(f"vertices of {name}", found, allowed)])
     first = np.lexsort(lean.T[::-1])[0]
     return np.roll(lean, -first, axis=0)

@@ -7,7 +7,7 @@ from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import StudyError
+from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.named import Named, wrong_name
 from swtstudy.prescribed import PAIRS
 
@@ -41,6 +41,9 @@ class Loop(Named):
     """
 
     parameter: ClassVar[str] = "load"
+
+    #: The mean normal load, in the unit of its column, from which c_n deviates; None if it is unknown.
+    mean_normal: float | None = None
 
     @property
     @abstractmethod
@@ -86,6 +89,28 @@ class Loop(Named):
     @abstractmethod
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
         """The n loads with these amplitudes, each of shape (n,)."""
+
+
+def checked_mean(mean: object, name: str) -> float | None:
+    """The mean normal load of a loop.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if it is no positive number.
+    """
+    if mean is None:
+        return None
+    number = plain_number(mean)
+    if not 0.0 < number <= LARGEST:
+        found = literal(mean) if isinstance(mean, str) else f"{number:g}"
+        raise StudyError([Mistake(f"mean_normal of {name}", found, "a positive number: bodies are pressed")])
+    return number
+
+
+def mean_of(loop: Loop) -> dict[str, float]:
+    """What the content of a loop says of its mean normal load."""
+    return {} if loop.mean_normal is None else {"mean_normal": loop.mean_normal}
 
 
 def checked_name(name: object) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.loop import LARGEST, Loop, checked_name
+from swtstudy.mechanics.load.loop import LARGEST, Loop, checked_mean, checked_name, mean_of
 from swtstudy.mechanics.load.smooth import SmoothLoad
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
@@ -25,8 +25,17 @@ SAMPLES, ROUNDING = 1024, 1e-12
 class SmoothPath(Loop):
     """A loop of sums of harmonics; see `LoadPath.harmonic_sum`."""
 
-    def __init__(self, name: str, normal: object, tangential: object, bulk: object = ()) -> None:
+    def __init__(
+        self,
+        name: str,
+        normal: object,
+        tangential: object,
+        bulk: object = (),
+        *,
+        mean_normal: object = None,
+    ) -> None:
         self.name = checked_name(name)
+        self.mean_normal = checked_mean(mean_normal, self.name)
         columns = {"normal": normal, "tangential": tangential, "bulk": bulk}
         #: Rows of order, amplitude and phase of c_n, c_t and c_b.
         self.harmonics = {key: _checked(rows, f"{key} of {name}") for key, rows in columns.items()}
@@ -36,11 +45,12 @@ class SmoothPath(Loop):
             raise StudyError([Mistake(f"harmonics of {name}", "nothing that changes", "a loop")])
 
     def content(self) -> dict[str, Any]:
-        return dict(self.harmonics)
+        return dict(self.harmonics) | mean_of(self)
 
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> SmoothPath:
-        return cls(name, content["normal"], content["tangential"], content.get("bulk", ()))
+        rows = content["normal"], content["tangential"], content.get("bulk", ())
+        return cls(name, *rows, mean_normal=content.get("mean_normal"))
 
     @property
     def cost(self) -> int:
@@ -92,7 +102,7 @@ def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) ->
         ) from None
     if not all(np.isfinite(each).all() for each in columns):
         raise StudyError([Mistake(f"course of {name}", "a value that is no finite number", "finite numbers")])
-    return SmoothPath(name, *(_harmonics(each, name) for each in columns))
+    return SmoothPath(name, *[_harmonics(each, name) for each in columns])
 
 
 def _harmonics(values: FloatArray, name: str) -> list[tuple[int, float, float]]:

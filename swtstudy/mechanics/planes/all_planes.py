@@ -1,9 +1,9 @@
-"""The Smith–Watson–Topper parameter over all plane orientations, for any stress history (eq. 9).
+"""A criterion over all plane orientations, for any stress history (eq. 9).
 
-On the plane with the normal n, the parameter is the maximum over the cycle of σ_n times half the range of
-ε_n. It is a maximum over triples of instants (of the largest stress, the largest and the smallest strain)
-of a product of two quadratic forms of n. A maximum of smooth functions has its own maxima where one of them
-has: the search climbs from the highest planes of a coarse hemisphere (`swtstudy.mechanics.planes.ascent`)
+On the plane with the normal n, swt is the maximum over the cycle of σ_n times half the range of ε_n. It is a
+maximum over triples of instants (of the largest stress, the largest and the smallest strain) of a product of
+two quadratic forms of n. A maximum of smooth functions has its own maxima where one of them has: the search
+climbs from the highest planes of a coarse hemisphere (`swtstudy.mechanics.planes.ascent`)
 and keeps the highest summit.
 """
 
@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.planes.ascent import climb, normal_weights, swap_instants, symmetric_tensor
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker, of_maxima
-from swtstudy.mechanics.planes.hooke import strain_history
+from swtstudy.mechanics.planes.ascent import climb, swap_instants
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.swt import SWT
+from swtstudy.mechanics.planes.weights import normal_weights, symmetric_tensor
 from swtstudy.mechanics.points import FloatArray
 
 #: Planes of the coarse search, about 10° apart. Half: 1e-6 in 16 values of bodies, no faster; twice: 6e-7.
@@ -54,24 +55,23 @@ def swt_of_history(
     stress: ArrayLike,
     poisson_ratio: float,
     young_modulus: float = 1.0,
-    walker_exponent: float = SWT_EXPONENT,
+    criterion: Criterion = SWT,
 ) -> CriticalPlane:
-    """Largest swt over all planes (eq. 9); `swtstudy.swt_of_history`, without its checks of the input."""
+    """Largest value over all planes of a criterion of shape (1,), without checks of the input."""
     history = np.asarray(stress, dtype=float)
     batch = history.shape[:-2]
     history = history.reshape(-1, *history.shape[-2:])
-    strain = strain_history(history, poisson_ratio, young_modulus)
-    start = _starts(history, poisson_ratio, walker_exponent)
+    tensor = criterion.swing.tensor(history, poisson_ratio, young_modulus)
+    start = _starts(history, poisson_ratio, young_modulus, criterion)
     index = np.tile(np.arange(len(history)), CANDIDATES)
-    walker = Walker.of(walker_exponent, young_modulus, len(index))
-    swt, normal = climb(history[index], strain[index], start.reshape(-1, 3), walker)
+    every = criterion.take(np.zeros(len(index), dtype=np.intp))
+    swt, normal = climb(history[index], tensor[index], start.reshape(-1, 3), every)
     highest = swt.reshape(CANDIDATES, -1).max(axis=0)
     open_ = np.flatnonzero((swt > 0.0) & (swt >= PROMISING * highest[index]) & _distinct(normal))
     for _ in range(LARGEST_SWAPS):
         if not len(open_):
             break
-        some = history[index[open_]], strain[index[open_]]
-        own = walker and walker.take(open_)
+        some, own = (history[index[open_]], tensor[index[open_]]), every.take(open_)
         higher, where = climb(*some, swap_instants(*some, normal[open_], own), own)
         better = higher > swt[open_]
         open_ = open_[better]
@@ -89,9 +89,9 @@ def swt_on_planes(
     normals: ArrayLike,
     poisson_ratio: float,
     young_modulus: float = 1.0,
-    walker_exponent: float = SWT_EXPONENT,
+    criterion: Criterion = SWT,
 ) -> FloatArray:
-    """The parameter on given planes.
+    """A criterion of shape (1,) on given planes.
 
     Parameters
     ----------
@@ -99,35 +99,32 @@ def swt_on_planes(
         Shape (..., time, 6).
     normals
         Shape (planes, 3), unit vectors.
-    poisson_ratio, young_modulus, walker_exponent
-        ν, E, γ.
+    poisson_ratio, young_modulus
+        ν, E.
 
     Returns
     -------
     swt
-        Shape (..., planes); 0 on planes that never see tension.
+        Shape (..., planes).
     """
     stress, normals = np.asarray(stress), np.asarray(normals)
     on_planes = stress @ normal_weights(normals).T
     tension = on_planes.max(axis=-2)
-    # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
-    on_planes -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
-    modulus = young_modulus / (1.0 + poisson_ratio)
-    strain = on_planes.max(axis=-2) / modulus, -on_planes.min(axis=-2) / modulus
-    return of_maxima(tension, *strain, walker=Walker.of(walker_exponent, young_modulus))
+    amplitude = criterion.swing.amplitudes(stress, normals, on_planes, poisson_ratio, young_modulus)
+    return criterion.value(tension, amplitude)
 
 
 def highest_coarse_swt(
     stress: ArrayLike,
     poisson_ratio: float,
     young_modulus: float = 1.0,
-    walker_exponent: float = SWT_EXPONENT,
+    criterion: Criterion = SWT,
 ) -> FloatArray:
-    """Largest parameter over the coarse planes only: a few per cent low, several times as fast.
+    """Largest value over the coarse planes only: a few per cent low, several times as fast.
 
     Parameters
     ----------
-    stress, poisson_ratio, young_modulus, walker_exponent
+    stress, poisson_ratio, young_modulus, criterion
         As for `swt_of_history`.
 
     Returns
@@ -140,19 +137,21 @@ def highest_coarse_swt(
     history = history.reshape(-1, *history.shape[-2:])
     normals = hemisphere(COARSE_PLANES).astype(np.float32)
     blocks = (history[first : first + BLOCK] for first in range(0, len(history), BLOCK))
-    of_criterion = poisson_ratio, young_modulus, walker_exponent
+    of_criterion = poisson_ratio, young_modulus, criterion
     swt = [swt_on_planes(block, normals, *of_criterion).max(axis=1) for block in blocks]
     return np.concatenate([np.zeros(0), *swt]).reshape(batch)
 
 
-def _starts(stress: FloatArray, poisson_ratio: float, walker_exponent: float) -> FloatArray:
+def _starts(
+    stress: FloatArray, poisson_ratio: float, young_modulus: float, criterion: Criterion
+) -> FloatArray:
     """Normals from which to climb, shape (candidates, n, 3)."""
     normals = hemisphere(COARSE_PLANES)
     single, single_normals = stress.astype(np.float32), normals.astype(np.float32)
     start = np.empty((len(stress), CANDIDATES, 3))
     for first in range(0, len(stress), BLOCK):
         part = slice(first, first + BLOCK)
-        swt = swt_on_planes(single[part], single_normals, poisson_ratio, 1.0, walker_exponent)
+        swt = swt_on_planes(single[part], single_normals, poisson_ratio, young_modulus, criterion)
         start[part] = normals[np.argpartition(-swt, CANDIDATES, axis=1)[:, :CANDIDATES]]
         # Tension may be confined to a cone too narrow for the coarse planes.
         blind = first + np.flatnonzero(swt.max(axis=1) <= 0.0)

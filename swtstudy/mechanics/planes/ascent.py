@@ -1,12 +1,12 @@
-"""Climbing to the critical plane: Newton's method on the sphere for a product of two quadratic forms.
+"""Climbing to the critical plane: Newton's method on the sphere for a criterion of one triple of instants.
 
-For a triple of instants (of the largest σ_n, the largest and the smallest ε_n) the parameter is h(n) = (nᵀ
-A n)(nᵀ B n), or powers of both, with A a stress and B half a difference of strains, and swt(n) ≥ h(n) with
-equality for the triple that is active at n. A step that raises h raises swt, whichever triple is active
-afterwards.
+For a triple of instants (of the largest tension, the largest and the smallest swing) swt, for instance, is
+h(n) = (nᵀ A n)(nᵀ B n), with A a stress and B half a difference of strains. What the criterion says of all
+instants is at least that, with equality for the triple that is active at n. A step that raises h raises it,
+whichever triple is active afterwards.
 
-On every history of discrete instants swt(n) is scalloped: neighbouring triples have summits of their own
-close by. `swap_instants` looks from one summit to those that a change of one instant reaches.
+On every history of discrete instants it is scalloped: neighbouring triples have summits of their own close
+by. `swap_instants` looks from one summit to those that a change of one instant reaches.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.planes import criterion
-from swtstudy.mechanics.planes.criterion import Walker
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights, tangent_basis
 from swtstudy.mechanics.points import FloatArray
 
 #: Largest step of a climb, rad. Half or twice: 2e-16 in 16 values of bodies.
@@ -29,108 +29,87 @@ LARGEST_ITERATIONS = 40
 #: Instants that may take the place of an active one. Half or twice: no change in 16 values of bodies.
 RIVALS = 16
 
-#: The parameter on one plane a row, (n,), and the stress and half the strain change of its triple, (n, 6).
+#: The value on one plane a row, (n,), and of its triple the stress and half the change of the tensor, (n, 6).
 ActiveForms = tuple[FloatArray, FloatArray, FloatArray]
 #: Some rows, or all.
 Rows = NDArray[np.intp] | slice
 
 
-def normal_weights(normal: FloatArray) -> FloatArray:
-    """Weights of the components xx, yy, zz, yz, xz, xy in nᵀ σ n, shape (..., 6), for normals (..., 3)."""
-    return bilinear_weights(normal, normal)
-
-
-def bilinear_weights(left: FloatArray, right: FloatArray) -> FloatArray:
-    """Weights of the six components in lᵀ σ r, shape (..., 6), for vectors of shape (..., 3)."""
-    lx, ly, lz = left[..., 0], left[..., 1], left[..., 2]
-    rx, ry, rz = right[..., 0], right[..., 1], right[..., 2]
-    weights = np.empty((*np.broadcast_shapes(lx.shape, rx.shape), 6))
-    weights[..., 0], weights[..., 1], weights[..., 2] = lx * rx, ly * ry, lz * rz
-    weights[..., 3], weights[..., 4] = ly * rz + lz * ry, lx * rz + lz * rx
-    weights[..., 5] = lx * ry + ly * rx
-    return weights
-
-
-def symmetric_tensor(components: FloatArray) -> FloatArray:
-    """Matrices of shape (..., 3, 3) from the components xx, yy, zz, yz, xz, xy."""
-    return components[..., [[0, 5, 4], [5, 1, 3], [4, 3, 2]]]
-
-
 def climb(
     stress: FloatArray,
-    strain: FloatArray,
+    tensor: FloatArray,
     start: FloatArray,
-    walker: Walker | None = None,
+    criterion: Criterion,
     last_step: float = SMALLEST_STEP,
 ) -> tuple[FloatArray, FloatArray]:
-    """Climb to a summit of swt(n) for each history.
+    """Climb to a summit over the planes for each history.
 
     Parameters
     ----------
-    stress, strain
-        Shape (n, time, 6).
+    stress, tensor
+        Shape (n, time, 6): stress, and the tensor of the swing.
     start
         Shape (n, 3): unit normals.
-    walker
-        The criterion, shape (n,); None for swt.
+    criterion
+        Shape (n,).
     last_step
         Last step of a climb, rad: the height's relative error is its square.
 
     Returns
     -------
-    swt, normal
+    value, normal
         Shapes (n,), (n, 3).
     """
 
-    def active(rows: Rows, normal: FloatArray, own: Walker | None) -> ActiveForms:
-        return _active_forms(stress[rows], strain[rows], normal, own)
+    def active(rows: Rows, normal: FloatArray, own: Criterion) -> ActiveForms:
+        return _active_forms(stress[rows], tensor[rows], normal, own)
 
-    return climb_by(active, start, walker, last_step)
+    return climb_by(active, start, criterion, last_step)
 
 
 def climb_by(
-    active: Callable[[Rows, FloatArray, Walker | None], ActiveForms],
+    active: Callable[[Rows, FloatArray, Criterion], ActiveForms],
     start: FloatArray,
-    walker: Walker | None,
+    criterion: Criterion,
     last_step: float,
 ) -> tuple[FloatArray, FloatArray]:
     """`climb` with what is active on a plane each of some rows given by a function."""
     normal = start.copy()
-    swt, tension, elongation = active(slice(None), normal, walker)
+    height, tension, change = active(slice(None), normal, criterion)
     trust = np.full(len(normal), LARGEST_STEP)
-    going = np.flatnonzero(swt > 0.0)
+    going = np.flatnonzero(height > 0.0)
     for _ in range(LARGEST_ITERATIONS):
         if not len(going):
             break
-        here, own = normal[going], walker and walker.take(going)
-        tangent = _tangent_basis(here)
-        jets = _jet_weights(here, tangent)
-        forms = _apply(jets, tension[going]), _apply(jets, elongation[going])
+        here, own = normal[going], criterion.take(going)
+        tangent = tangent_basis(here)
+        jets = jet_weights(here, tangent)
+        forms = apply_jets(jets, tension[going]), own.swing.amplitude_jets(jets, change[going])
         step, _ = _newton_step(*forms, trust[going], own)
         trial = _move(here, tangent, step)
-        value, new_tension, new_elongation = active(going, trial, own)
-        up = value > swt[going]
+        value, new_tension, new_change = active(going, trial, own)
+        up = value > height[going]
         moved = going[up]
-        swt[moved], normal[moved] = value[up], trial[up]
-        tension[moved], elongation[moved] = new_tension[up], new_elongation[up]
+        height[moved], normal[moved] = value[up], trial[up]
+        tension[moved], change[moved] = new_tension[up], new_change[up]
         trust[going[~up]] = 0.25 * np.linalg.norm(step[~up], axis=-1)
         going = going[np.minimum(np.linalg.norm(step, axis=-1), trust[going]) > last_step]
-    return swt, normal
+    return height, normal
 
 
 def swap_instants(
-    stress: FloatArray, strain: FloatArray, normal: FloatArray, walker: Walker | None = None
+    stress: FloatArray, tensor: FloatArray, normal: FloatArray, criterion: Criterion
 ) -> FloatArray:
     """From each summit, the normal at which some other triple promises to be higher.
 
     Parameters
     ----------
-    stress, strain
-        Shape (n, time, 6).
+    stress, tensor
+        Shape (n, time, 6): stress, and the tensor of the swing.
     normal
-        Shape (n, 3): summits for their active triples, with swt > 0.
-    walker
-        The criterion, shape (n,); None for swt.
+        Shape (n, 3): summits for their active triples, with values above 0.
+    criterion
+        Shape (n,).
 
     Returns
     -------
@@ -138,26 +117,25 @@ def swap_instants(
         Shape (n, 3): where the quadratic model of ln h, for the triple that differs in one instant and
         promises most, has its summit.
     """
-    tangent = _tangent_basis(normal)
-    jets = _jet_weights(normal, tangent)[:, None]
-    tension, elongation = _apply(jets, stress), _apply(jets, strain)
+    tangent = tangent_basis(normal)
+    jets = jet_weights(normal, tangent)
+    tension, swing = apply_jets(jets, stress), criterion.swing.curve_jets(jets, normal, tangent, tensor)
     # The active instants first, then their rivals.
-    top, high, low = _ranked(tension), _ranked(elongation), _ranked(-elongation)
+    top, high, low = _ranked(tension), _ranked(swing), _ranked(-swing)
     low *= -1.0
     same = np.zeros_like(top)
     forms = np.concatenate([top, same + top[:, :1], same + top[:, :1]], axis=1)
     changes = 0.5 * np.concatenate(
         [same + high[:, :1] - low[:, :1], high - low[:, :1], high[:, :1] - low], axis=1
     )
-    possible = (forms[..., 0] > 0.0) & (changes[..., 0] > 0.0)
+    of_all = criterion.take(np.repeat(np.arange(len(normal)), forms.shape[1]))
+    value = of_all.value(forms[..., 0].ravel(), changes[..., 0].ravel()).reshape(forms.shape[:2])
+    possible = (value > 0.0) & (changes[..., 0] > 0.0)
     possible[:, :: top.shape[1]] = False
     forms[~possible] = changes[~possible] = 1.0
-    of_all = walker and walker.take(np.repeat(np.arange(len(normal)), possible.shape[1]))
-    steps, gain = _newton_step(
-        forms.reshape(-1, 6), changes.reshape(-1, 6), np.full(possible.size, LARGEST_STEP), of_all
-    )
-    value = criterion.combined(forms[..., 0], changes[..., 0], of_all and of_all.reshape(*possible.shape))
-    height = np.log(value) + gain.reshape(possible.shape)
+    trust = np.full(possible.size, LARGEST_STEP)
+    steps, gain = _newton_step(forms.reshape(-1, 6), changes.reshape(-1, 6), trust, of_all)
+    height = np.log(np.where(possible, value, 1.0)) + gain.reshape(possible.shape)
     best = np.where(possible, height, -np.inf).argmax(axis=1)
     return _move(normal, tangent, steps.reshape(*possible.shape, 2)[np.arange(len(normal)), best])
 
@@ -175,44 +153,43 @@ def _ranked(jets: FloatArray) -> FloatArray:
 
 
 def _active_forms(
-    stress: FloatArray, strain: FloatArray, normal: FloatArray, walker: Walker | None
+    stress: FloatArray, tensor: FloatArray, normal: FloatArray, criterion: Criterion
 ) -> ActiveForms:
-    """The parameter on one plane per history, with the stress and half the strain change of its triple.
+    """The value on one plane per history, with the stress and half the change of the tensor of its triple.
 
     Returns
     -------
-    swt, tension, elongation
+    value, tension, change
         Shapes (n,), (n, 6), (n, 6).
     """
-    weights = normal_weights(normal)[:, :, None]
-    tension = (stress @ weights)[..., 0]
-    elongation = (strain @ weights)[..., 0]
+    tension = (stress @ normal_weights(normal)[:, :, None])[..., 0]
+    swing = criterion.swing.on_plane(tensor, normal)
     row = np.arange(len(stress))
-    top, high, low = tension.argmax(axis=1), elongation.argmax(axis=1), elongation.argmin(axis=1)
-    swt = criterion.of_maxima(tension[row, top], elongation[row, high], -elongation[row, low], walker=walker)
-    return swt, stress[row, top], 0.5 * (strain[row, high] - strain[row, low])
+    top, high, low = tension.argmax(axis=1), swing.argmax(axis=1), swing.argmin(axis=1)
+    value = criterion.of_maxima(tension[row, top], swing[row, high], -swing[row, low])
+    return value, stress[row, top], 0.5 * (tensor[row, high] - tensor[row, low])
 
 
 def _newton_step(
-    first: FloatArray, second: FloatArray, trust: FloatArray, walker: Walker | None
+    first: FloatArray, second: FloatArray, trust: FloatArray, criterion: Criterion
 ) -> tuple[FloatArray, FloatArray]:
-    """Step to the summit of ln swt within the trust region, and the gain that the model promises.
+    """Step to the summit of the logarithm within the trust region, and the gain that the model promises.
 
     Parameters
     ----------
     first, second
-        Shape (n, 6): jets of the tension and of the amplitude, both positive.
+        Shape (n, 6): jets of the tension and of the amplitude.
     trust
         Shape (n,): largest length of the step, rad.
-    walker
-        The criterion, shape (n,); None for swt.
+    criterion
+        Shape (n,).
 
     Returns
     -------
     step, gain
         Shapes (n, 2) and (n,).
     """
-    slope, stiffness = criterion.log_derivatives(first, second, walker)
+    slope, stiffness = criterion.log_derivatives(first, second)
     slope_1, slope_2 = slope.T
     # Positive definite on a summit.
     stiff_11, stiff_22, stiff_12 = stiffness.T
@@ -235,48 +212,7 @@ def _newton_step(
     return step, gain
 
 
-def _jet_weights(normal: FloatArray, tangent: FloatArray) -> FloatArray:
-    """Weights of the six components in nᵀ σ n and its derivatives along great circles, shape (n, 6, 6).
-
-    The columns: value; first derivatives along the two tangents; second derivatives 11, 22, 12.
-    """
-    first, second = tangent[:, 0], tangent[:, 1]
-    value = normal_weights(normal)
-    return np.stack(
-        [
-            value,
-            2.0 * bilinear_weights(normal, first),
-            2.0 * bilinear_weights(normal, second),
-            2.0 * (normal_weights(first) - value),
-            2.0 * (normal_weights(second) - value),
-            2.0 * bilinear_weights(first, second),
-        ],
-        axis=-1,
-    )
-
-
-def _apply(jets: FloatArray, components: FloatArray) -> FloatArray:
-    """Contract the last axis of the components with the jets' weights."""
-    if components.ndim == 2:
-        return (components[:, None, :] @ jets)[:, 0]
-    return components @ jets[:, 0]
-
-
 def _move(normal: FloatArray, tangent: FloatArray, step: FloatArray) -> FloatArray:
     """The unit normal a small step away in the tangent plane."""
     moved = normal + (step[:, :, None] * tangent).sum(axis=1)
     return moved / np.linalg.norm(moved, axis=-1, keepdims=True)
-
-
-def _tangent_basis(normal: FloatArray) -> FloatArray:
-    """Two unit vectors normal to each normal and to one another, shape (n, 2, 3)."""
-    least = np.argmin(np.abs(normal), axis=-1)
-    first = _cross(normal, np.eye(3)[least])
-    first /= np.linalg.norm(first, axis=-1, keepdims=True)
-    return np.stack([first, _cross(normal, first)], axis=1)
-
-
-def _cross(left: FloatArray, right: FloatArray) -> FloatArray:
-    """``np.cross`` of vectors of shape (n, 3), several times as fast."""
-    (a, b, c), (d, e, f) = left.T, right.T
-    return np.stack([b * f - c * e, c * d - a * f, a * e - b * d], axis=-1)

@@ -1,8 +1,8 @@
 """The critical plane (eq. 9) at points of the surface line, where σ_xy = σ_yz = 0.
 
-On a plane whose normal lies at the angle θ from x towards z, both σ_n and ε_n are A + B cos 2θ + C sin 2θ at
-each instant. For given instants of their extremes swt(θ) is a product of two such functions, whose maximum
-Newton's method finds.
+On a plane whose normal lies at the angle θ from x towards z, both the tension and the swing of a criterion
+are A + B cos 2θ + C sin 2θ at each instant. For given instants of their extremes it is a function of two such
+functions, for swt their product, whose maximum Newton's method finds.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
-from swtstudy.mechanics.planes import criterion
-from swtstudy.mechanics.planes.criterion import Walker
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.points import FloatArray
 
 #: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.
@@ -31,51 +31,46 @@ IMPROVED_SHARE = 0.6
 
 @dataclass(frozen=True)
 class PlaneHistory:
-    """σ_n and ε_n over the planes through y, at many points and instants.
+    """σ_n and the swing of a criterion over the planes through y, at many points and instants.
 
     Attributes
     ----------
     stress
         Shape (3, …, T): A, B, C of σ_n in E* √(δ0/R).
-    strain
-        Shape (3, …, T): A, B, C of ε_n in √(δ0/R).
-    walker
-        Shape (…) or broadcast to it: the criterion; None for swt.
+    swing
+        Shape (3, …, T): A, B, C of the swing, of ε_n in √(δ0/R).
+    criterion
+        Shape (…) or broadcast to it.
     """
 
     stress: FloatArray
-    strain: FloatArray
-    walker: Walker | None = None
+    swing: FloatArray
+    criterion: Criterion
 
     @classmethod
     def from_stresses(
         cls,
         sigma: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
         poisson_ratio: FloatArray,
-        walker_exponent: FloatArray | None = None,
+        criterion: Criterion = SWT,
     ) -> PlaneHistory:
-        """From σ_xx, σ_yy, σ_zz, σ_xz of shape (n, …, T), with E = (1 − ν²) E*; ν and γ of shape (n,)."""
+        """From σ_xx, σ_yy, σ_zz, σ_xz of shape (n, …, T), ν and criterion of shape (n,); E = (1 − ν²) E*."""
         xx, yy, zz, xz = sigma
         nu = poisson_ratio.reshape((-1,) + (1,) * (xx.ndim - 1))
         stress = np.stack([0.5 * (xx + zz), 0.5 * (xx - zz), np.broadcast_to(xz, xx.shape)])
-        strain = stress / (1.0 - nu)
-        strain[0] -= (nu / (1.0 - nu * nu)) * (2.0 * stress[0] + yy)
-        if walker_exponent is None:
-            return cls(stress, strain)
-        γ = walker_exponent.reshape(nu.shape[:-1])
-        return cls(stress, strain, Walker(γ, 1.0 - nu[..., 0] ** 2))
+        return cls(stress, criterion.swing.in_section(stress, yy, nu), criterion.reshape(*nu.shape[:-1]))
 
     def take(self, *index: NDArray[np.intp] | slice) -> PlaneHistory:
         """Those at ``index`` of the points' axes."""
         # The criterion is that of the point at all its positions.
-        walker = self.walker and self.walker.take(index[0], *(0 for _ in index[1:]))
-        return PlaneHistory(self.stress[:, *index], self.strain[:, *index], walker)
+        criterion = self.criterion.take(index[0], *(0 for _ in index[1:]))
+        return PlaneHistory(self.stress[:, *index], self.swing[:, *index], criterion)
 
     def on_plane(self, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """σ_n and ε_n, shape (…, T), on the planes at 2θ, shape (…)."""
+        """σ_n and the swing, shape (…, T), on the planes at 2θ, shape (…)."""
         cosine, sine = np.cos(double_angle)[..., None], np.sin(double_angle)[..., None]
-        stress, strain = (a + b * cosine + c * sine for a, b, c in (self.stress, self.strain))
-        return stress, strain
+        stress, swing = (a + b * cosine + c * sine for a, b, c in (self.stress, self.swing))
+        return stress, swing
 
 
 def apart(turn: FloatArray) -> FloatArray:
@@ -109,8 +104,8 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
     starts = np.stack([best[at], np.where(left > right, best[at] - 1, best[at] + 1)]) * step
     some = history.take(*at)
     starts = climb_over_planes(some, starts, 1)
-    tops = (curve.max(axis=-1) for curve in criterion.curves(*some.on_plane(starts)))
-    found = criterion.of_maxima(*tops, walker=some.walker)
+    tops = (curve.max(axis=-1) for curve in some.criterion.curves(*some.on_plane(starts)))
+    found = some.criterion.of_maxima(*tops)
     swt[at], angle[at] = found.max(axis=0), np.where(found[1] > found[0], starts[1], starts[0])
     return swt, angle
 
@@ -118,17 +113,17 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
 def _on_planes(history: PlaneHistory, count: int) -> FloatArray:
     """swt at n × X positions on each of ``count`` planes, shape (count, n, X)."""
     # Extremes over the first axis are the fastest.
-    stress, strain = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.strain))
+    stress, swing = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.swing))
     table = np.empty((count, *stress.shape[2:]))
     step, half = 2.0 * np.pi / count, count // 2
-    curve, walker = np.empty_like(stress[0]), history.walker
+    curve, criterion = np.empty_like(stress[0]), history.criterion
     for k in range(half):
-        of_stress, of_strain = (b * np.cos(k * step) + c * np.sin(k * step) for _, b, c in (stress, strain))
+        of_stress, of_swing = (b * np.cos(k * step) + c * np.sin(k * step) for _, b, c in (stress, swing))
         # Half a turn of 2θ further the wave has the other sign.
         for plane, combine in ((k, np.add), (k + half, np.subtract)):
             tension = combine(stress[0], of_stress, out=curve).max(axis=0)
-            combine(strain[0], of_strain, out=curve)
-            table[plane] = criterion.of_maxima(tension, curve.max(axis=0), -curve.min(axis=0), walker=walker)
+            combine(swing[0], of_swing, out=curve)
+            table[plane] = criterion.of_maxima(tension, curve.max(axis=0), -curve.min(axis=0))
     return table
 
 
@@ -145,40 +140,40 @@ def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: i
         Number of times.
     """
     for _ in range(rounds):
-        stress, strain = history.on_plane(double_angle)
+        stress, swing = history.on_plane(double_angle)
         peak, high, low = (
             np.stack([pick(part, at) for part in parts])
             for parts, at in (
                 (history.stress, stress.argmax(axis=-1)),
-                (history.strain, strain.argmax(axis=-1)),
-                (history.strain, strain.argmin(axis=-1)),
+                (history.swing, swing.argmax(axis=-1)),
+                (history.swing, swing.argmin(axis=-1)),
             )
         )
-        double_angle = best_angle(peak, high - low, double_angle, history.walker)
+        double_angle = best_angle(peak, 0.5 * (high - low), double_angle, history.criterion)
     return double_angle
 
 
 def best_angle(
-    peak: FloatArray, swing: FloatArray, double_angle: FloatArray, walker: Walker | None = None
+    peak: FloatArray, amplitude: FloatArray, double_angle: FloatArray, criterion: Criterion
 ) -> FloatArray:
-    """Maximum over 2θ of (A + B cos + C sin)(D + E cos + F sin), or of powers of both, near ``double_angle``.
+    """Maximum over 2θ of a criterion of A + B cos + C sin and D + E cos + F sin, near ``double_angle``.
 
     Parameters
     ----------
-    peak, swing
-        Shape (3, …): coefficients of σ_n at its maximum, and of ε_n between its extremes.
+    peak, amplitude
+        Shape (3, …): coefficients of σ_n at its maximum, and of half the swing's change between its extremes.
     double_angle
         Shape (…), rad.
-    walker
-        The criterion; None for swt.
+    criterion
+        Shape (…) or broadcast to it.
     """
-    (a, b, c), (d, e, f) = peak, swing
+    (a, b, c), (d, e, f) = peak, amplitude
     angle = double_angle
     for _ in range(NEWTON_STEPS):
         cosine, sine = np.cos(angle), np.sin(angle)
         u, v = b * cosine + c * sine, e * cosine + f * sine
         du, dv = c * cosine - b * sine, f * cosine - e * sine
-        slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v), walker)
+        slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v))
         step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
         angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
     return angle

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.load.loop import BulkCourse
 from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.planes.criterion import Walker, combined
+from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.points import FloatArray, Points
 
 
@@ -50,18 +50,14 @@ class BulkStress(ABC):
         return np.asarray(self.largest > self.least)
 
     def far_field(
-        self, poisson_ratio: FloatArray, walker_exponent: FloatArray | None, plane: bool
-    ) -> FloatArray:
-        """swt far from the contact, shape (n,): that of the bulk stress alone, on the x-normal.
+        self, poisson_ratio: FloatArray, criterion: Criterion, plane: bool
+    ) -> tuple[FloatArray, FloatArray]:
+        """The criterion far from the contact and 2θ of its plane, rad, each (n,): of the bulk stress alone.
 
         Alone it is uniaxial, or in a ``plane`` contact one of plane strain.
         """
-        modulus = 1.0 - poisson_ratio**2
         amplitude = 0.5 * (self.largest - self.least)
-        if not plane:
-            amplitude = amplitude / modulus
-        walker = None if walker_exponent is None else Walker(walker_exponent, modulus)
-        return combined(self.largest, amplitude, walker)
+        return criterion.far_field(self.largest, amplitude, poisson_ratio, plane)
 
 
 @dataclass(frozen=True)

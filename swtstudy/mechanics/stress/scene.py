@@ -16,7 +16,9 @@ from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.of_points import load_of
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, Walker
+from swtstudy.mechanics.planes.criteria import criterion_of
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
@@ -36,8 +38,8 @@ class Scene:
         The coordinate of their memory diagrams, which knows the n profiles.
     poisson_ratio, friction
         Shape (n,).
-    walker_exponent
-        Shape (n,): γ of the criterion; None where it is 1/2 for all of them.
+    criterion
+        Shape (n,): of which the largest value is looked for.
     bulk
         n bulk stresses, at whose turning instants the cycles are cut, see `carrying`; None without.
     """
@@ -46,7 +48,7 @@ class Scene:
     coordinate: Coordinate
     poisson_ratio: FloatArray
     friction: FloatArray
-    walker_exponent: FloatArray | None = None
+    criterion: Criterion = SWT
     bulk: BulkStress | None = None
 
     def __len__(self) -> int:
@@ -64,15 +66,13 @@ class Scene:
             self.coordinate.take(index),
             self.poisson_ratio[index],
             self.friction[index],
-            None if self.walker_exponent is None else self.walker_exponent[index],
+            self.criterion.take(index),
             self.bulk and self.bulk.take(index),
         )
 
     def with_own(self, points: Points) -> Scene:
         """The same with the criterion and the bulk stresses of its n points."""
-        γ = points.walker_exponent
-        own = replace(self, walker_exponent=None if (γ == SWT_EXPONENT).all() else γ)
-        return own.carrying(bulk_of(points))
+        return replace(self, criterion=criterion_of(points)).carrying(bulk_of(points))
 
     def carrying(self, bulk: BulkStress | None) -> Scene:
         """The same with bulk stresses."""
@@ -94,6 +94,11 @@ class Scene:
         return replace(self, cycle=split_at_breakpoints(self.cycle))
 
     @property
+    def critical_everywhere(self) -> bool:
+        """Whether places in mere pressure may be critical, or those outside of the contact."""
+        return self.bulk is not None or not self.criterion.needs_tension
+
+    @property
     def largest_radius(self) -> FloatArray:
         """Largest contact radius of each point in a_H, shape (n,)."""
         return self.coordinate.radius(self.cycle.load.largest_normal[:, None])[:, 0]
@@ -103,22 +108,15 @@ class Scene:
         """Whether half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
-    @property
-    def one_walker_exponent(self) -> float:
-        """γ of a batch of one point."""
-        return SWT_EXPONENT if self.walker_exponent is None else float(self.walker_exponent[0])
-
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
-        """σ_n and ε_n on the planes through y, on the given side of the contact."""
+        """σ_n and the swing of the criterion on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
-        return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.walker_exponent)
+        return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.criterion)
 
     @property
-    def walker(self) -> Walker | None:
+    def criterion_along(self) -> Criterion:
         """The criterion at positions of shape (n, X)."""
-        if self.walker_exponent is None:
-            return None
-        return Walker(self.walker_exponent[:, None], 1.0 - self.poisson_ratio[:, None] ** 2)
+        return self.criterion.reshape(-1, 1)
 
 
 def scene_of(points: Points) -> Scene:

@@ -4,33 +4,22 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.mistakes import literal
 from swtstudy.quantities import Request
-from swtstudy.units.bodies import LABELS
-from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.labels import KINDS, Units
-from swtstudy.units.life import FatigueConstants
-from swtstudy.units.reading import Given
-from swtstudy.units.rows import OF_BODIES
+from swtstudy.records.requested import CONTACT, has_units
 from swtstudy.units.variables import LIVES, NORMALISED, variables
 
-#: The attribute of a Dataset that says what its coordinates do not say of its contacts.
-ATTRIBUTE = "contact"
-
-
-def is_real(dataset: xr.Dataset) -> bool:
-    """Whether results are those of real contacts."""
-    return ATTRIBUTE in dataset.attrs
+if TYPE_CHECKING:
+    from swtstudy.units.grid import PhysicalGrid
 
 
 def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
     """Whether a data variable is a life for which no strain cycles have been counted."""
-    return is_real(dataset) and name in LIVES and "counted" not in dataset
+    return has_units(dataset) and name in LIVES and "counted" not in dataset
 
 
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:
@@ -49,7 +38,7 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
         found[name].attrs = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
     if "body" in found.coords:
         found["body"] = found.body.astype(np.int64).assign_attrs(found.body.attrs)
-    return found.assign_attrs({ATTRIBUTE: _text(grid)})
+    return found.assign_attrs({CONTACT: _text(grid)})
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -71,27 +60,3 @@ def _text(grid: PhysicalGrid) -> str:
             "bulk_stress_body": grid.bulk_stress_body,
         }
     )
-
-
-def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
-    """What the attribute says: see `swtstudy.units.grid.PhysicalGrid`.
-
-    Raises
-    ------
-    ValueError
-        With the reason, if it cannot be read.
-    """
-    try:
-        raw: Any = json.loads(str(text))
-    except RecursionError:
-        raise ValueError("nested too deeply") from None
-    try:
-        units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
-        pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
-        materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
-    except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
-        raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
-        raise ValueError(f"not a contact: {literal(raw)}")
-    return given, pairs

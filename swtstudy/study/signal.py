@@ -1,0 +1,301 @@
+"""Measured signals: the loads that a rig has recorded over some cycles, and the loops that they are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+
+from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.load.loop import Loop, checked_mean, checked_name
+from swtstudy.mechanics.load.smooth_path import HIGHEST_ORDER
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal, nearest, plain_number
+from swtstudy.study import recorded
+from swtstudy.study.columns import DECIMALS, SEPARATORS, Form, read_columns
+
+#: The loads of a signal, one that it may have, and the time.
+COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
+#: What may be said of a signal in a file.
+KEYS = ("columns", "absolute", "separator", "decimal", "time", "recorded_cycles", "period", "harmonics")
+
+
+@dataclass(frozen=True, eq=False)
+class Signal:
+    """Loads that a rig has recorded.
+
+    Attributes
+    ----------
+    name
+        That of the loop.
+    time
+        Shape (k,): the time of each sample; its number, from 0 on, if none was recorded.
+    values
+        Shape (k, 2) or (k, 3): normal and tangential load, and the bulk stress, as they are in the file.
+    period
+        Length of a cycle, in the unit of the time.
+    count
+        Number of whole cycles.
+    is_absolute
+        Whether the normal load is the load itself, not its deviation from the mean.
+    highest
+        Order of the highest harmonic of the loop; 0 for straight lines between the samples.
+    """
+
+    name: str
+    time: FloatArray
+    values: FloatArray
+    period: float
+    count: int
+    is_absolute: bool
+    highest: int
+
+    def __repr__(self) -> str:
+        return f"<Signal {self.name}: {self.words}>"
+
+    @cached_property
+    def cycles(self) -> FloatArray:
+        """The whole cycles at even phases, shape (count, m, d); a single one at its own samples."""
+        if self.count == 1 and self._used == len(self.time):
+            return self.values[None]
+        return recorded.folded(self.time, self.values, self.period, self.count)
+
+    @property
+    def mean_cycle(self) -> FloatArray:
+        """The mean of the cycles, shape (m, d)."""
+        return np.asarray(self.cycles.mean(axis=0))
+
+    @property
+    def scatter(self) -> FloatArray:
+        """Standard deviation of the cycles from their mean, by column; NaN for a single one."""
+        return recorded.scatter(self.cycles)
+
+    @cached_property
+    def mean_normal(self) -> float | None:
+        """The mean normal load; None where the column is its deviation from that."""
+        if not self.is_absolute:
+            return None
+        if self.highest:
+            mean = float(self._fits[0][0][0, 1])
+        elif self.count == 1 and self._used == len(self.time):
+            mean = recorded.mean_over(self.time, self.values[:, 0], self.period)
+        else:
+            mean = float(self.cycles[..., 0].mean())
+        return checked_mean(mean, self.name)
+
+    @cached_property
+    def loop(self) -> Loop:
+        """The loop of the mean cycle, for `load`."""
+        return self._harmonic if self.highest else self._polygon(self.name, self.mean_cycle)
+
+    @property
+    def loops(self) -> tuple[LoadPath, ...]:
+        """The loop of each cycle, named by their numbers, about their common mean."""
+        return tuple(self._polygon(f"{self.name} {k}", one) for k, one in enumerate(self.cycles, start=1))
+
+    @property
+    def missed(self) -> FloatArray:
+        """Root mean square of what the harmonics leave out of the samples, by column; 0 without them."""
+        if not self.highest:
+            return np.zeros(self.values.shape[1])
+        squares = [
+            np.mean((column - fit) ** 2) for column, (_, fit) in zip(self._whole, self._fits, strict=True)
+        ]
+        return np.sqrt(np.array(squares))
+
+    @property
+    def words(self) -> str:
+        """Cycles, samples, scatter, in a line."""
+        said = [f"{self.count} cycle{'s' * (self.count > 1)} of {self.cycles.shape[1]} samples"]
+        if self.mean_normal is not None:
+            said.append(f"mean normal load {self.mean_normal:.5g}")
+        for verb, found in (("the cycles scatter by", self.scatter), ("the harmonics miss", self.missed)):
+            if np.any(found > 0.0):
+                each = zip((*COLUMNS, BULK), found, strict=False)
+                said.append(f"{verb} {', '.join(f'{value:.2g} ({name})' for name, value in each)}")
+        return "; ".join(said)
+
+    @property
+    def _used(self) -> int:
+        """Samples within the whole cycles."""
+        end = self.time[0] + self.count * self.period
+        return int(np.searchsorted(self.time, end - recorded.ROUNDING * self.period))
+
+    @property
+    def _whole(self) -> FloatArray:
+        """The samples within the whole cycles, by column."""
+        return self.values[: self._used].T
+
+    @cached_property
+    def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
+        phase = 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
+        return [recorded.harmonics(phase, column, self.highest) for column in self._whole]
+
+    @property
+    def _harmonic(self) -> Loop:
+        columns = [
+            [(int(order), float(a), float(phase)) for order, a, phase in rows] for rows, _ in self._fits
+        ]
+        if self.is_absolute:
+            del columns[0][0]  # of the order 0, which is the mean
+        bulk = columns[2] if len(columns) > 2 else ()
+        return LoadPath.harmonic_sum(self.name, columns[0], columns[1], bulk, mean_normal=self.mean_normal)
+
+    def _polygon(self, name: str, cycle: FloatArray) -> LoadPath:
+        off = np.eye(1, cycle.shape[1]) * (self.mean_normal or 0.0)
+        return LoadPath(name, cycle - off, self.mean_normal)
+
+
+def read_signal(
+    path: str | PathLike[str],
+    *,
+    name: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    absolute: bool = False,
+    separator: str = ",",
+    decimal: str = ".",
+    time: str | None = None,
+    recorded_cycles: int | None = None,
+    period: float | None = None,
+    harmonics: int | None = None,
+) -> Signal:
+    """Loads that a rig has recorded, from a table with a header.
+
+    Parameters
+    ----------
+    path
+        The file, in UTF-8.
+    name
+        Name of the loop; that of the file unless given.
+    columns
+        Headers of the columns ``normal``, ``tangential`` and, optionally, ``bulk``, where they are not these
+        words.
+    absolute
+        Whether the normal column is the load itself, as it is measured: its mean is taken off, and is the
+        mean normal load of contacts that are given none.
+    separator
+        Between cells: ",", ";", a tab, "|", or a blank for any number of blanks.
+    decimal
+        The decimal sign, "." or ",".
+    time
+        Header of the time; without it samples are even.
+    recorded_cycles
+        Number of cycles that the file holds. They are folded into their mean.
+    period
+        Length of a cycle in its place, in the unit of the time, or in samples without one.
+    harmonics
+        Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
+        join the samples.
+
+    Returns
+    -------
+    Signal
+        Its ``loop`` is a value of ``load``; ``loops`` are those of its cycles one by one.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and where in the file.
+    """
+    given: dict[str, object] = {
+        "columns": columns,
+        "absolute": absolute,
+        "separator": separator,
+        "decimal": decimal,
+    }
+    given |= {"time": time, "recorded_cycles": recorded_cycles, "period": period, "harmonics": harmonics}
+    own = Path(path).stem if name is None else name
+    return signal_from(Path(path), checked_name(own), given)
+
+
+def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
+    """The signal in a file, from values of `KEYS`, which may be None; see `read_signal`."""
+    mistakes = [
+        Mistake(key, literal(given[key]), allowed)
+        for key, (sound, allowed) in _SOUND.items()
+        if given.get(key) is not None and not sound(given[key])
+    ]
+    mistakes += _unknown_columns(given.get("columns"))
+    if given.get("recorded_cycles") is not None and given.get("period") is not None:
+        mistakes.append(Mistake("recorded_cycles, period", "both", "one of the two: the other follows"))
+    if mistakes:
+        raise StudyError(mistakes)
+    time, values = _table(path, given)
+    return _whole(name, time, values, given)
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str) and bool(value.strip())
+
+
+def _is_count(value: object, most: float) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= most
+
+
+#: What is sound for each key, and in words.
+_SOUND = {
+    "columns": (
+        lambda value: isinstance(value, Mapping) and all(map(_is_text, value.values())),
+        'a table of headers, such as { normal = "Fn [N]", tangential = "Ft [N]" }',
+    ),
+    "absolute": (lambda value: isinstance(value, bool), "true or false"),
+    "separator": (lambda value: value in SEPARATORS, f"one of {', '.join(map(repr, SEPARATORS))}"),
+    "decimal": (lambda value: value in DECIMALS, '"." or ","'),
+    "time": (_is_text, "the header of the column of the time"),
+    "recorded_cycles": (lambda value: _is_count(value, np.inf), "a whole number of cycles, 1 or more"),
+    "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
+    "harmonics": (lambda value: _is_count(value, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
+}
+
+
+def _unknown_columns(columns: object) -> list[Mistake]:
+    """Names in ``columns`` that no signal has."""
+    known = (*COLUMNS, BULK)
+    names = columns if isinstance(columns, Mapping) else ()
+    return [Mistake(f"columns.{n}", literal(n), nearest(str(n), known, {})) for n in names if n not in known]
+
+
+def _table(path: Path, given: Mapping[str, object]) -> tuple[FloatArray, FloatArray]:
+    """Time and loads."""
+    columns, time = dict(given.get("columns") or {}), given.get("time")  # type: ignore[call-overload]
+    separator, decimal = (str(given.get(key) or word) for key, word in (("separator", ","), ("decimal", ".")))
+    if separator == decimal:
+        raise StudyError([Mistake("separator, decimal", f"both {decimal!r}", "two different signs")])
+    form = Form(separator, decimal, columns | ({TIME: str(time)} if time else {}))
+    names = (*([TIME] if time else []), *COLUMNS, *([BULK] if BULK in columns else []))
+    values = read_columns(path, names, () if columns else (BULK,), form)
+    if not time:
+        return np.arange(len(values), dtype=np.float64), values
+    wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
+    if wrong.size:
+        found = f"{values[wrong[0] + 1, 0]:g} after {values[wrong[0], 0]:g}"
+        raise StudyError([Mistake(f"time, sample {wrong[0] + 2}", found, "times that ascend", str(path))])
+    return values[:, 0], values[:, 1:]
+
+
+def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, object]) -> Signal:
+    """The signal with its period and number of cycles."""
+    if len(values) < 2:
+        raise StudyError([Mistake("", f"{len(values)} samples", "2 at least")])
+    if given.get("period") is not None:
+        period = plain_number(given["period"])
+        count = recorded.whole_cycles(time, period)
+    else:
+        count = int(given.get("recorded_cycles") or 1)  # type: ignore[call-overload]
+        period = recorded.period_of(time, count)
+    samples = period * (len(time) - 1) / (time[-1] - time[0])
+    highest = int(given.get("harmonics") or 0)  # type: ignore[call-overload]
+    key = "period" if given.get("period") is not None else "recorded_cycles"
+    if count < 1:
+        length = time[-1] - time[0]
+        raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
+    if samples < 2.0 - 1e-9:
+        raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
+    if 2 * highest + 1 > samples * count + 1e-9:
+        found = f"{highest} with {samples * count:.0f} samples"
+        raise StudyError([Mistake("harmonics", found, "less than half as many as samples")])
+    return Signal(name, time, values, period, count, bool(given.get("absolute")), highest)

@@ -1,0 +1,39 @@
+"""Loops that were measured as loads: what need not be given of a contact that has them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from swtstudy.grid.values import Value
+from swtstudy.mechanics.load.loop import Loop
+from swtstudy.parameters import LOOP_AMPLITUDE
+from swtstudy.units.rows import MEAN_LOADS
+
+
+def are_measured(loads: Sequence[Value]) -> bool:
+    """Whether there are loads, of which each is a loop that knows its mean normal load."""
+    known = [isinstance(load, Loop) and load.mean_normal is not None for load in loads]
+    return bool(known) and all(known)
+
+
+def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
+    """Which of `MEAN_LOADS` each load has the mean of; None where the load at rest is given by itself."""
+    if {*MEAN_LOADS} & {*given} or not are_measured(loads):
+        return None
+    return "depth" if "normal_amplitude" in given else "normal_force"
+
+
+def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[str, float]:
+    """What the columns of measured loads are multiplied by unless it is given: they are loads themselves.
+
+    Forces, if not told otherwise; beside a depth also a displacement.
+    """
+    found: dict[str, float] = {}
+    if not are_measured(loads):
+        return found
+    if not {"normal_amplitude", "normal_force_amplitude"} & {*given}:
+        found["normal_force_amplitude"] = LOOP_AMPLITUDE
+    if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
+        kind = "" if "normal_amplitude" in given else "force_"
+        found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
+    return found

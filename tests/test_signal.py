@@ -1,0 +1,242 @@
+"""Measured signals: from the file of a rig to a loop and a study."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
+from swtstudy.study.recorded import harmonics, mean_over, scatter
+
+RIG = """
+title = "A rig"
+rtol = 1e-3
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+load = "rig"
+"""
+#: A cycle in N, N and MPa.
+CYCLE = np.array(
+    [[200, 0, 0], [220, 60, 30], [205, 20, 10], [190, -60, -30], [185, -60, -25], [200, -20, -10]]
+)
+
+
+def write(path: Path, values: np.ndarray, header: str, separator: str = ",", decimal: str = ".") -> None:
+    rows = [separator.join(f"{value!r}".replace(".", decimal) for value in row) for row in values.tolist()]
+    path.write_text("\n".join([header, *rows, ""]), encoding="utf-8")
+
+
+def mistakes_of(text: str, folder: Path) -> list[str]:
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(text, "s", folder)
+    return [str(mistake) for mistake in caught.value.mistakes]
+
+
+def smooth(phase: np.ndarray) -> np.ndarray:
+    """Loads of a smooth cycle at phases."""
+    normal = 200.0 + 20.0 * np.sin(phase + 0.3)
+    tangential = 60.0 * np.sin(phase) + 9.0 * np.cos(3.0 * phase)
+    return np.stack([normal, tangential, 5.0 + 30.0 * np.sin(phase - 0.2)], axis=1)
+
+
+def test_columns_are_read_by_their_headers_whatever_separates_them(tmp_path: Path) -> None:
+    columns = {"normal": "Fn [N]", "tangential": "Ft", "bulk": "σ, MPa"}
+    table = np.column_stack([np.arange(6.0), CYCLE[:, 2], CYCLE[:, 0] + 0.25, CYCLE[:, 1]])
+    found = {}
+    for name, separator, decimal in (("a", ";", ","), ("b", "\t", "."), ("c", "|", ","), ("d", ",", ".")):
+        headers = ["t", "σ, MPa", "Fn [N]", "Ft"]
+        header = separator.join(f'"{each}"' for each in headers)
+        write(tmp_path / name, table, header, separator, decimal)
+        own = {"separator": separator, "decimal": decimal, "absolute": True, "name": "rig"}
+        found[name] = read_signal(tmp_path / name, columns=columns, **own).loop
+    assert len({each.code for each in found.values()}) == 1
+    shifted = CYCLE + np.array([0.25, 0.0, 0.0])
+    whole = LoadPath.absolute("rig", shifted)
+    np.testing.assert_allclose(found["a"].vertices, whole.vertices, atol=1e-12)
+    assert found["a"].mean_normal == pytest.approx(shifted[:, 0].mean())
+    # Columns in blanks, which are no fixed number.
+    words = "\n".join("  ".join(f"{value:10.4f}" for value in row) for row in CYCLE)
+    (tmp_path / "e.dat").write_text(f"normal   tangential bulk\n{words}\n")
+    blank = read_signal(tmp_path / "e.dat", separator=" ", absolute=True).loop
+    np.testing.assert_allclose(blank.vertices, LoadPath.absolute("rig", CYCLE).vertices, atol=1e-12)
+
+
+def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_path: Path) -> None:
+    """The same SWT as that of the deviations, about the mean that was given; also from the archive."""
+    write(tmp_path / "rig.csv", CYCLE, "normal,tangential,bulk")
+    text = RIG + '[loads.rig]\nfile = "rig.csv"\n'
+    study = Study.from_text(text + "absolute = true\n", "s", tmp_path)
+    found = run(study, tmp_path / "absolute.nc")
+    off = CYCLE - [200, 0, 0]
+    write(tmp_path / "rig.csv", off, "normal,tangential,bulk")
+    given = "normal_force = 200\nnormal_force_amplitude = 1\ntangential_force_amplitude = 1\n"
+    same = run(
+        Study.from_text(text.replace("[loads", f"{given}[loads"), "s", tmp_path), tmp_path / "given.nc"
+    )
+    assert same.normal_force.item() == 200.0
+    np.testing.assert_allclose(found.SWT, same.SWT, rtol=1e-9)
+    np.testing.assert_allclose(found.peak_pressure, same.peak_pressure, rtol=1e-12)
+    assert found.normal_force.item() == pytest.approx(200.0, rel=1e-12)
+    # What the archive holds says the same without the file, and is known to a second run.
+    (tmp_path / "rig.csv").unlink()
+    again = Study.from_text(open_results(tmp_path / "absolute.nc").attrs["study"])
+    assert again.grid.values("normal_force") == (200.0,)
+    from swtstudy.runner.work import assess
+
+    assert assess(again, tmp_path / "absolute.nc").todo == 0
+    contact = swtstudy.physical(
+        young_modulus=73.1e3,
+        poisson_ratio=0.33,
+        radius=50.0,
+        friction=0.5,
+        load=LoadPath.absolute("rig", CYCLE),
+    )
+    np.testing.assert_allclose(contact.solve(rtol=1e-3).SWT, found.SWT, rtol=1e-9)
+
+
+def test_each_load_of_an_axis_has_its_own_mean(tmp_path: Path) -> None:
+    text = RIG.replace('load = "rig"\n', "") + '[axes]\nload = ["low", "high"]\n'
+    for name, factor in (("low", 1.0), ("high", 1.5)):
+        text += f"[loads.{name}]\nabsolute = true\nvertices = {(factor * CYCLE).tolist()}\n"
+    both = run(Study.from_text(text), tmp_path / "both.nc")
+    assert both.normal_force.dims == ("load",)
+    np.testing.assert_allclose(both.normal_force, [200.0, 300.0], rtol=1e-12)
+    for name in ("low", "high"):
+        one = text.replace('load = ["low", "high"]', f'load = ["{name}"]')
+        alone = run(Study.from_text(one), tmp_path / f"{name}.nc")
+        np.testing.assert_allclose(both.SWT.sel(load=name), alone.SWT.sel(load=name), rtol=1e-9)
+    assert (both.peak_pressure[1] / both.peak_pressure[0]).item() == pytest.approx(1.5 ** (1 / 3), rel=1e-6)
+
+
+def test_recorded_cycles_are_folded_into_their_mean(tmp_path: Path) -> None:
+    """The noise of 20 cycles is divided by √20, and its size is what they scatter by."""
+    noise = np.random.default_rng(1).normal(size=(8000, 3)) * [2.0, 0.6, 0.3]
+    phase = 2.0 * np.pi * np.arange(8000) / 400
+    write(tmp_path / "rig.csv", smooth(phase) + noise, "normal,tangential,bulk")
+    found = read_signal(tmp_path / "rig.csv", recorded_cycles=20, absolute=True)
+    assert found.cycles.shape == (20, 400, 3)
+    np.testing.assert_allclose(found.scatter, [2.0, 0.6, 0.3], rtol=0.05)
+    left = (found.mean_cycle - smooth(phase[:400])).std(axis=0)
+    np.testing.assert_allclose(left, np.array([2.0, 0.6, 0.3]) / np.sqrt(20), rtol=0.15)
+    assert found.mean_normal == pytest.approx(200.0, abs=5 * 2.0 / np.sqrt(8000))
+    assert len(found.loops) == 20
+    assert {one.mean_normal for one in found.loops} == {found.mean_normal}
+    assert re.search(r"20 cycles of 400 samples; mean normal load 200.*scatter by 2 \(normal\)", found.words)
+
+
+def test_a_period_in_time_folds_a_record_that_ends_within_a_cycle(tmp_path: Path) -> None:
+    """Samples every 0.011 s of cycles of 1 s: straight lines between them miss (0.011 π)²/2 of each."""
+    time = 3.0 + 0.011 * np.arange(480)
+    phase = 2.0 * np.pi * (time - 3.0)
+    write(tmp_path / "rig.csv", np.column_stack([time, smooth(phase)]), "s,normal,tangential,bulk")
+    found = read_signal(tmp_path / "rig.csv", time="s", period=1.0)
+    assert found.count == 5
+    assert len(found.mean_cycle) == 91
+    np.testing.assert_allclose(found.mean_cycle, smooth(2.0 * np.pi * np.arange(91) / 91), atol=0.1)
+    assert np.all(found.scatter < 0.1)
+    # Every cycle is sampled elsewhere: harmonics are not misled by that.
+    fit = read_signal(tmp_path / "rig.csv", time="s", period=1.0, harmonics=3, absolute=True).loop
+    np.testing.assert_allclose(fit.harmonics["normal"][0], [1, 20.0, 0.3], atol=1e-9)
+    np.testing.assert_allclose(fit.harmonics["tangential"][3], [3, 9.0, 0.5 * np.pi], atol=1e-9)
+    np.testing.assert_allclose(fit.harmonics["bulk"][0][1], 5.0, atol=1e-9)
+    assert fit.mean_normal == pytest.approx(200.0, abs=1e-9)
+
+
+def test_harmonics_are_those_of_least_squares() -> None:
+    phase = np.sort(np.random.default_rng(2).uniform(0.0, 2.0 * np.pi, 50))
+    values = 3.0 + 2.0 * np.sin(phase + 0.5) + np.sin(7.0 * phase)
+    rows, fit = harmonics(phase, values, 7)
+    np.testing.assert_allclose(fit, values, atol=1e-10)
+    np.testing.assert_allclose(rows[0], [0, 3.0, 0.5 * np.pi])
+    np.testing.assert_allclose(rows[1], [1, 2.0, 0.5], atol=1e-10)
+    # With one that is not fitted the rest is at right angles to all that are.
+    rows, fit = harmonics(phase, values, 3)
+    base = [np.ones(50), *(f(k * phase) for k in (1, 2, 3) for f in (np.sin, np.cos))]
+    np.testing.assert_allclose(np.array(base) @ (values - fit), 0.0, atol=1e-10)
+
+
+def test_the_mean_is_over_the_time_not_over_the_samples() -> None:
+    time, values = np.array([0.0, 1.0, 1.5, 2.0]), np.array([0.0, 0.0, 4.0, 0.0])
+    assert mean_over(time, values, 4.0) == pytest.approx(0.5)
+    assert np.isnan(scatter(np.zeros((1, 4, 2)))).all()
+
+
+def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path: Path) -> None:
+    noise = np.random.default_rng(3).normal(size=(2000, 3)) * [2.0, 0.6, 0.3]
+    phase = 2.0 * np.pi * np.arange(2000) / 400
+    write(tmp_path / "rig.csv", smooth(phase) + noise, "normal,tangential,bulk")
+    text = RIG + '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 5\nharmonics = 3\n'
+    found = run(Study.from_text(text, "s", tmp_path), tmp_path / "rig.nc")
+    pure = {"normal": [(1, 20, 0.3)], "tangential": [(1, 60, 0), (3, 9, np.pi / 2)]}
+    loop = LoadPath.harmonic_sum("pure", **pure, bulk=[(0, 5, np.pi / 2), (1, 30, -0.2)], mean_normal=200.0)
+    same = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
+    np.testing.assert_allclose(found.SWT, swtstudy.physical(**same, load=loop).solve().SWT, rtol=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("absolute = 1", "loads.rig.absolute: found 1; allowed: true or false"),
+        ('separator = "ab"', "loads.rig.separator: found 'ab'; allowed: one of"),
+        ('decimal = ","', "loads.rig.separator, decimal: found both ','; allowed: two different"),
+        ("recorded_cycles = 1.5", "loads.rig.recorded_cycles: found 1.5; allowed: a whole number"),
+        ("recorded_cycles = 2\nperiod = 3", "loads.rig.recorded_cycles, period: found both; allowed: one"),
+        ("recorded_cycles = 4", "loads.rig.recorded_cycles: found 1.5 samples a cycle; allowed: 2 samples"),
+        ("period = 7", "loads.rig.period: found 7, and a record of 5; allowed: a whole cycle at least"),
+        ("period = -1", "loads.rig.period: found -1; allowed: a positive number"),
+        ("harmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less than half"),
+        ("harmonics = 65", "loads.rig.harmonics: found 65; allowed: a whole number, 1 to 64"),
+        ('columns = "Ft"', "loads.rig.columns: found 'Ft'; allowed: a table of headers, such as"),
+        ('columns = { norml = "a" }', "loads.rig.columns.norml: found 'norml'; allowed: did you mean normal"),
+        (
+            'columns = { normal = "Fn" }',
+            r"loads.rig.file: found no column 'Fn', which is to be normal \(.*line 1\); allowed: .*normal",
+        ),
+        ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
+        ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*time, sample 3\); allowed: times that asc"),
+        ("mean_normal = 3", "loads.rig: found mean_normal beside a file; allowed: with a file only columns"),
+    ],
+)
+def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, words: str) -> None:
+    write(tmp_path / "rig.csv", CYCLE, "normal,tangential,bulk")
+    given = "normal_force = 200\nnormal_force_amplitude = 1\ntangential_force_amplitude = 1\n"
+    text = RIG + given * ("absolute" not in table) + f'[loads.rig]\nfile = "rig.csv"\n{table}\n'
+    (line,) = mistakes_of(text, tmp_path)
+    assert re.match(f"s: {words}", line), line
+
+
+def test_a_measured_load_without_units_is_refused_unless_it_is_scaled() -> None:
+    rig = LoadPath.absolute("rig", CYCLE[:, :2])
+    with pytest.raises(
+        StudyError, match=r"'rig' with a mean normal load of 200, without units; allowed: \[units\]"
+    ):
+        swtstudy.solve(load=rig)
+    given = {"normal_force_amplitude": 1 / 200, "tangential_force_amplitude": 1 / 100, "friction": 0.5}
+    assert swtstudy.solve(load=rig, **given, rtol=1e-2).s.item() > 0.0
+    for mean in (0.0, -3.0, "much"):
+        with pytest.raises(StudyError, match=r"mean_normal of rig: found .*; allowed: a positive number"):
+            LoadPath("rig", [[0, 1], [0, -1]], mean)
+
+
+def test_a_study_tells_of_vertices_that_are_absolute_or_have_a_mean() -> None:
+    vertices = CYCLE[:, :2].tolist()
+    one = Study.from_text(RIG + f"[loads.rig]\nvertices = {vertices}\nabsolute = true\n").grid
+    off = (CYCLE[:, :2] - [200, 0]).tolist()
+    other = Study.from_text(RIG + f"[loads.rig]\nvertices = {off}\nmean_normal = 200\n").grid
+    assert one.values("load") == other.values("load")
+    assert one.values("normal_force") == other.values("normal_force") == (200.0,)
+    # Given by itself, it is about that.
+    given = RIG.replace("[fixed]", "[fixed]\nnormal_force = 300")
+    about = Study.from_text(given + f"[loads.rig]\nvertices = {off}\nmean_normal = 200\n").grid
+    assert about.values("normal_force") == (300.0,)
