@@ -51,7 +51,9 @@ def main() -> None:
     disc = forces(count)
     print(f"processor time over that of the paraboloid, {count} points in a call, median of {rounds} pairs:")
     for name, shape in SHAPES.items():
-        strip = replace(disc, profile=name, shape={key: np.full(count, value) for key, value in shape.items()})
+        strip = replace(
+            disc, profile=name, shape={key: np.full(count, value) for key, value in shape.items()}
+        )
         seconds(strip, RTOLS[0])  # what is made once
         for rtol in RTOLS:
             pairs = [(seconds(strip, rtol), seconds(disc, rtol)) for _ in range(rounds)]
