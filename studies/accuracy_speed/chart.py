@@ -63,6 +63,7 @@ def chart(table: Path) -> Figure:
             axes.set_visible(False)
         for axes in panels.flat[max(len(scenes) - 2, 0) : len(scenes)]:
             axes.set_xlabel("processor time a value, s")
+            axes.tick_params(labelbottom=True)
         for axes in panels[:, 0]:
             axes.set_ylabel("relative error of $s$")
         add_legend(figure, panels[:1, :1])
