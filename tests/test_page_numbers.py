@@ -79,6 +79,12 @@ def suite() -> None:
     assert sum(archive.s.size for archive in archives) == values
 
 
+def plane_cost() -> None:
+    (coarse,), (fine,) = (numbers("plane_cost.txt", f"rtol {rtol}: {{}}, ") for rtol in ("0.0001", "1e-06"))
+    assert max(coarse, fine) <= 1.0
+    says("A cylinder's value costs {} of the paraboloid's under the same forces, at 1e-6 {}", coarse, fine)
+
+
 def scaling() -> None:
     points, rtol, q, p, memory, start = tables("scaling.md")
     cost = [dict(zip(*table, strict=True)) for table in (points, q, p)]
@@ -339,6 +345,7 @@ def versions() -> None:
 
 CLAIMS: tuple[Callable[[], None], ...] = (
     suite,
+    plane_cost,
     scaling,
     accuracy,
     chart,
