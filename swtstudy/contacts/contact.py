@@ -1,4 +1,4 @@
-"""Real contacts: one, or all on the grid that sequences of values span."""
+"""What real contacts give: their parameters, SWT, cycles, and results of both bodies."""
 
 from __future__ import annotations
 
