@@ -22,8 +22,8 @@ SYMBOLS = {
 }
 #: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).
 BENEATH = (
-    "a criterion of shear may be larger beside that line or beneath the surface, where friction is below 0.3, "
-    "the Poisson ratio below 0.1 or the tangential motion small: swtstudy audit compares"
+    "a criterion of shear may be larger beside that line or beneath the surface, where friction is below "
+    "0.3, the Poisson ratio below 0.1 or the tangential motion small: swtstudy audit compares"
 )
 #: The profile next to whose edge only SWT is known.
 SHARP = "truncated_paraboloid"

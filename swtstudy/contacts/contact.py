@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.contacts.overview import as_html, as_text
 from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
@@ -22,6 +23,7 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
@@ -72,12 +74,10 @@ class PhysicalContact:
         several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
         words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
         count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
-        return f"<PhysicalContact: {count}{words}>"
+        return f"<PhysicalContact: {count}{words}>\n{as_text(self)}"
 
     def _repr_html_(self) -> str:
         """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
-        from swtstudy.contacts.overview import as_html
-
         return as_html(self)
 
     def __getattr__(self, name: str) -> Any:
@@ -260,6 +260,7 @@ class PhysicalContact:
         quantities: Sequence[str] = (),
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        blocks: Mapping[str, float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
 
@@ -273,6 +274,8 @@ class PhysicalContact:
             One or several lengths, for nonlocal values.
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
         Returns
         -------
@@ -300,6 +303,13 @@ class PhysicalContact:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
+        sequence: tuple[Block, ...] = ()
+        try:
+            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        except StudyError as error:
+            mistakes += error.mistakes
+        if blocks and constants is None:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
-        return solve_grid(replace(self.grid, materials=materials), float(rtol), asked)
+        return solve_grid(replace(self.grid, materials=materials, blocks=sequence), float(rtol), asked)

@@ -24,11 +24,12 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
+from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import mean_of_loads, measured_amplitudes
+from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.strips import check_lengths, labels_of, still_load
@@ -42,6 +43,7 @@ class Given:
     materials: tuple[FatigueConstants, ...] = ()
     similar: float = SIMILAR
     bulk_stress_body: int = 0
+    blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
 
 
@@ -204,7 +206,8 @@ def _check_given(
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
-    measured = good.get("load", ())
+    # A wrong load is reported: nothing else is lacking because of it.
+    measured = good.get("load") or ((ANY,) if "load" in everything else ())
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
@@ -273,7 +276,8 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+        blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
+        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]), blocks)
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
     if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):

@@ -11,6 +11,7 @@ import numpy as np
 
 from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.quantities import COUNTED, NONLOCAL, Request, error_of
+from swtstudy.units.blocks import lives_in
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
@@ -145,6 +146,7 @@ NAMES = (
     *(position_of(place) for place in PLACES),
     *LIVES,
     *("FS", "FS_error", "findley_stress", "findley_stress_error"),
+    *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
 )
@@ -155,6 +157,9 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
     for each in variables(grid, asked):
         found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.seats.dims
+    for life, repetitions, share in lives_in([*found]) if grid.blocks else ():
+        found[share] = found[life]
+        found[repetitions] = tuple(dim for dim in found[life] if dim != "load")
     return found
 
 
