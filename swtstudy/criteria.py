@@ -20,10 +20,10 @@ SYMBOLS = {
     FATEMI_SOCIE: r"G \mathrm{FS}/(E^*\delta_0/a_H)",
     FINDLEY: r"f/(E^*\delta_0/a_H)",
 }
-#: Where a criterion of shear may be larger than s.
+#: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).
 BENEATH = (
-    "a criterion of shear may be larger beneath the surface, where the normal load oscillates or friction is "
-    "small: swtstudy audit compares"
+    "a criterion of shear may be larger beside that line or beneath the surface, where friction is below "
+    "0.3, the Poisson ratio below 0.1 or the tangential motion small: swtstudy audit compares"
 )
 #: The profile next to whose edge only SWT is known.
 SHARP = "truncated_paraboloid"

@@ -22,6 +22,7 @@ from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.solving import solve_grid
 
 Array = NDArray[np.float64]
 
@@ -319,3 +320,46 @@ def test_the_circle_knows_planes_that_do_not_hold_the_y_axis() -> None:
     assert found.swt.max() > 1.02 * line.s[0]
     assert np.abs(found.normal[found.swt.argmax(), 1]) > 0.5
     assert line.s_surface[0] == pytest.approx(found.swt.max(), rel=1e-3)
+
+
+STEEL = {"young_modulus": 210e3, "poisson_ratio": 0.3, "radius": 50.0, "normal_force": 200.0, "friction": 0.5}
+
+
+def test_criteria_with_units() -> None:
+    """Findley's is a stress; Fatemi's and Socie's a strain, whose k is over the yield strength."""
+    own = STEEL | {"tangential_force_amplitude": [30.0, 60.0]}
+    contact = swtstudy.physical(**own, criterion=["swt", "findley"], normal_sensitivity=0.3)
+    found = contact.solve().sel(body=1)
+    stress = contact.moduli.normal * contact.depth / contact.length_scale
+    pure = contact.grid.numbers["tangential_amplitude"].values
+    given = {"tangential_force_amplitude": pure, "normal_force_amplitude": 0.0, "friction": 0.5}
+    alone = swtstudy.solve(**given, criterion="findley", normal_sensitivity=0.3, poisson_ratio=0.3)
+    expected = stress * alone.s.values
+    np.testing.assert_allclose(found.findley_stress.sel(criterion="findley"), expected, rtol=1e-6)
+    assert np.isnan(found.findley_stress.sel(criterion="swt")).all()
+    assert np.isnan(found.SWT.sel(criterion="findley")).all()
+    assert np.isfinite(found.SWT.sel(criterion="swt")).all()
+    one = swtstudy.physical(
+        **(own | {"tangential_force_amplitude": 30.0}), criterion="findley", normal_sensitivity=0.0
+    )
+    assert swtstudy.solve(**one.parameters()).s == pytest.approx(one.solve().s.values[0], rel=1e-9)
+    with pytest.raises(ValueError, match="yield_strength: found nothing"):
+        swtstudy.physical(**own, criterion="fatemi_socie", normal_sensitivity=0.3)
+
+    constants = (swtstudy.FatigueConstants(210e3, 900.0, -0.1, 0.5, -0.6),) * 2
+    grid = replace(contact.grid, axes={**contact.grid.axes, "criterion": ("swt", "fatemi_socie")})
+    strong = solve_grid(replace(grid, yield_strengths=(400.0, 500.0), materials=constants), 1e-5)
+    for body, strength in ((1, 400.0), (2, 500.0)):
+        fs = strong.sel(body=body, criterion="fatemi_socie")
+        alone = swtstudy.solve(
+            **given,
+            criterion="fatemi_socie",
+            normal_sensitivity=0.3 * stress / strength,
+            poisson_ratio=0.3,
+            rtol=1e-5,
+        )
+        np.testing.assert_allclose(fs.s, alone.s, rtol=1e-6)
+        np.testing.assert_allclose(fs.FS, alone.s * stress / (210e3 / 2.6), rtol=1e-6)
+        life = swtstudy.ShearConstants.estimated(constants[0], 0.3)
+        np.testing.assert_allclose(fs.FS_cycles, life.cycles(fs.FS), rtol=1e-6)
+        assert np.isnan(fs.cycles).all()

@@ -197,6 +197,17 @@ def audit_of_bulk_stress() -> None:
     says("may be too low, at {} points by up to {} %", *numbers(name, said))
 
 
+def audit_of_criteria() -> None:
+    found = xr.load_dataset(RESULTS / "audit_criteria_box.nc")
+    misses = found.s_body > 1.001 * found.s
+    inside = (found.friction >= 0.3) & (found.poisson_ratio >= 0.1) & (found.tangential_amplitude >= 0.1)
+    says("of shear](study_file.md#criteria-of-shear) there were {} random points", found.sizes["sample"])
+    assert not (misses & inside).any()
+    says("the line was enough at {} of these {} points", *2 * [int(inside.sum())])
+    says("it was not at {} of {} points", int(misses.sum()), int((~inside).sum()))
+    says("s being too low by up to a factor of {}", float((found.s_body / found.s).max()))
+
+
 def stability() -> None:
     names = ("stability", "stability_small_motion", "stability_friction", "stability_thin_annulus")
     walks = {name: open_results(RESULTS / f"{name}.nc") for name in names}
@@ -352,6 +363,7 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     field,
     audit,
     audit_of_bulk_stress,
+    audit_of_criteria,
     stability,
     lives,
     thresholds,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.criteria import FATEMI_SOCIE
 from swtstudy.families import is_plane
 from swtstudy.grid.canonical import COLUMNS, SHAPE_COLUMNS, rounded
 from swtstudy.grid.codes import code_of
@@ -157,6 +158,8 @@ class PhysicalGrid(Grid):
             if row.kind == "number" and column not in found and column in COLUMNS and self.values(source):
                 scale = PARAMETERS[source].scale
                 found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
+        if self.yield_strengths:
+            found["normal_sensitivity"] = found["normal_sensitivity"] * self._sensitivity_scale
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
             found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
@@ -166,6 +169,13 @@ class PhysicalGrid(Grid):
             for name, values in found.items()
             if PARAMETERS[name].part == "bulk" and self.values("body")
         }
+
+    @property
+    def _sensitivity_scale(self) -> xr.DataArray:
+        """κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1."""
+        one, two = (self.seats.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
+        is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
+        return one.where(self.bodies == 0, two).where(self.over_dimension("criterion", is_ours), 1.0)
 
     def ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
         """See `ends_of_bulk`, over the loads."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -134,25 +135,36 @@ class FatigueConstants:
         >>> float(steel.rounds(steel.swt(1e5), [[1.0, 0.9]], [[4.0, np.nan]]).round())
         25000.0
         """
-        import xarray as xr
+        return rounds(self.cycles, swt, counted, counted_number, "swt")
 
-        if not isinstance(swt, xr.DataArray):
-            return self._rounds(not_negative("swt", swt), np.asarray(counted), np.asarray(counted_number))
-        dims = (*swt.dims, *COUNTED_SIZES)
-        both = (each.broadcast_like(swt).transpose(*dims).values for each in (counted, counted_number))
-        return swt.copy(data=self._rounds(not_negative("swt", swt.values), *both))
 
-    def _rounds(
-        self, swt: NDArray[np.float64], counted: NDArray[np.float64], number: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """`rounds` of arrays."""
-        each = swt[..., None, None] * counted
-        known = np.broadcast_to((counted > 0.0) & (number > 0.0), each.shape)
-        damage = np.zeros(each.shape)
-        with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
-            damage[known] = np.broadcast_to(number, each.shape)[known] / self.cycles(each[known])
-            rounds = 1.0 / damage.sum(axis=-1).max(axis=-1)
-        return np.where(known.any(axis=(-2, -1)), rounds, self.cycles(swt))
+def rounds(
+    cycles: Callable[[Any], NDArray[np.float64]], value: Any, counted: Any, counted_number: Any, name: str
+) -> Any:
+    """See `FatigueConstants.rounds`; the cycles at a value, which has a name, are given by a function."""
+    import xarray as xr
+
+    if not isinstance(value, xr.DataArray):
+        return _rounds(cycles, not_negative(name, value), np.asarray(counted), np.asarray(counted_number))
+    dims = (*value.dims, *COUNTED_SIZES)
+    both = (each.broadcast_like(value).transpose(*dims).values for each in (counted, counted_number))
+    return value.copy(data=_rounds(cycles, not_negative(name, value.values), *both))
+
+
+def _rounds(
+    cycles: Callable[[Any], NDArray[np.float64]],
+    value: NDArray[np.float64],
+    counted: NDArray[np.float64],
+    number: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """`rounds` of arrays."""
+    each = value[..., None, None] * counted
+    known = np.broadcast_to((counted > 0.0) & (number > 0.0), each.shape)
+    damage = np.zeros(each.shape)
+    with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
+        damage[known] = np.broadcast_to(number, each.shape)[known] / cycles(each[known])
+        lives = 1.0 / damage.sum(axis=-1).max(axis=-1)
+    return np.where(known.any(axis=(-2, -1)), lives, cycles(value))
 
 
 def not_negative(name: str, values: object) -> NDArray[np.float64]:

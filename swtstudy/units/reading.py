@@ -90,7 +90,7 @@ def read_contacts(
     _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
     check_amplitudes(good_fixed, along, keys, report)
     check_criteria(everything, good_fixed, along, keys, report)
-    _check_units_of_criteria(good_fixed, along, bool(given.materials), keys, report)
+    _check_units_of_criteria(good_fixed, along, given, report)
     check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
     if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, mistakes
@@ -107,16 +107,15 @@ def read_contacts(
 def _check_units_of_criteria(
     fixed: Mapping[str, Value],
     along: Mapping[str, tuple[Value, ...]],
-    lives: bool,
-    keys: Callable[[str], str],
+    given: Given,
     report: Report,
 ) -> None:
-    """Criteria that contacts with units do not have, and those that have no life."""
+    """The criterion that needs the strength of the bodies, and the one that has no life."""
     criteria = along.get("criterion", (fixed.get("criterion", SWT),))
-    if FATEMI_SOCIE in criteria:
-        allowed = f"{SWT} or {FINDLEY}; without units, {FATEMI_SOCIE} too"
-        report(keys("criterion"), f"{FATEMI_SOCIE} in a study with units", allowed)
-    if FINDLEY in criteria and lives:
+    if FATEMI_SOCIE in criteria and not given.yield_strengths:
+        allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
+        report("material.yield_strength", "nothing", allowed)
+    if FINDLEY in criteria and given.materials:
         allowed = "none: the Findley stress is compared with a limit, and has no life"
         report("material", f"constants with the criterion {FINDLEY}", allowed)
 

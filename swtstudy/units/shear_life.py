@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.units.life import FatigueConstants, at_cycles, life, not_negative
+from swtstudy.units.life import FatigueConstants, at_cycles, life, not_negative, rounds
 from swtstudy.units.sizes import wrong_size
 
 
@@ -97,3 +98,7 @@ class ShearConstants:
         100000.0
         """
         return life(*self._terms, not_negative("parameter", parameter))
+
+    def rounds(self, parameter: Any, counted: Any, counted_number: Any) -> Any:
+        """Rounds of the load to the initiation of a crack, as `FatigueConstants.rounds`."""
+        return rounds(self.cycles, parameter, counted, counted_number, "parameter")

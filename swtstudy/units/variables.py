@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.criteria import FINDLEY, SWT
+from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
-from swtstudy.units.life import ROUNDS, UNCOUNTED
+from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
+from swtstudy.units.shear_life import ShearConstants
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,7 +77,7 @@ class Variable:
         if self.criterion and grid.dimension("criterion") is not None:
             own = np.array([value == self.criterion for value in grid.values("criterion")])
             found = found.where(grid.over_dimension("criterion", own))
-        return _cycles(found, grid, dataset) if self.to_cycles else found
+        return _cycles(found, grid, dataset, self.criterion) if self.to_cycles else found
 
 
 def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
@@ -94,6 +95,8 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
             symbol = rf"N_\mathrm{{{place}}}" if place else "N"
             life = f"cycles{end}", symbol, f"rounds to a crack{words}", "1", of, _swt_scale
             yield Variable(*life, to_cycles=True, counts=asked.counts, criterion=SWT)
+    if FATEMI_SOCIE in criteria:
+        yield from _fatemi_socie(grid, asked)
     if FINDLEY in criteria:
         for of, symbol, words in (("s", "f", ""), ("s_error", r"\Delta f", "error of ")):
             name, meaning = f"findley_stress{of.removeprefix('s')}", f"{words}Findley stress"
@@ -126,6 +129,17 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
             yield Variable("yield_ratio", symbol, words, "1", of, _over_strength)
 
 
+def _fatemi_socie(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
+    """The parameter as a strain, its error and its life."""
+    for of, symbol, words in (("s", r"\mathrm{FS}", ""), ("s_error", r"\Delta \mathrm{FS}", "error of ")):
+        name, meaning = f"FS{of.removeprefix('s')}", f"{words}Fatemi-Socie parameter"
+        yield Variable(name, symbol, meaning, "1", of, _strain_scale, criterion=FATEMI_SOCIE)
+    if grid.materials:
+        meaning = "rounds to a crack by shear constants estimated from the tensile ones"
+        life = "FS_cycles", r"N_\mathrm{FS}", meaning, "1", "s", _strain_scale
+        yield Variable(*life, to_cycles=True, counts=asked.counts, criterion=FATEMI_SOCIE)
+
+
 #: Of the nonlocal quantities those that are swt, and those that are places.
 MEANS = tuple(name for name, row in NONLOCAL.items() if not row.is_place)
 PLACES = tuple(name for name, row in NONLOCAL.items() if row.is_place)
@@ -137,12 +151,12 @@ def position_of(place: str) -> str:
 
 
 #: Names of all lives that there may be, and of all that there may be.
-LIVES = tuple(f"cycles{name.removeprefix('s')}" for name in ("s", *MEANS))
+LIVES = (*(f"cycles{name.removeprefix('s')}" for name in ("s", *MEANS)), "FS_cycles")
 NAMES = (
     *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
     *(position_of(place) for place in PLACES),
     *LIVES,
-    *("findley_stress", "findley_stress_error"),
+    *("FS", "FS_error", "findley_stress", "findley_stress_error"),
     *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
@@ -196,6 +210,13 @@ def _swt_scale(grid: PhysicalGrid) -> xr.DataArray:
     return one.where(grid.bodies == 0, two)
 
 
+def _strain_scale(grid: PhysicalGrid) -> xr.DataArray:
+    """The unit of stress over the shear modulus of each body."""
+    one = grid.seats.each(lambda contact: contact.stress_scale / contact.moduli.shear[0])
+    two = grid.seats.each(lambda contact: contact.stress_scale / contact.moduli.shear[1])
+    return one.where(grid.bodies == 0, two)
+
+
 def _stress_scale(grid: PhysicalGrid) -> xr.DataArray:
     return grid.seats.scale("E* δ0/a_H")
 
@@ -218,13 +239,20 @@ def _work(grid: PhysicalGrid) -> xr.DataArray:
     return grid.seats.each(lambda contact: contact.work_scale)
 
 
-def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset) -> xr.DataArray:
-    """Rounds to a crack at SWT, with the constants of each body, of strain cycles if they are counted."""
+def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
+    """Rounds to a crack at SWT, or at a Fatemi–Socie parameter, of strain cycles if they are counted.
+
+    With the constants of each body.
+    """
+    materials: Sequence[FatigueConstants | ShearConstants] = grid.materials
+    if criterion == FATEMI_SOCIE:
+        poisson = grid.seats.contacts.flat[0].moduli.poisson
+        materials = [ShearConstants.estimated(*both) for both in zip(grid.materials, poisson, strict=True)]
     # Runs of before have means that are below 0 by rounding.
     swt = swt.clip(min=0.0)
     if COUNTED.keys() <= {*dataset.data_vars}:
         counted = [dataset[name] for name in COUNTED]
-        one, two = (each.rounds(swt, *counted) for each in grid.materials)
+        one, two = (each.rounds(swt, *counted) for each in materials)
     else:
-        one, two = (swt.copy(data=each.cycles(swt.values)) for each in grid.materials)
+        one, two = (swt.copy(data=each.cycles(swt.values)) for each in materials)
     return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]

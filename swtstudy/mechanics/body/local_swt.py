@@ -246,7 +246,7 @@ class LocalSwt:
         found = Peaks.of(gather(instant, order), gather(curve, np.broadcast_to(order, curve.shape)), peaks)
         closer = np.concatenate([*found.beside], axis=1)
         new = histories.stress(closer, rows)
-        beside = self._curves(new, normal)
+        beside = self._curves(new, normal, stress)
         own = [np.split(each, len(curve), axis=-1)[k] for k, each in enumerate(beside)]
         top = np.maximum(curve.max(axis=-1), beside.max(axis=-1))
         instant, stress = (np.concatenate(v, axis=1) for v in ((instant, closer), (stress, new)))
@@ -255,9 +255,10 @@ class LocalSwt:
     def _share(self, hidden: FloatArray, top: FloatArray) -> FloatArray:
         """What of swt, over it, is hidden by peaks of the curves, (3, m), that hide so much each."""
         tension, amplitude = top[0], top[1] + top[2]
-        some = (tension > 0.0) & (amplitude > 0.0)
+        some = ((tension > 0.0) | (not self.criterion.needs_tension)) & (amplitude > 0.0)
         power = self.criterion.powers(*(np.where(some, v, 1.0) for v in (tension, 0.5 * amplitude)))
-        tension, amplitude = np.where(some, tension, np.inf), np.where(some, amplitude, np.inf)
+        tension = np.where(some & (tension != 0.0), tension, np.inf)
+        amplitude = np.where(some, amplitude, np.inf)
         return power[0] * (hidden[0] / tension) + power[1] * ((hidden[1] + hidden[2]) / amplitude)
 
     def _instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
@@ -272,7 +273,7 @@ class LocalSwt:
         within = np.searchsorted(self.instant, instant, "right") - 1
         return _packed(instant, passes & gather(open_, within % self.instant.size))
 
-    def _curves(self, stress: FloatArray, normal: FloatArray) -> FloatArray:
-        """The curves of the criterion, shape (3, m, T), of histories on one plane each."""
-        of_stress, of_strain = on_planes(stress, self.ν, normal[:, None])
-        return np.stack(self.criterion.curves(of_stress[:, 0], of_strain[:, 0]))
+    def _curves(self, stress: FloatArray, normal: FloatArray, like: FloatArray | None = None) -> FloatArray:
+        """The curves of the criterion, shape (3, m, T), of histories on one plane each; see `on_planes`."""
+        tension, swing = on_planes(stress, self.ν, normal[:, None], self.criterion.swing, like)
+        return np.stack(self.criterion.curves(tension[:, 0], swing[:, 0]))

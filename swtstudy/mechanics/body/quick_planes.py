@@ -13,6 +13,7 @@ from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
 from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by
 from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.swing import Swing
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
 
@@ -135,11 +136,16 @@ def climb_from(
     return swt[:, 0], normal[:, 0]
 
 
-def on_planes(stress: FloatArray, ν: float, normal: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """σ_n and E ε_n of histories, (m, T, 6), on k planes each, (m, k, 3), shape (m, k, T)."""
+def on_planes(
+    stress: FloatArray, ν: float, normal: FloatArray, swing: Swing, like: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
+    """σ_n and the swing of histories, (m, T, 6), on k planes each, (m, k, 3), shape (m, k, T).
+
+    A strain with E = 1. Of a vector along the line in which it swings most, in other histories if these are
+    given as ``like``.
+    """
     tension = normal_weights(normal) @ stress.swapaxes(1, 2)
-    trace = stress[..., 0] + stress[..., 1] + stress[..., 2]
-    return tension, (1.0 + ν) * tension - ν * trace[:, None]
+    return tension, swing.on_planes(stress, normal, tension, ν, stress if like is None else like)
 
 
 def _climb(
@@ -147,6 +153,7 @@ def _climb(
 ) -> tuple[FloatArray, FloatArray]:
     """Summits, (m, k), and their normals, (m, k, 3), from normals, (m, k, 3)."""
     several, modulus = start.shape[1], 1.0 - ν**2
+    unit = modulus if criterion.swing.is_strain else 1.0
     flat = start.reshape(-1, 3)
     every, current = np.arange(len(flat)), flat.copy()
 
@@ -155,14 +162,14 @@ def _climb(
         history, number = np.divmod(every[rows], several)
         some = np.unique(history)
         histories = stress if some.size == len(stress) else stress[some]
-        tension, strain = on_planes(histories, ν, current.reshape(start.shape)[some])
+        tension, curve = on_planes(histories, ν, current.reshape(start.shape)[some], own.swing)
         history = np.searchsorted(some, history)
-        tension, strain = tension[history, number], strain[history, number]
+        tension, curve = tension[history, number], curve[history, number]
         row = np.arange(len(history))
-        top, high, low = tension.argmax(axis=1), strain.argmax(axis=1), strain.argmin(axis=1)
-        swing = own.swing.tensor(0.5 * (histories[history, high] - histories[history, low]), ν, modulus)
-        swt = own.value(tension[row, top], 0.5 / modulus * (strain[row, high] - strain[row, low]))
-        return swt, histories[history, top], swing
+        top, high, low = tension.argmax(axis=1), curve.argmax(axis=1), curve.argmin(axis=1)
+        change = own.swing.tensor(0.5 * (histories[history, high] - histories[history, low]), ν, modulus)
+        swt = own.value(tension[row, top], 0.5 / unit * (curve[row, high] - curve[row, low]))
+        return swt, histories[history, top], change
 
     swt, normal = climb_by(active, flat, criterion.take(np.zeros(len(flat), dtype=np.intp)), LAST_STEP)
     return swt.reshape(start.shape[:2]), normal.reshape(start.shape)

@@ -8,6 +8,7 @@ stress is, its curve is that along the line in which it swings most: the largest
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import ClassVar
 
 import numpy as np
 
@@ -32,6 +33,9 @@ NO_SWING, NO_SHARE = 1e-100, 1e-9
 class Swing(ABC):
     """A functional of the stress on a plane."""
 
+    #: Whether it goes with one over E.
+    is_strain: ClassVar[bool]
+
     @abstractmethod
     def in_section(self, tension: FloatArray, yy: FloatArray, poisson_ratio: FloatArray) -> FloatArray:
         """A, B, C from those of σ_n, shape (3, …), and σ_yy, (…); a strain is by E = (1 − ν²) E*."""
@@ -45,6 +49,20 @@ class Swing(ABC):
     @abstractmethod
     def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:
         """Its curves, (…, T), on one plane, (…, 3), of each of some histories of its tensor, (…, T, 6)."""
+
+    @abstractmethod
+    def on_planes(
+        self,
+        stress: FloatArray,
+        normal: FloatArray,
+        tension: FloatArray,
+        poisson_ratio: float,
+        like: FloatArray,
+    ) -> FloatArray:
+        """Its curves with E = 1, (m, k, T), of m histories, (m, T, 6), on k planes each, (m, k, 3).
+
+        From σ_n there. Of a vector along the line in which it swings most in histories ``like``.
+        """
 
     @abstractmethod
     def amplitudes(
@@ -79,6 +97,19 @@ class Swing(ABC):
 
 class NormalStrain(Swing):
     """ε_n."""
+
+    is_strain: ClassVar[bool] = True
+
+    def on_planes(
+        self,
+        stress: FloatArray,
+        normal: FloatArray,
+        tension: FloatArray,
+        poisson_ratio: float,
+        like: FloatArray,
+    ) -> FloatArray:
+        trace = stress[..., 0] + stress[..., 1] + stress[..., 2]
+        return (1.0 + poisson_ratio) * tension - poisson_ratio * trace[:, None]
 
     def in_section(self, tension: FloatArray, yy: FloatArray, poisson_ratio: FloatArray) -> FloatArray:
         ν = poisson_ratio
@@ -128,12 +159,23 @@ class ShearStress(Swing):
     ) -> FloatArray:
         return stress
 
+    is_strain: ClassVar[bool] = False
+
     def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:
         shape = tensor.shape[:-1]
         tensor, normal = tensor.reshape(-1, *tensor.shape[-2:]), normal.reshape(-1, 3)
-        weights = bilinear_weights(normal[:, None], tangent_basis(normal))
-        path = tensor @ weights.swapaxes(1, 2)
-        return (path @ _chord(path)[..., None])[..., 0].reshape(shape)
+        return _along_chord(tensor, normal, tensor).reshape(shape)
+
+    def on_planes(
+        self,
+        stress: FloatArray,
+        normal: FloatArray,
+        tension: FloatArray,
+        poisson_ratio: float,
+        like: FloatArray,
+    ) -> FloatArray:
+        several = [_along_chord(stress, own, like) for own in normal.swapaxes(0, 1)]
+        return np.stack(several, axis=1)
 
     def amplitudes(
         self,
@@ -185,6 +227,14 @@ class ShearStress(Swing):
             -1.5 * (p * along[1] + q * along[0]),
         ]
         return apply_jets(np.stack(weights, axis=-1), tensor)
+
+
+def _along_chord(stress: FloatArray, normal: FloatArray, like: FloatArray) -> FloatArray:
+    """τ of n histories, (n, T, 6), on one plane each, along the largest chord of others there, (n, T)."""
+    weights = bilinear_weights(normal[:, None], tangent_basis(normal)).swapaxes(1, 2)
+    path = stress @ weights
+    chord = _chord(path if like is stress else like @ weights)
+    return (path @ chord[..., None])[..., 0]
 
 
 def _chord(path: FloatArray) -> FloatArray:

@@ -1,0 +1,95 @@
+"""Criteria of shear against plain loops over the positions, planes and instants of the surface line.
+
+``python studies/checks/criteria.py``, from the project folder, writes results/criteria.md: by profile and
+criterion, how far s is below what the loops find, and above. ``--points 2`` takes fewer of each, ``--quick``
+one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
+
+from brute_shear import INSTANTS, PLANES, STEPS, brute
+from scenes import random_plane_points, random_points
+
+from swtstudy.mechanics import Points, solve_points
+from swtstudy.mechanics.stress.scene import scene_of
+
+#: Profiles of revolution, and plane ones.
+PROFILES = ("paraboloid", "rounded_punch", "wavy_paraboloid", "power_law"), ("cylinder", "rounded_flat")
+#: Largest sensitivities.
+SENSITIVITIES = {"fatemi_socie": 2.0, "findley": 0.6}
+SEED = 500
+
+
+def drawn(profile: str, criterion: str, count: int, seed: int) -> Points:
+    """Random points, every other one or so with a bulk stress."""
+    rng = np.random.default_rng(seed)
+    if profile in PROFILES[1]:
+        batch = random_plane_points(seed, count, profile)
+    else:
+        batch = random_points(seed, count, profile, largest_term=2)
+        batch = replace(
+            batch,
+            poisson_ratio=rng.uniform(0.0, 0.5, count),
+            friction=rng.uniform(0.05, 1.2, count),
+            bulk_stress_amplitude=rng.choice([0.0, 0.0, 0.1, 0.3], count),
+            bulk_stress_mean=rng.choice([0.0, 0.0, 0.2], count),
+        )
+    sensitivity = rng.uniform(0.1, SENSITIVITIES[criterion], count)
+    return replace(batch, criterion=criterion, normal_sensitivity=sensitivity)
+
+
+def shortfalls(profile: str, criterion: str, count: int, seed: int) -> Iterator[tuple[float, float]]:
+    """By how much s is below the loops' value, relative, and its relative error, of each point with an s."""
+    batch = drawn(profile, criterion, count, seed)
+    found = solve_points(batch, 1e-4)
+    for k in np.flatnonzero(found.s > 0.0):
+        own = scene_of(batch.take(np.array([k])))
+        value, _ = brute(own, criterion, float(batch.normal_sensitivity[k]))
+        yield 1.0 - found.s[k] / value, found.s_error[k] / value
+
+
+def lines(count: int) -> Iterator[str]:
+    """The report."""
+    yield "# Criteria of shear against plain loops"
+    yield ""
+    yield (
+        f"s at rtol 1e-4 of random points, against every plane of {PLANES} at every one of {STEPS} positions "
+        f"between two cusps, with {INSTANTS} steps between two events, and closer grids around the highest. "
+        "`python studies/checks/criteria.py`"
+    )
+    yield ""
+    yield "| profile | criterion | points | lower than the loops by more than s_error | lowest | highest |"
+    yield "|---|---|---|---|---|---|"
+    for number, profile in enumerate([*PROFILES[0], *PROFILES[1]]):
+        for criterion in SENSITIVITIES:
+            rows = np.array([*shortfalls(profile, criterion, count, SEED + number)]).reshape(-1, 2)
+            low, error = rows.T
+            bad = int((low > error + 1e-7).sum())
+            most = f"{max(low.max(initial=0.0), 0.0):.1e} | {max(-low.min(initial=0.0), 0.0):.1e}"
+            yield f"| {profile} | {criterion} | {len(rows)} | {bad} | {most} |"
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
+    arguments.add_argument("--points", type=int, default=17, help="points of each profile and criterion")
+    arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
+    given = arguments.parse_args()
+    with np.errstate(all="ignore"):
+        text = "\n".join(lines(1 if given.quick else given.points)) + "\n"
+    (given.results / "criteria.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
