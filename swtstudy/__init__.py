@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from swtstudy.archive.open import open_results
     from swtstudy.audit.audit import audit_study
     from swtstudy.contacts.physical import physical
-    from swtstudy.fields.history import swt_of_history
+    from swtstudy.fields.history import criterion_of_history, swt_of_history
     from swtstudy.fields.inspection import inspect_point
     from swtstudy.fields.slip import slip_map
     from swtstudy.fields.stress import stress_field
@@ -30,15 +30,18 @@ if TYPE_CHECKING:
     from swtstudy.study.signal import read_signal
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
+    from swtstudy.units.shear_life import ShearConstants
 
 __all__ = [
     "FatigueConstants",
     "LoadPath",
+    "ShearConstants",
     "Study",
     "StudyError",
     "TabulatedProfile",
     "__version__",
     "audit_study",
+    "criterion_of_history",
     "draw_profile",
     "inspect",
     "inspect_point",
@@ -60,10 +63,12 @@ __all__ = [
 _HOMES = {
     "FatigueConstants": "swtstudy.units.life",
     "LoadPath": "swtstudy.mechanics.load.load_path",
+    "ShearConstants": "swtstudy.units.shear_life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
+    "criterion_of_history": "swtstudy.fields.history",
     "draw_profile": "swtstudy.figures.profile",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",

@@ -6,6 +6,7 @@ it; none of them repeats a name, a symbol, a default or a range.
 
 from __future__ import annotations
 
+from swtstudy.criteria import NAMES, SWT
 from swtstudy.families import FAMILIES
 from swtstudy.parameter import Parameter
 
@@ -185,6 +186,17 @@ PARAMETERS: dict[str, Parameter] = {
             units="rad",
         ),
         Parameter(
+            "criterion",
+            r"\mathrm{criterion}",
+            "criterion",
+            "criterion of which s is the largest value",
+            SWT,
+            kind="name",
+            names=NAMES,
+            part="criterion",
+            optional=True,
+        ),
+        Parameter(
             "walker_exponent",
             r"\gamma",
             "γ",
@@ -195,6 +207,18 @@ PARAMETERS: dict[str, Parameter] = {
             open_lower=True,
             part="criterion",
             optional=True,
+        ),
+        Parameter(
+            "normal_sensitivity",
+            r"k",
+            "k",
+            "sensitivity of a criterion of shear to the normal stress",
+            0.0,
+            0.0,
+            100.0,
+            part="criterion",
+            optional=True,
+            note="of fatemi_socie in a_H/(E* δ0), k E* δ0/(a_H σ_y); of findley a number",
         ),
     )
 }

@@ -19,6 +19,7 @@ from swtstudy.study.definition import Study
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (
+    ("counted_cycles",),
     ("critical_distance",),
     ("force_control",),
     ("inspected_forces",),

@@ -84,7 +84,13 @@ def random_shape(
 
 
 #: What points have beside a load and a shape.
-_FURTHER = ("walker_exponent", "bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase")
+_FURTHER = (
+    "walker_exponent",
+    "normal_sensitivity",
+    "bulk_stress_amplitude",
+    "bulk_stress_mean",
+    "bulk_stress_phase",
+)
 
 
 def plane_points(

@@ -74,6 +74,7 @@ def test_other_files_are_not_taken_for_an_audit(tmp_path):
         audit_study("figure3", tmp_path / "audit.nc")
 
 
+@pytest.mark.slow
 def test_a_dense_look_says_whether_a_maximum_was_overlooked(tmp_path):
     path, study = tmp_path / "audit.nc", Study.from_text(STUDY)
     assert np.isnan(audit_study(study, path, workers=1).s_dense).all()
@@ -140,6 +141,38 @@ def test_command_goes_on_where_it_was(tmp_path):
     assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
     np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
     assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")
+
+
+PLANE = """
+title = "plane contacts"
+[profiles.pad]
+geometry = "plane"
+radius = [0, 0.4, 0.8, 1.2, 1.6, 2, 2.4, 2.8, 3.2]
+height = [0, 0.08, 0.32, 0.72, 1.28, 2, 2.88, 3.92, 5.12]
+[fixed]
+flat_half_width = 0.4
+bulk_stress_amplitude = 0.05
+normal_force_amplitude = 0.3
+tangential_force_amplitude = 0.4
+[axes]
+profile = ["pad", "rounded_flat"]
+"""
+
+
+def test_command_on_plane_contacts(tmp_path):
+    """In the section: the body has s on the line, by the other route, and the dense look nothing more."""
+    study = tmp_path / "plane.toml"
+    study.write_text(PLANE)
+    given = ["audit", str(study), "--dense", "--workers", "1", "--results", str(tmp_path)]
+    outcome = CliRunner().invoke(main, given)
+    assert outcome.exit_code == 0, outcome.output
+    found = open_audit(tmp_path / "audit_plane.nc")
+    assert sorted(map(str, found.profile.values)) == ["pad", "rounded_flat"]
+    assert [VERDICTS[int(one)] for one in found.verdict] == ["none", "none"]
+    np.testing.assert_allclose(found.s_all_planes, found.s, rtol=1e-4)
+    np.testing.assert_array_equal(found.s_surface, found.s)
+    assert (found.s_dense <= found.s + found.s_error).all()
+    assert "| rounded flat | 1 | 0 | 0.00% | 0.00% |" in outcome.output
 
 
 @pytest.mark.parametrize(("excess", "verdict"), [(0.999e-3, "none"), (1.001e-3, "line_search")])

@@ -52,7 +52,8 @@ def test_the_columns_are_the_rows_of_the_table_of_parameters():
     shapes = ("flat_radius", "flat_half_width", "waviness_amplitude", "wavelength", "exponent")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
     extra = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase", "walker_exponent")
-    assert ("profile", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS
+    extra = (*extra, "normal_sensitivity")
+    assert ("profile", "criterion", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS
     assert {*COLUMNS} - {"control", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
     assert describe_point(table[0], {}) == (
@@ -67,12 +68,14 @@ def test_a_point_of_the_solver_has_every_column_under_its_name():
         "shape",
         "control",
         "path",
+        "criterion",
         *RATIO_COLUMNS,
         *NUMBERS,
     }
     for family in FAMILIES.values():
         row = np.arange(2.0, 2.0 + len(COLUMNS))
         row[COLUMNS.index("profile")] = code_of(family.name)
+        row[COLUMNS.index("criterion")] = code_of("findley", "criterion")
         row[[COLUMNS.index("control"), COLUMNS.index("load")]] = 0.0
         points = points_from(row[None], {})
         assert points.profile == family.name
@@ -81,7 +84,7 @@ def test_a_point_of_the_solver_has_every_column_under_its_name():
             values = points.shape[name] if name in points.shape else getattr(points, name)
             assert values == [COLUMNS.index(name) + 2]
         words = dict(part.split("=") for part in describe_point(row, {}).split(", "))
-        assert {*words} == {"profile", "frequency_ratio", *NUMBERS, *family.shape}
+        assert {*words} == {"profile", "criterion", "frequency_ratio", *NUMBERS, *family.shape}
 
 
 def test_a_profile_keeps_its_number():

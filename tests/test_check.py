@@ -3,6 +3,7 @@
 from functools import partial
 from pathlib import Path
 
+import pytest
 import stand_in
 from click.testing import CliRunner
 from made_up import made_up_audit
@@ -38,6 +39,7 @@ def test_an_archive_with_gaps_is_not_checked(tmp_path):
     assert "swtstudy run friction --retry-failed" in result.stderr
 
 
+@pytest.mark.slow
 def test_all_archives_make_a_table(tmp_path):
     save(made_up_audit(), tmp_path / f"{AUDIT}.nc")
     for name in set(STUDIES) - {AUDIT}:

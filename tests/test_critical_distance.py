@@ -47,15 +47,17 @@ def test_critical_distances_are_an_axis_of_the_quantities_alone() -> None:
     assert one.critical_distance.item() == 0.2
 
 
-def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch) -> None:
-    def known(scene, position, angle, distance):
-        volume = np.abs(position)[:, None] * distance
-        both = np.stack([volume + 1.0, volume + 2.0], axis=-1)
-        x = np.broadcast_to(position[:, None], volume.shape)
-        places = x, np.stack([x, x + 1.0], axis=-1), np.stack([x + 2.0, x + 3.0], axis=-1)
-        return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1, *places)
+def made_up_means(scene, position, angle, distance):
+    """Stands in for `worst_means`, which takes seconds."""
+    volume = np.abs(position)[:, None] * distance
+    both = np.stack([volume + 1.0, volume + 2.0], axis=-1)
+    x = np.broadcast_to(position[:, None], volume.shape)
+    places = x, np.stack([x, x + 1.0], axis=-1), np.stack([x + 2.0, x + 3.0], axis=-1)
+    return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1, *places)
 
-    monkeypatch.setattr(quantities, "worst_means", known)
+
+def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(quantities, "worst_means", made_up_means)
     found = swtstudy.solve(phase=[0.5, 1.0, 0.5 + np.pi], critical_distance=[0.2, 0.05], rtol=1e-2)
     volume = abs(found.critical_x.drop_attrs()) * found.critical_distance
 
@@ -103,7 +105,8 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     assert "distances      0.05, 0.1" in told
 
 
-def test_figures_over_critical_distances(tmp_path: Path) -> None:
+def test_figures_over_critical_distances(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(quantities, "worst_means", made_up_means)
     figure = '[figure]\nx = "critical_distance"\nhue = "phase"\ny = "s_volume"\n'
     axes = "phase = [0.5, 1.0]\ncritical_distance = { start = 0.01, stop = 1, num = 3, spacing = 'log' }"
     found = run(Study.from_text(study(axes=axes).text + figure), tmp_path / "a.nc", workers=1)
@@ -162,7 +165,8 @@ def test_the_command_line_prints_a_column_for_each_distance() -> None:
     assert {"s_point[0.05,depth]", "s_line[0.2,critical_plane]"} <= values.keys()
 
 
-def test_points_with_nonlocal_values_are_cut_into_small_blocks(tmp_path: Path) -> None:
+def test_points_with_nonlocal_values_are_cut_into_small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(quantities, "worst_means", made_up_means)
     grid = study(axes="phase = {start = 0.1, stop = 3, num = 40}").grid
     points = unique_points(grid)
     every = np.ones(40, bool)

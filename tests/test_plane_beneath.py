@@ -145,6 +145,20 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
         assert means.line[0, k, 0] == pytest.approx(line, rel=3e-3)
 
 
+@pytest.mark.parametrize(
+    ("friction", "pull", "mean", "amplitude", "excess"),
+    [(0.0, 0.0, 0.0, 0.05, 0.499), (0.3, 0.05, 0.15, 0.15, 0.0735), (0.3, 0.2, 0.15, 0.15, 0.0)],
+)
+def test_beneath_a_load_that_pulsates_a_bulk_stress_is_worse(friction, pull, mean, amplitude, excess) -> None:
+    """Where next to nothing rubs: what docs/theory/plane.md says."""
+    bulk = {"bulk_stress_mean": mean, "bulk_stress_amplitude": amplitude}
+    batch = plane_points("cylinder", NU, friction, 0.75, pull, **bulk)
+    found = solve_points(batch)
+    whole, _ = body_maximum(scene_of(batch), float(found.critical_x[0]))
+    assert whole.swt / found.s[0] - 1.0 == pytest.approx(excess, abs=2e-3)
+    assert (abs(whole.position[2]) > 3.0) == (excess > 0.0)
+
+
 @pytest.mark.parametrize("name", ["cylinder", "rounded_flat"])
 def test_the_search_of_the_body_stays_in_the_section(name: str) -> None:
     """It finds s of the line, nothing higher beneath it, and y = 0; far away swt of a bulk stress alone."""

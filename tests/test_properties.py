@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import gcd
-from typing import Any
 
 import numpy as np
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from scenes import PROFILE_NAMES, points, take
+from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, take
 from soundness import RTOL, close, sound
 
+from swtstudy.families import FAMILIES
 from swtstudy.mechanics import Points, solve_points
 
 Array = NDArray[np.float64]
@@ -32,17 +32,26 @@ def between(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 @st.composite
-def single_points(draw: st.DrawFn, names: tuple[str, ...] = PROFILE_NAMES) -> Points:
+def single_points(draw: st.DrawFn, names: tuple[str, ...] = (*PROFILE_NAMES, *PLANE_NAMES)) -> Points:
     """One point anywhere in the box where s is asked to be accurate, ends included."""
     profile = draw(st.sampled_from(names))
-    shape: dict[str, Any] = {}
-    if profile == "wavy_paraboloid":
-        shape = {"waviness_amplitude": draw(between(1e-4, 0.2)), "wavelength": draw(between(3.6, 12.0))}
-    elif profile == "power_law":
-        shape = {"exponent": draw(between(1.1, 20.0))}
-    elif profile != "paraboloid":
-        shape = {"flat_radius": draw(between(0.0, 3.0))}
+    least = 4.0 if profile == "wavy_cylinder" else 3.6
+    ranges = {
+        "waviness_amplitude": between(1e-4, 0.2),
+        "wavelength": between(least, 12.0),
+        "exponent": between(1.1, 20.0),
+        "flat_radius": between(0.0, 3.0),
+        "flat_half_width": between(0.0, 3.0),
+    }
+    shape = {name: draw(ranges[name]) for name in FAMILIES[profile].shape}
     p, q = draw(pairs)
+    if profile in PLANE_NAMES:
+        normal = draw(between(0.0, 0.95))
+        # Whatever the phase, friction bears so much. Strips that nothing pulls at, or that have next to no
+        # friction, have no tension but for rounding.
+        pull = (1.0 - normal) * draw(between(0.02, 0.999))
+        of_plane = draw(between(0.0, 0.5)), draw(between(0.05, 1.0)), normal, pull, draw(between(0.0, 6.3))
+        return plane_points(profile, *of_plane, p, q, **shape)
     return points(
         profile,
         draw(between(0.0, 0.5)),

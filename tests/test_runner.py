@@ -292,13 +292,30 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
     table, timed = points.table, []
     slow = partial(timed_by_ratio, timed)
     missing = np.ones(len(table), bool)
-    with mock.patch("swtstudy.runner.estimate.solve_chunk", slow):
+    patched = mock.patch.multiple("swtstudy.runner.estimate", solve_chunk=slow, _BUDGET=100.0)
+    with patched:
         assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
         left = {1: 5, 2: 5}
         left[int(table[0, COLUMNS.index("q")])] -= 3
         assert estimate(points, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
         assert estimate(points, np.zeros(len(table), bool), 1e-3, None) == 0.0
+
+
+def test_a_plan_times_no_more_points_than_its_budget_allows():
+    """Of points of 1 s two at a time are too long, and those of ratio 1/2 are known by their weight."""
+    text = (
+        'title = "t"\n[axes]\nfrequency_ratio = [1, "1/2"]\nfriction = {start = 0.1, stop = 0.9, num = 50}\n'
+    )
+    points, timed, told = unique_points(Study.from_text(text).grid), [], []
+    every = np.ones(len(points.table), bool)
+    with mock.patch("swtstudy.runner.estimate.solve_chunk", partial(timed_by_ratio, timed)):
+        seconds = estimate(points, every, 1e-3, None, lambda result: told.append(len(result)))
+    assert sum(told) <= 2
+    weight = weights(points.table)
+    assert seconds == pytest.approx(
+        50.0 * weight.sum() / weight[points.table[:, COLUMNS.index("q")] == 1].sum()
+    )
 
 
 def timed_by_ratio(timed, chunk, rtol, solver):

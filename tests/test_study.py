@@ -36,6 +36,8 @@ def test_defaults_are_table_1():
         "bulk_stress_mean": 0.0,
         "bulk_stress_phase": 0.0,
         "walker_exponent": 0.5,
+        "normal_sensitivity": 0.0,
+        "criterion": "swt",
         "profile": "paraboloid",
         "load": "harmonic",
     }

@@ -49,11 +49,11 @@ class House:
             return None
         return parts[len(own)] if len(parts) > len(own) else "__init__"
 
-    def imports(self) -> Iterator[tuple[str, str]]:
-        """Every import of one file by another, as modules of this package."""
+    def imports(self, types: bool = False) -> Iterator[tuple[str, str]]:
+        """Every import of one file by another, as modules of this package; see `imported`."""
         for name, path in MODULES.items():
             if self.room_of(name) is not None:
-                for other in sorted(imported(path)):
+                for other in sorted(imported(path, types)):
                     # The package itself is no room to go to.
                     if self.room_of(other) not in (None, "__init__"):
                         yield name, other
@@ -64,6 +64,7 @@ WHOLE = House(
     (
         "parameter",
         "families",
+        "criteria",
         "parameters",
         "prescribed",
         "axes",
@@ -124,11 +125,16 @@ def module_of(path: Path) -> str:
 MODULES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
-def imported(path: Path) -> set[str]:
-    """Modules of the package that a file imports when it runs, anywhere in it."""
+def imported(path: Path, types: bool = False) -> set[str]:
+    """Modules of the package that a file imports when it runs, anywhere in it; or also for its types."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
-        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+        if (
+            not types
+            and isinstance(node, ast.If)
+            and isinstance(node.test, ast.Name)
+            and node.test.id == "TYPE_CHECKING"
+        ):
             node.body = []
     found: set[str] = set()
     for node in ast.walk(tree):

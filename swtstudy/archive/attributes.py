@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Collection, Hashable, Mapping
+from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
-from swtstudy.grid.codes import Definitions
 from swtstudy.grid.defined import kinds
 from swtstudy.mistakes import literal, plain_number
 from swtstudy.named import Named
@@ -44,12 +43,12 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
-def definitions_text(definitions: Definitions) -> str:
+def definitions_text(definitions: Iterable[Named]) -> str:
     """What the user has defined, as an attribute; see `read_definitions`."""
     return json.dumps(
         [
             {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
-            for each in definitions.values()
+            for each in definitions
         ]
     )
 

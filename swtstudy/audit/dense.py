@@ -40,7 +40,7 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
         Planes through y, evenly spaced.
     """
     scene = scene.split_at_breakpoints()
-    ends = np.unique(cusps(scene.cycle, scene.coordinate, scene.bulk is not None)[0])
+    ends = np.unique(cusps(scene.cycle, scene.coordinate, scene.critical_everywhere)[0])
     ends = ends[np.append(np.diff(ends) > NO_LENGTH * np.ptp(ends), True)]
     share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps))
     r = np.append(ends[:-1, None] + np.diff(ends)[:, None] * share, ends[-1])

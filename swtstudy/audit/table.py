@@ -81,7 +81,9 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions:
         flags = {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
         variables[name] = ("sample", codes, {"long_name": meaning, **flags})
     dataset = xr.Dataset(variables, coordinates)
-    return dataset.assign_attrs(definitions=definitions_text(definitions)) if definitions else dataset
+    return (
+        dataset.assign_attrs(definitions=definitions_text(definitions.values())) if definitions else dataset
+    )
 
 
 def open_audit(path: str | PathLike[str]) -> xr.Dataset:

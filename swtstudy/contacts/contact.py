@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.contacts.overview import as_html, as_text
+from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
 from swtstudy.grid.values import as_number
@@ -22,6 +23,7 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE, Request, read_quantities
 from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
@@ -135,17 +137,20 @@ class PhysicalContact:
         """
         contact, grid = self._one, self._with_bodies((float(checked_body(body)),))
         control, shape = grid.control, family_of(contact.profile).shape
-        own: dict[str, Any] = {name: grid.values(name)[0] for name in ("frequency_ratio", "load")}
+        names = ("frequency_ratio", "load", "criterion")
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
         own["profile"] = contact.pure_profile
         for column, values in grid.numbers.items():
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
         # What scales a loop is 1 unless it is given.
-        scaling = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        needed = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        if own["criterion"] != SWT:
+            needed = (*needed, "normal_sensitivity")
         return {
             name: own[name]
             for name, row in PARAMETERS.items()
-            if name in own and (name in scaling or not row.goes_without_saying(own[name]))
+            if name in own and (name in needed or not row.goes_without_saying(own[name]))
         }
 
     def _with_bodies(self, bodies: tuple[float, ...]) -> PhysicalGrid:
@@ -255,6 +260,7 @@ class PhysicalContact:
         quantities: Sequence[str] = (),
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        blocks: Mapping[str, float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
 
@@ -268,6 +274,8 @@ class PhysicalContact:
             One or several lengths, for nonlocal values.
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
         Returns
         -------
@@ -295,6 +303,13 @@ class PhysicalContact:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
+        sequence: tuple[Block, ...] = ()
+        try:
+            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        except StudyError as error:
+            mistakes += error.mistakes
+        if blocks and constants is None:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
-        return solve_grid(replace(self.grid, materials=materials), float(rtol), asked)
+        return solve_grid(replace(self.grid, materials=materials, blocks=sequence), float(rtol), asked)

@@ -1,18 +1,25 @@
-"""The Smith–Watson–Topper parameter of a user's own stress history, with every mistake in it reported."""
+"""Criteria of a user's own stress history, with every mistake in it reported."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.planes import all_planes
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
+from swtstudy.mechanics.planes.crossland import crossland
+from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
 from swtstudy.mechanics.planes.swt import SWT_EXPONENT, Swt
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.mistakes import Mistake, StudyError, literal, nearest, plain_number
 from swtstudy.numbers import read_numbers
 from swtstudy.parameters import PARAMETERS
+
+#: What has no plane, and the criteria of shear.
+CROSSLAND = "crossland"
+_OF_SHEAR = {each.name: each for each in (FatemiSocie, Findley)}
+_KNOWN = (*_OF_SHEAR, CROSSLAND)
 
 
 def swt_of_history(
@@ -49,6 +56,80 @@ def swt_of_history(
     >>> float(swt), abs(normal).round(6).tolist()
     (0.5, [1.0, 0.0, 0.0])
     """
+    history, mistakes = _checked(stress, poisson_ratio, young_modulus)
+    row = PARAMETERS["walker_exponent"]
+    if not row.lower < plain_number(walker_exponent) <= row.upper:
+        mistakes.append(Mistake(row.name, literal(walker_exponent), row.allowed))
+    if mistakes:
+        raise StudyError(mistakes)
+    ν, E, γ = map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
+    return all_planes.swt_of_history(history, ν, E, Swt.of(np.full(1, γ), np.full(1, E)))
+
+
+def criterion_of_history(
+    stress: ArrayLike, criterion: str, normal_sensitivity: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Largest value over all planes of a criterion of shear, or Crossland's, which has no plane.
+
+    Parameters
+    ----------
+    stress
+        Shape (..., time, 6): one cycle, components xx, yy, zz, yz, xz, xy; tension positive.
+    criterion
+        "fatemi_socie", γ_a G (1 + κ σ_n⁺), where γ_a G is the amplitude of the shear stress; "findley", that
+        amplitude + k max σ_n; or "crossland", √J2,a + α max σ_H. `swt_of_history` is the other one.
+    normal_sensitivity
+        κ = k/σ_y over the unit of stress (the parameter as a strain is the value over G); k; or α.
+
+    Returns
+    -------
+    value
+        Shape (...), in the unit of stress.
+    normal
+        Shape (..., 3): unit normals of the planes, NaN for Crossland's.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the input.
+
+    Notes
+    -----
+    On a plane the amplitude is half of the largest chord of the path of its shear stress: of a path that is
+    not along a line others take more, such as the radius of the smallest circle around it. √J2,a is the
+    radius of the smallest sphere around the path of the deviator s, in the norm √(s:s/2).
+
+    Examples
+    --------
+    Uniaxial stress of swing ±1: Findley's is ½ [k + √(1 + k²)].
+
+    >>> wave = [[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]]
+    >>> value, _ = criterion_of_history(wave, "findley", 0.3)
+    >>> round(float(value), 6)
+    0.672015
+    >>> round(float(criterion_of_history(wave, "crossland", 0.3)[0]), 6)
+    0.67735
+    """
+    history, mistakes = _checked(stress, 0.3, 1.0)
+    if criterion not in _KNOWN:
+        mistakes.append(Mistake("criterion", literal(criterion), nearest(str(criterion), _KNOWN)))
+    if not 0.0 <= plain_number(normal_sensitivity) < math.inf:
+        mistakes.append(Mistake("normal_sensitivity", literal(normal_sensitivity), "a number ≥ 0"))
+    if mistakes:
+        raise StudyError(mistakes)
+    sensitivity = plain_number(normal_sensitivity)
+    if criterion == CROSSLAND:
+        value = crossland(history, sensitivity)
+        return value, np.full((*value.shape, 3), np.nan)
+    found = all_planes.swt_of_history(history, 0.3, 1.0, _OF_SHEAR[criterion](np.full(1, sensitivity)))
+    return found.swt, found.normal
+
+
+def _checked(
+    stress: ArrayLike, poisson_ratio: float, young_modulus: float
+) -> tuple[NDArray[np.float64], list[Mistake]]:
+    """A history as an array, and what is wrong with it and with constants."""
+    history = np.zeros((1, 6))
     mistakes: list[Mistake] = []
     try:
         history = read_numbers("stress", stress, "an array of numbers")
@@ -67,10 +148,4 @@ def swt_of_history(
         mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
     if not 0.0 < plain_number(young_modulus) < math.inf:
         mistakes.append(Mistake("young_modulus", literal(young_modulus), "a positive number"))
-    row = PARAMETERS["walker_exponent"]
-    if not row.lower < plain_number(walker_exponent) <= row.upper:
-        mistakes.append(Mistake(row.name, literal(walker_exponent), row.allowed))
-    if mistakes:
-        raise StudyError(mistakes)
-    ν, E, γ = map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
-    return all_planes.swt_of_history(history, ν, E, Swt.of(np.full(1, γ), np.full(1, E)))
+    return history, mistakes

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from swtstudy.criteria import SWT
 from swtstudy.fields.cycle_curves import (
     Variables,
     course_of_load,
@@ -87,6 +88,10 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     1.0
     """
     points = read_point(parameters)
+    if points.criterion != SWT:
+        raise StudyError(
+            [Mistake("criterion", points.criterion, f"{SWT}: what is shown is about that alone")]
+        )
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
     if REGIMES[int(solved.regime)] == "no_equilibrium":
         raise StudyError([no_equilibrium(points.control, parameters)])

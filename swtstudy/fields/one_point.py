@@ -47,6 +47,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         shape={name: number(name) for name in family_of(profile).shape},
         control=grid.control,
         path=course if isinstance(course, Loop) else None,
+        criterion=str(grid.fixed["criterion"]),
         **{name: number(name) for name in NUMBERS},
     )
 

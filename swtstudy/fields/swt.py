@@ -1,4 +1,4 @@
-"""swt over the body: the field of which s is the maximum."""
+"""swt, or another criterion, over the body: the field of which s is the maximum."""
 
 from __future__ import annotations
 
@@ -52,7 +52,9 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
         nodes = time_nodes(scene, _STEPS, distance[first : first + _RADII])
         swt[some], normal[some] = Body(scene, nodes, _CELLS).swt(*flat[:, some])
     dims, shape = places[0].dims, places[0].shape
-    meaning = {"long_name": "Smith-Watson-Topper parameter over E* delta0/R", "units": "1", "symbol": "swt"}
+    unit = "E* delta0/R" if scene.criterion.degree == 2 else "E* delta0/a_H"
+    words = f"{scene.criterion.words.replace('–', '-')} over {unit}"
+    meaning = {"long_name": words, "units": "1", "symbol": scene.criterion.symbol}
     variables = {"s_local": (dims, swt.reshape(shape), meaning)}
     for axis, name in enumerate("xyz"):
         meaning = {"long_name": "unit normal of the critical plane", "units": "1", "symbol": f"n_{name}"}

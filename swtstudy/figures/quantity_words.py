@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.criteria import SWT, SYMBOLS
 from swtstudy.families import family_of
 from swtstudy.grid.values import as_number
 from swtstudy.quantities import QUANTITIES, attributes_of, every_variable
@@ -33,7 +34,9 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
         name, value = place
         return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else as_number(value))})"
     if values.name == "s":
-        return r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
+        criterion = values.attrs.get("criterion", SWT)
+        # Of several s is not one thing.
+        return f"$s = {SYMBOLS[criterion]}$" if criterion in SYMBOLS else "$s$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
     known = {**ATTRIBUTES, **{name: attributes_of(name) for name in every_variable()}}

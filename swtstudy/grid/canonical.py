@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.criteria import SWT
 from swtstudy.families import FAMILIES, PLAIN_OF, family_of
 from swtstudy.grid.codes import Definitions, code_of, control_code, control_of, value_of
 from swtstudy.named import Named, cost_of
@@ -32,7 +33,7 @@ def _numbers(part: str) -> tuple[str, ...]:
 RATIO_COLUMNS = ("p", "q")
 LOAD_COLUMNS = ("control", "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS)
+SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
@@ -41,7 +42,7 @@ NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.grid.codes`.
 COLUMNS = (
-    *("profile", *LOAD_COLUMNS, *SHAPE_COLUMNS),
+    *("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS),
     *reversed(_numbers("body")),
     *_numbers("bulk"),
     *_numbers("criterion"),
@@ -85,6 +86,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
     """
     table = np.stack(np.broadcast_arrays(*(np.asarray(columns[name], float) for name in COLUMNS)), axis=-1)
     _make_profiles_canonical(table)
+    _make_criteria_canonical(table)
     return table, _make_loads_canonical(table)
 
 
@@ -100,6 +102,11 @@ def _make_profiles_canonical(table: FloatArray) -> None:
         shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
         unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in shape]
         table[np.ix_(profile == code, unused)] = 0
+
+
+def _make_criteria_canonical(table: FloatArray) -> None:
+    is_swt = table[:, _COLUMN["criterion"]] == code_of(SWT, "criterion")
+    table[is_swt, _COLUMN["normal_sensitivity"]] = 0.0
 
 
 def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
@@ -192,6 +199,7 @@ def points_from(table: FloatArray, definitions: Definitions) -> Points:
         shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
         control=control_of(table[0, _COLUMN["control"]]),
         path=course if isinstance(course, Loop) else None,
+        criterion=str(value_of(table[0, _COLUMN["criterion"]], definitions, "criterion")),
         **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
     )
 
@@ -205,6 +213,9 @@ def describe_point(row: FloatArray, definitions: Definitions) -> str:
         parts.append(f"load={course}")
     else:
         parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
+    criterion = value_of(row[_COLUMN["criterion"]], definitions, "criterion")
+    if not PARAMETERS["criterion"].goes_without_saying(criterion):
+        parts.append(f"criterion={criterion}")
     control = control_of(row[_COLUMN["control"]])
     values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
     said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+import ast
 import math
+import operator
 import re
+from collections.abc import Callable
 from fractions import Fraction
 
 #: Bounds the depth of the parser's recursion and the size of its exact integers.
 LONGEST_EXPRESSION = 80
 
-_TOKEN = re.compile(r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(pi|π|sqrt|[-+*/()]))")
+_NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+_WRITTEN = re.compile(rf"\s*(?:(?:{_NUMBER}|pi|π|sqrt|[-+*/()])\s*)*")
+_OPERATORS: dict[type[ast.AST], Callable[..., Fraction | float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.UAdd: operator.pos,
+    ast.USub: operator.neg,
+}
 
 
 def evaluate(text: str) -> Fraction | float:
@@ -39,71 +51,46 @@ def evaluate(text: str) -> Fraction | float:
     """
     if len(text) > LONGEST_EXPRESSION:
         raise ValueError(f"an expression of more than {LONGEST_EXPRESSION} characters")
-    tokens = _tokens(text)
+    if not _WRITTEN.fullmatch(text):
+        raise ValueError("not a number or an expression of numbers, pi, sqrt(), + - * / ( )")
+    # Python's numbers do not begin with zeros, and its lines end.
+    text = re.sub(r"(?<![\w.])0+(?=[0-9])", "", " ".join(text.split()))
     try:
-        value, rest = _sum(tokens)
+        value = _value(ast.parse(text, mode="eval").body, text)
         if not math.isfinite(value):
-            raise ValueError("not a finite number")
+            raise OverflowError
+    except SyntaxError:
+        raise ValueError(_what_is_wrong(text)) from None
     except ZeroDivisionError:
         raise ValueError("division by zero") from None
     except OverflowError:
         raise ValueError("not a finite number") from None
-    if rest:
-        raise ValueError(f"not a number: unexpected {rest[0]!r}")
     return value
 
 
-def _tokens(text: str) -> list[str]:
-    tokens, position, text = [], 0, text.rstrip()
-    while position < len(text):
-        match = _TOKEN.match(text, position)
-        if match is None:
-            raise ValueError("not a number or an expression of numbers, pi, sqrt(), + - * / ( )")
-        tokens.append(match.group(1) or match.group(2))
-        position = match.end()
-    return tokens
+def _value(node: ast.expr, text: str) -> Fraction | float:
+    match node:
+        case ast.Constant():
+            return _number(ast.get_source_segment(text, node) or "")
+        case ast.Name(id="pi" | "π"):
+            return math.pi
+        case ast.UnaryOp(op=op, operand=operand):
+            return _OPERATORS[type(op)](_value(operand, text))
+        case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
+            return _OPERATORS[type(op)](_value(left, text), _value(right, text))
+        case ast.Call(func=ast.Name(id="sqrt"), args=[argument]):
+            return _square_root(_value(argument, text))
+    raise SyntaxError
 
 
-def _sum(tokens: list[str]) -> tuple[Fraction | float, list[str]]:
-    value, tokens = _product(tokens)
-    while tokens and tokens[0] in "+-":
-        operator = tokens[0]
-        other, tokens = _product(tokens[1:])
-        value = value + other if operator == "+" else value - other
-    return value, tokens
-
-
-def _product(tokens: list[str]) -> tuple[Fraction | float, list[str]]:
-    value, tokens = _factor(tokens)
-    while tokens and tokens[0] in "*/":
-        operator = tokens[0]
-        other, tokens = _factor(tokens[1:])
-        value = value * other if operator == "*" else value / other
-    return value, tokens
-
-
-def _factor(tokens: list[str]) -> tuple[Fraction | float, list[str]]:
-    if not tokens:
-        raise ValueError("not a number: the expression ends too early")
-    first, rest = tokens[0], tokens[1:]
-    if first in ("+", "-"):
-        value, rest = _factor(rest)
-        return (-value if first == "-" else value), rest
-    if first in ("pi", "π"):
-        return math.pi, rest
-    if first == "sqrt":
-        if rest[:1] != ["("]:
-            raise ValueError("sqrt needs parentheses")
-        value, rest = _factor(rest)
-        return _square_root(value), rest
-    if first == "(":
-        value, rest = _sum(rest)
-        if rest[:1] != [")"]:
-            raise ValueError("a parenthesis is not closed")
-        return value, rest[1:]
-    if first[0] in "0123456789.":
-        return _number(first), rest
-    raise ValueError(f"not a number: unexpected {first!r}")
+def _what_is_wrong(text: str) -> str:
+    if not text or text[-1] in "+-*/(":
+        return "not a number: the expression ends too early"
+    if re.search(r"sqrt(?! ?\()", text):
+        return "sqrt needs parentheses"
+    if text.count("(") > text.count(")"):
+        return "a parenthesis is not closed"
+    return "not a number: unexpected text, as where a * is missing"
 
 
 def _number(digits: str) -> Fraction:

@@ -76,13 +76,13 @@ class Grid:
     @property
     def definitions(self) -> dict[float, Named]:
         """What the user has defined, by its code in canonical rows."""
-        return self.given
+        return {each.code: each for each in self.given}
 
     @property
-    def given(self) -> dict[float, Named]:
-        """What the user has defined, as it was given."""
+    def given(self) -> tuple[Named, ...]:
+        """What the user has defined, as it was given: several may be the same but for their names."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
-        return {value.code: value for value in values if isinstance(value, Named)}
+        return tuple(dict.fromkeys(value for value in values if isinstance(value, Named)))
 
     @property
     def of_bodies(self) -> Mapping[str, tuple[float, float]]:

@@ -48,7 +48,7 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
 
     loops = [load for load in grid.values("load") if isinstance(load, Loop)]
     for load in loops:
-        if load.is_absolute:
+        if load.is_absolute and load.mean_normal is None:
             low, high = load.normal_ends
             found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
             allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"

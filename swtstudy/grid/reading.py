@@ -12,6 +12,7 @@ from typing import Literal
 
 from swtstudy.axes import QUANTITY_AXES
 from swtstudy.grid.canonical import canonical_number
+from swtstudy.grid.criteria import check_criteria
 from swtstudy.grid.expression import evaluate
 from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
@@ -93,6 +94,7 @@ def read_grid(
     check_amplitudes(good_fixed, along, keys, report)
     check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
     check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
+    check_criteria((*fixed, *axes, *samples), good_fixed, along, keys, report)
     if mistakes or len(good_samples) < len(samples):
         return None, mistakes
     grid = complete(good_fixed, good_axes, good_samples)

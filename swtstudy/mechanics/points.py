@@ -25,6 +25,7 @@ WITHOUT_S = ("not_finite", "no_equilibrium")
 #: What points have unless it is given.
 _UNLESS_GIVEN = {
     "walker_exponent": 0.5,
+    "normal_sensitivity": 0.0,
     **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
 }
 _NOTHING = np.empty(0)
@@ -53,8 +54,12 @@ class Points:
         What is prescribed.
     path
         The loop that the load runs through; None for the two harmonic oscillations.
+    criterion
+        Of which s is the largest value, a key of `swtstudy.mechanics.planes.criteria.CRITERIA`.
     walker_exponent
-        Shape (n,); 1/2 unless given.
+        Shape (n,), of SWT; 1/2 unless given.
+    normal_sensitivity
+        Shape (n,), of the criteria of shear; 0 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
         Shape (n,), as in `swtstudy.parameters.PARAMETERS`; 0 unless given.
     """
@@ -70,7 +75,9 @@ class Points:
     shape: dict[str, FloatArray] = field(default_factory=dict)
     control: Control = DISPLACEMENTS
     path: Loop | None = None
+    criterion: str = "swt"
     walker_exponent: FloatArray = field(default_factory=_not_given)
+    normal_sensitivity: FloatArray = field(default_factory=_not_given)
     bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
     bulk_stress_mean: FloatArray = field(default_factory=_not_given)
     bulk_stress_phase: FloatArray = field(default_factory=_not_given)

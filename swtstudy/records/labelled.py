@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from swtstudy.criteria import BENEATH, MEANING, SWT
 from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.points import REGIMES, Solution
@@ -137,12 +138,27 @@ def label(
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
     dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
+    _name_criteria(dataset, grid)
     dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":
             del variable.attrs["units"]
     return dataset
+
+
+def _name_criteria(dataset: xr.Dataset, grid: Grid) -> None:
+    """Say of s which criterion it is, unless it is the paper's."""
+    criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
+    if criteria == [SWT]:
+        return
+    single = len(criteria) == 1
+    words = MEANING[criteria[0]] if single else "; ".join(f"{name}: {MEANING[name]}" for name in criteria)
+    dataset.s.attrs |= {
+        "long_name": f"{criteria[0].replace('_', ' ')} parameter s" if single else "s by its criterion",
+        "comment": f"{words}; on the surface line y = 0: {BENEATH}",
+        "criterion": " ".join(criteria),
+    }
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:

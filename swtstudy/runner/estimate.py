@@ -9,12 +9,14 @@ from numpy.typing import NDArray
 
 from swtstudy.grid.blocks import block_ends
 from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
+from swtstudy.grid.cost import weights
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.records.result import Result
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
-#: How many kinds of points (profile and frequency ratio) are timed, one block each: a plan takes seconds.
-_TIMED_KINDS = 4
+#: How many kinds of points (profile and frequency ratio) are timed at most, and seconds that all of it may
+#: take: a plan is quick. A point that takes longer is timed alone.
+_TIMED_KINDS, _BUDGET = 4, 1.5
 
 
 def estimate(
@@ -46,9 +48,8 @@ def estimate(
     _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
-    ends = block_ends(table)
-    seconds = count = 0.0
-    total = 0.0
+    ends, weight = block_ends(table), weights(table)
+    spent, total, work = 0.0, 0.0, 0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
         block = int(np.searchsorted(ends, middle, "right"))
@@ -56,11 +57,28 @@ def estimate(
         inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
-        result = solve_chunk(Chunk.of(points, [inside], asked), rtol, solver)
+            spent += solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver).seconds
+        elif spent > _BUDGET:
+            break
+        share = (_BUDGET - spent) / (len(largest) - index)
+        result, seconds = _timed(points, inside, asked, rtol, solver, share)
         timed(result)
-        seconds += result.seconds
-        count += len(result)
+        spent += seconds
         total += result.seconds / len(result) * sizes[each]
-    others = len(rows) - sizes[largest].sum()
-    return float(total + seconds / count * others)
+        work += int(weight[rows[kind == each]].sum())
+    others = int(weight[rows].sum()) - work
+    return float(total + total / work * others)
+
+
+def _timed(
+    points: UniquePoints, inside: NDArray[np.intp], asked: Asked, rtol: float, solver: Solver, share: float
+) -> tuple[Result, float]:
+    """The result of as many points of a block as take some share of the time, and the time of all tries."""
+    count, spent = 1, 0.0
+    while True:
+        result = solve_chunk(Chunk.of(points, [inside[:count]], asked), rtol, solver)
+        spent += result.seconds
+        # Four times as many take four times as long at most.
+        if count >= len(inside) or spent + 4.0 * result.seconds > share:
+            return result, spent
+        count = min(4 * count, len(inside))

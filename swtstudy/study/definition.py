@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
 from swtstudy.named import Named
 from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.study.blocks import read_blocks
 from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
@@ -24,6 +25,7 @@ from swtstudy.study.writing import to_toml
 if TYPE_CHECKING:
     from swtstudy.parameter import Parameter
     from swtstudy.sampling.reading import Sample
+    from swtstudy.units.blocks import Block
 
 
 def require_study(study: object) -> None:
@@ -156,10 +158,15 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     fixed, axes = _parts(raw)
     known, found = _definitions(raw, folder, source)
     mistakes += found
+    blocks = read_blocks(raw, known.get("load", {}), report)
+    fixed, axes = _with_loads(fixed, axes, blocks)
     contacts = read_given(raw, fixed, folder, report)
+    if contacts is not None:
+        contacts = replace(contacts, blocks=blocks)
     rows = rows_of(contacts)
     sample, sampled = _sample(raw, folder, known, report, rows)
     places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
+    places |= {"load": "blocks"} if blocks else {}
     samples = {name: sample.values[name] if sample else None for name in sampled}
 
     def keys(name: str) -> str:
@@ -188,6 +195,17 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     return Study(table.title, grid, table.rtol, asked, figure, text, sample)
 
 
+def _with_loads(
+    fixed: dict[str, Any], axes: dict[str, Any], blocks: Sequence[Block]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The same with the loads of blocks, as the last axis if there are several."""
+    loads = list(dict.fromkeys(block.load for block in blocks))
+    if not loads:
+        return fixed, axes
+    fixed, axes = ({n: v for n, v in part.items() if n != "load"} for part in (fixed, axes))
+    return (fixed, {**axes, "load": loads}) if len(loads) > 1 else ({**fixed, "load": loads[0]}, axes)
+
+
 def _names_files(raw: Mapping[str, Any]) -> bool:
     """Whether a sound study has parts in files of their own."""
     defined = [table for kind in ("loads", "profiles") for table in raw.get(kind, {}).values()]
@@ -199,6 +217,7 @@ def _dims(raw: Mapping[str, Any], grid: Grid | None) -> list[str]:
     # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
     axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
     names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
+    names += ["load"] if raw.get("blocks") and (grid is None or "load" in grid.dims) else []
     dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
     return dims + ([] if grid is None else [dim for dim in grid.dims if dim not in dims])
 

@@ -15,7 +15,11 @@ _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 #: The same for one that a real contact may be given without its mean load.
 _ANY_ABSOLUTE = LoadPath("any", _ANY.vertices, 1.0)
 #: What may be said of vertices and of harmonics besides.
-_BESIDE = {"vertices": ("absolute", "mean_normal"), "normal": ("mean_normal",), "file": KEYS}
+_BESIDE = {
+    "vertices": ("absolute", "mean_normal"),
+    "normal": ("mean_normal",),
+    "file": (*KEYS, "keep_cycles"),
+}
 
 
 def read_loops(
@@ -45,7 +49,12 @@ def read_loops(
             mistakes.append(Mistake(key, kind.found, kind.allowed, source))
             continue
         try:
-            found[name] = _loop(name, table, kind, folder)
+            if kind == "file":
+                signal = signal_from(folder / table["file"], name, table)
+                found[name] = signal.loop
+                found |= {each.name: each for each in signal.loops if table.get("keep_cycles") is True}
+            else:
+                found[name] = _loop(name, table, kind)
         except StudyError as error:
             mistakes += [_placed(each, key, kind, source) for each in error.mistakes]
     return found, mistakes
@@ -59,7 +68,9 @@ def _kind(table: Mapping[str, Any]) -> str | Mistake:
         return Mistake("", " and ".join(given) or "nothing", allowed)
     kind = given[0]
     strange = [key for key in table if table[key] is not None and key not in (*given, *_BESIDE[kind])]
-    strange = [key for key in strange if key in (*KEYS, "mean_normal")]  # others are reported elsewhere
+    strange = [
+        key for key in strange if key in (*_BESIDE["file"], "mean_normal")
+    ]  # others are reported elsewhere
     if strange:
         of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
         return Mistake("", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
@@ -75,9 +86,7 @@ def _placed(mistake: Mistake, key: str, kind: str, source: str) -> Mistake:
     return Mistake(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed, source)
 
 
-def _loop(name: str, table: Mapping[str, Any], kind: str, folder: Path) -> Named:
-    if kind == "file":
-        return signal_from(folder / table["file"], name, table).loop
+def _loop(name: str, table: Mapping[str, Any], kind: str) -> Named:
     mean, absolute = table.get("mean_normal"), table.get("absolute")
     if kind == "normal":
         rows = table["normal"], table["tangential"], table.get("bulk") or ()

@@ -37,6 +37,7 @@ _DESCRIPTIONS = {
     "loads": "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
     "optionally, bulk, or harmonics.",
     "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
+    "blocks": "Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only.",
     "figure": "What the figure puts where; every axis needs a place.",
 }
 _RANGE_DESCRIPTIONS = {
@@ -78,6 +79,11 @@ _LOAD_DESCRIPTIONS = {
     "recorded_cycles": "Number of cycles that the file holds: they are folded into their mean.",
     "period": "Length of a cycle in the place of their number, in the unit of the time, or in samples.",
     "harmonics": "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
+    "keep_cycles": "Whether blocks of the load run all recorded cycles in turn, not their mean.",
+}
+_BLOCK_DESCRIPTIONS = {
+    "load": "Name of a load; of a signal that keeps its cycles all of them in turn.",
+    "rounds": "How many rounds of it there are in each repetition of the sequence.",
 }
 _FIGURE_DESCRIPTIONS = {
     "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
@@ -136,6 +142,7 @@ def _describe(keys: dict[str, Any], parts: dict[str, Any]) -> None:
         (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
         (parts["SampleTable"]["properties"], _SAMPLE_DESCRIPTIONS),
         (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
+        (parts["BlockTable"]["properties"], _BLOCK_DESCRIPTIONS),
         (parts["ProfileTable"]["properties"], _PROFILE_DESCRIPTIONS),
         (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
     ):

@@ -9,7 +9,15 @@ from pydantic import BaseModel, ValidationError
 
 from swtstudy.accuracy import ALLOWED_RTOL
 from swtstudy.mistakes import Mistake, literal, nearest
-from swtstudy.study.tables import FigureTable, LoadTable, ProfileTable, RangeTable, SampleTable, StudyTable
+from swtstudy.study.tables import (
+    BlockTable,
+    FigureTable,
+    LoadTable,
+    ProfileTable,
+    RangeTable,
+    SampleTable,
+    StudyTable,
+)
 
 #: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {
@@ -64,6 +72,10 @@ def _mistake(detail: Any, source: str) -> Mistake:
         allowed = "a table with vertices or file"
     elif path[0] == "profiles" and len(path) == 2:
         allowed = "a table with radius and height, or file"
+    elif path[0] == "blocks":
+        allowed = "the name of a load" if path[-1] == "load" else "[[blocks]] with load and rounds"
+    elif path[-1] == "keep_cycles":
+        allowed = "true or false"
     elif path[0] in ("loads", "profiles") and path[-1] == "file":
         allowed = "the path of a CSV file"
     elif path[0] == "axes" and path[-1] == "spacing":
@@ -84,6 +96,7 @@ def _known(path: list[Any]) -> list[str]:
         "sample": SampleTable,
         "loads": LoadTable,
         "profiles": ProfileTable,
+        "blocks": BlockTable,
         "figure": FigureTable,
     }
     model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable

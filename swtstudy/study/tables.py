@@ -74,6 +74,14 @@ class LoadTable(_Table):
     recorded_cycles: Any = None
     period: Any = None
     harmonics: Any = None
+    keep_cycles: bool = False
+
+
+class BlockTable(_Table):
+    """A block of a sequence: rounds of a load."""
+
+    load: str
+    rounds: Any
 
 
 class ProfileTable(_Table):
@@ -101,4 +109,5 @@ class StudyTable(_Table):
     material: dict[str, Any] | None = None
     loads: dict[str, LoadTable] = {}
     profiles: dict[str, ProfileTable] = {}
+    blocks: list[BlockTable] = []
     figure: FigureTable | None = None

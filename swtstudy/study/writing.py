@@ -35,18 +35,28 @@ def to_toml(
         lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
     single, several = ((), asked.distances) if asked.is_axis else (asked.distances, ())
     tables, fixed = _of_contacts(grid)
-    lines += [*tables, "", "[fixed]", *(f"{name} = {_literal(value)}" for name, value in grid.fixed.items())]
+    blocks = getattr(grid, "blocks", ())
+    single_values = {name: value for name, value in grid.fixed.items() if not (blocks and name == "load")}
+    axes = {name: values for name, values in grid.axes.items() if not (blocks and name == "load")}
+    lines += [
+        *tables,
+        "",
+        "[fixed]",
+        *(f"{name} = {_literal(value)}" for name, value in single_values.items()),
+    ]
     lines += fixed
     lines += [f"{DISTANCE} = {value!r}" for value in single]
     lines += ["", "[axes]"]
-    lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.axes.items()]
+    lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in axes.items()]
     lines += [f"{DISTANCE} = {[*several]}"] * bool(several)
     if grid.samples:
         lines += ["", "[sample.points]"]
         lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
-    for defined in grid.given.values():
+    for defined in grid.given:
         lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
         lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]
+    for block in blocks:
+        lines += ["", "[[blocks]]", f"load = {quoted(block.load)}", f"rounds = {block.rounds!r}"]
     if figure is not None:
         lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
         lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())

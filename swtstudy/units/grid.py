@@ -20,6 +20,7 @@ from swtstudy.named import Named
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import Request, item_of
+from swtstudy.units.blocks import Block
 from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
@@ -53,6 +54,8 @@ class PhysicalGrid(Grid):
         0 or 1: the body that carries the bulk stress.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar.
+    blocks
+        The sequence of loads of which Miner's sum is made; none if it is not asked for.
     """
 
     units: Units = field(default_factory=Units)
@@ -60,6 +63,7 @@ class PhysicalGrid(Grid):
     materials: tuple[FatigueConstants, ...] = ()
     bulk_stress_body: int = 0
     similar: float = math.inf
+    blocks: tuple[Block, ...] = ()
 
     @property
     def of_loads(self) -> str | None:
@@ -89,7 +93,7 @@ class PhysicalGrid(Grid):
     @property
     def about(self) -> dict[str, Any]:
         """What there is to know beside the values of the parameters."""
-        names = ("units", "pairs", "materials", "bulk_stress_body", "similar")
+        names = ("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks")
         return {name: getattr(self, name) for name in names}
 
     @cached_property
@@ -115,7 +119,7 @@ class PhysicalGrid(Grid):
     def definitions(self) -> dict[float, Named]:
         """What the user has defined, by its code in canonical rows: tables in a_H and δ0."""
         tables = (contact.pure_profile for contact in self.seats.contacts.flat)
-        loads = {code: each for code, each in self.given.items() if each.parameter == "load"}
+        loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Named)}
 
     def along(self, name: str) -> xr.DataArray:

@@ -72,10 +72,7 @@ class FatigueConstants:
 
     def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
-        level, slopes = self._terms
-        with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
-            logarithm = np.log(2.0 * not_negative("cycles", cycles))
-            return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
+        return at_cycles(*self._terms, cycles)
 
     def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
         """Strain cycles N to the initiation of a crack at a given SWT.
@@ -109,21 +106,7 @@ class FatigueConstants:
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        swt = not_negative("swt", swt)
-        level, slopes = self._terms
-        with np.errstate(divide="ignore"):
-            level = level - np.log(swt)[..., None]
-        # Each term alone gives too short a life: from there Newton's steps only go up.
-        x = np.max(-level / slopes, axis=-1)
-        known = np.isfinite(x)[..., None]
-        for _ in range(_STEPS):
-            # Of both terms over SWT the larger one is near 1: nothing overflows.
-            terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
-            total = terms.sum(axis=-1)
-            step = np.log(total) * total / (terms * slopes).sum(axis=-1)
-            x = np.where(known[..., 0], x - step, x)
-        with np.errstate(over="ignore"):
-            return np.asarray(0.5 * np.exp(x))
+        return life(*self._terms, not_negative("swt", swt))
 
     def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
@@ -178,3 +161,31 @@ def not_negative(name: str, values: object) -> NDArray[np.float64]:
     if (numbers < 0.0).any():
         raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
     return numbers
+
+
+def at_cycles(
+    level: NDArray[np.float64], slopes: NDArray[np.float64], cycles: ArrayLike
+) -> NDArray[np.float64]:
+    """What a specimen stands for N cycles: two powers of 2N, by the logarithms of their factors."""
+    with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
+        logarithm = np.log(2.0 * not_negative("cycles", cycles))
+        return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
+
+
+def life(
+    level: NDArray[np.float64], slopes: NDArray[np.float64], value: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """The inverse of `at_cycles` for values ≥ 0."""
+    with np.errstate(divide="ignore"):
+        level = level - np.log(value)[..., None]
+    # Each term alone gives too short a life: from there Newton's steps only go up.
+    x = np.max(-level / slopes, axis=-1)
+    known = np.isfinite(x)[..., None]
+    for _ in range(_STEPS):
+        # Of both terms over the value the larger one is near 1: nothing overflows.
+        terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
+        total = terms.sum(axis=-1)
+        step = np.log(total) * total / (terms * slopes).sum(axis=-1)
+        x = np.where(known[..., 0], x - step, x)
+    with np.errstate(over="ignore"):
+        return np.asarray(0.5 * np.exp(x))

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from swtstudy.grid.values import Value
+from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.loop import Loop
 from swtstudy.parameters import LOOP_AMPLITUDE
 from swtstudy.units.rows import MEAN_LOADS
+
+#: A load that stands for one that is wrong.
+ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]], 1.0)
 
 
 def are_measured(loads: Sequence[Value]) -> bool:

@@ -8,7 +8,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.families import is_plane
+from swtstudy.grid.criteria import check_criteria
 from swtstudy.grid.loops import check_amplitudes, check_loops
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
@@ -22,11 +24,12 @@ from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.prescribed import PAIRS, replaced_by
 from swtstudy.quantities import DISTANCE
 from swtstudy.units.admissible import check_contacts
+from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import mean_of_loads, measured_amplitudes
+from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.strips import check_lengths, labels_of, still_load
@@ -40,6 +43,7 @@ class Given:
     materials: tuple[FatigueConstants, ...] = ()
     similar: float = SIMILAR
     bulk_stress_body: int = 0
+    blocks: tuple[Block, ...] = ()
 
 
 def read_contacts(
@@ -74,6 +78,8 @@ def read_contacts(
     along = good_axes | good_samples
     _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
     check_amplitudes(good_fixed, along, keys, report)
+    check_criteria(everything, good_fixed, along, keys, report)
+    _check_units_of_criteria(good_fixed, along, bool(given.materials), keys, report)
     check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
     if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, mistakes
@@ -85,6 +91,23 @@ def read_contacts(
     if not mistakes:
         check_contacts(grid, keys, report)
     return (None if mistakes else grid), mistakes
+
+
+def _check_units_of_criteria(
+    fixed: Mapping[str, Value],
+    along: Mapping[str, tuple[Value, ...]],
+    lives: bool,
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Criteria that contacts with units do not have, and those that have no life."""
+    criteria = along.get("criterion", (fixed.get("criterion", SWT),))
+    if FATEMI_SOCIE in criteria:
+        allowed = f"{SWT} or {FINDLEY}; without units, {FATEMI_SOCIE} too"
+        report(keys("criterion"), f"{FATEMI_SOCIE} in a study with units", allowed)
+    if FINDLEY in criteria and lives:
+        allowed = "none: the Findley stress is compared with a limit, and has no life"
+        report("material", f"constants with the criterion {FINDLEY}", allowed)
 
 
 def completed(
@@ -183,7 +206,8 @@ def _check_given(
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
-    measured = good.get("load", ())
+    # A wrong load is reported: nothing else is lacking because of it.
+    measured = good.get("load") or ((ANY,) if "load" in everything else ())
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
@@ -252,7 +276,8 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]))
+        blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
+        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]), blocks)
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
     if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):

@@ -11,6 +11,7 @@ import xarray as xr
 
 from swtstudy.quantities import Request
 from swtstudy.records.requested import CONTACT, has_units
+from swtstudy.units.blocks import miner
 from swtstudy.units.variables import LIVES, NORMALISED, variables
 
 if TYPE_CHECKING:
@@ -29,6 +30,8 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
     for each in variables(grid, asked):
         values = each.values(found, grid)
         found[each.name] = values.dims, values.values, each.attributes(grid.labels)
+    if grid.blocks:
+        found = found.assign(miner(found, grid.blocks, grid.values("load")))
     if "SWT" in found:
         found.SWT.attrs["ancillary_variables"] = "SWT_error regime"
     for name in grid.pairs:
@@ -58,5 +61,6 @@ def _text(grid: PhysicalGrid) -> str:
             "materials": [asdict(each) for each in grid.materials],
             "similar": grid.similar,
             "bulk_stress_body": grid.bulk_stress_body,
+            **({"blocks": [asdict(each) for each in grid.blocks]} if grid.blocks else {}),
         }
     )

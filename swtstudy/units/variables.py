@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.criteria import FINDLEY, SWT
 from swtstudy.quantities import COUNTED, NONLOCAL, Request, error_of
+from swtstudy.units.blocks import lives_in
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED
@@ -44,6 +46,8 @@ class Variable:
         Whether it is the life at that.
     counts
         Whether that is of counted strain cycles.
+    criterion
+        Of which it is; empty for what every criterion has.
     """
 
     name: str
@@ -54,6 +58,7 @@ class Variable:
     scale: Callable[[PhysicalGrid], xr.DataArray]
     to_cycles: bool = False
     counts: bool = False
+    criterion: str = ""
 
     def attributes(self, units: Units) -> dict[str, Any]:
         """CF attributes."""
@@ -66,23 +71,31 @@ class Variable:
         if not self.of:
             return self.scale(grid)
         found = dataset[self.of] * self.scale(grid)
+        if self.criterion and grid.dimension("criterion") is not None:
+            own = np.array([value == self.criterion for value in grid.values("criterion")])
+            found = found.where(grid.over_dimension("criterion", own))
         return _cycles(found, grid, dataset) if self.to_cycles else found
 
 
 def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     """The data variables with units that a grid has, beside those without."""
-    for name, of in _swt_of(asked):
+    criteria = {*map(str, grid.values("criterion"))}
+    for name, of in _swt_of(asked) if SWT in criteria else ():
         end = name.removeprefix("SWT")
         error = end.endswith("error")
         words = end.replace("_", " ")
         place = end.removesuffix("_error").removeprefix("_")
         symbol = rf"\mathrm{{SWT}}_\mathrm{{{place}}}" if place else r"\mathrm{SWT}"
         meaning = f"{'error of ' * error}SWT{words.removesuffix(' error')}"
-        yield Variable(name, r"\Delta " * error + symbol, meaning, "stress", of, _swt_scale)
+        yield Variable(name, r"\Delta " * error + symbol, meaning, "stress", of, _swt_scale, criterion=SWT)
         if grid.materials and not error:
             symbol = rf"N_\mathrm{{{place}}}" if place else "N"
             life = f"cycles{end}", symbol, f"rounds to a crack{words}", "1", of, _swt_scale
-            yield Variable(*life, to_cycles=True, counts=asked.counts)
+            yield Variable(*life, to_cycles=True, counts=asked.counts, criterion=SWT)
+    if FINDLEY in criteria:
+        for of, symbol, words in (("s", "f", ""), ("s_error", r"\Delta f", "error of ")):
+            name, meaning = f"findley_stress{of.removeprefix('s')}", f"{words}Findley stress"
+            yield Variable(name, symbol, meaning, "stress", of, _stress_scale, criterion=FINDLEY)
     yield Variable(
         "critical_position", "x", "position of the critical point", "length", "critical_x", _length
     )
@@ -118,6 +131,8 @@ NAMES = (
     *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
     *(position_of(place) for place in PLACES),
     *LIVES,
+    *("findley_stress", "findley_stress_error"),
+    *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
 )
@@ -128,6 +143,9 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
     for each in variables(grid, asked):
         found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.seats.dims
+    for life, repetitions, share in lives_in([*found]) if grid.blocks else ():
+        found[share] = found[life]
+        found[repetitions] = tuple(dim for dim in found[life] if dim != "load")
     return found
 
 
@@ -164,6 +182,10 @@ def _swt_scale(grid: PhysicalGrid) -> xr.DataArray:
     one = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(0))
     two = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(1))
     return one.where(grid.bodies == 0, two)
+
+
+def _stress_scale(grid: PhysicalGrid) -> xr.DataArray:
+    return grid.seats.scale("E* δ0/a_H")
 
 
 def _length(grid: PhysicalGrid) -> xr.DataArray:

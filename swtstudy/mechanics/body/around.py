@@ -37,7 +37,7 @@ TINY = 1e-300
 #: show which part of the cycle matters; and places on lines, over the largest distance, its single ones too.
 SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
 #: How finely swt is searched for.
-FINENESS = Fineness(4, 40)
+FINENESS = Fineness(4, 40, 3e-4)
 #: No places.
 NOWHERE = Places(*np.empty((3, 0)))
 #: Abscissae of the integrals of the interpolation along a line, at least; fewer than its nodes: 3e-3.
@@ -197,7 +197,7 @@ class Around:
         ends = np.cumsum([which.sum() for which in unknown])
         single = np.zeros(ends[-1], dtype=bool)
         single[ends[1] : ends[1] + np.isnan(self.points[..., 0]).sum()] = True
-        found = np.stack(self.local.swt(wanted, single), axis=-1)
+        found = np.stack(self.local.swt(wanted, single)[:2], axis=-1)
         for which, (values, _), new in zip(unknown, kinds, np.split(found, ends[:-1]), strict=True):
             values.reshape(-1, 2)[which] = new
         self.points, self.lines = np.split(lines, [len(self.points)])

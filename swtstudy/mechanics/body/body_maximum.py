@@ -10,25 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.body.body import (
-    Body,
-    Spells,
-    TimeNodes,
-    closer_nodes,
-    decisive_spells,
-    time_nodes,
-    together,
-)
+from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places, coarse_swt
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Steps of the time nodes on a stretch: first look and climb, and value. Half or twice the first: no change
-#: in 16 values of bodies; half the second: 9e-7; twice: 7e-6, as half of `INSTANTS`; the same time.
-LOOK, VALUE = 3, 5
-#: Cells of a profile that is not a paraboloid and of each growth, while searching and for the value. Half or
-#: twice the first: no change in 16 values of bodies; half the second: 2e-5; twice: 2e-6, the same time.
-CELLS, VALUE_CELLS = 16, 60
+#: How finely swt is searched for, and computed.
+SEARCH, VALUE = Fineness(3, 16, 2e-3), Fineness(5, 240, 1e-6)
 #: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius. Half
 #: of any of them: no change in four bodies, no faster.
 BETWEEN = 12
@@ -36,13 +24,13 @@ ANGLES = np.linspace(0.0, np.pi, 9)
 DEPTHS = np.array([0.0, 0.01, 0.05, 0.15, 0.4, 0.9])
 #: Radii and a depth besides, in the largest contact radius, with a bulk stress: its tension is everywhere.
 BEYOND, BENEATH = np.array([1.5, 4.0]), 2.5
-#: First steps of a climb, in the largest contact radius, rad, and that radius. Half or twice: 4e-9.
-FIRST_STEPS = np.array([0.03, 0.15, 0.02])
-#: Places of the first look to climb from. One or six: no change in four bodies, the same time.
-SUMMITS = 3
-#: Places below this share of the highest in the first look are not climbed from; nor those below the second
-#: share once their instants resolve the cycle, nor further below the third. None climbed: 6e-9 in four.
-PROMISING, WORTHY, NEAR = 0.75, 0.9, 0.97
+#: First steps of a climb, in the largest contact radius, rad, and that radius, and how they shrink.
+FIRST_STEPS, SHRINKING = np.array([0.03, 0.15, 0.02]), 0.4
+#: Places of the first look to climb from, and the share of the highest below which there is none. None
+#: climbed: 6e-9 in four.
+SUMMITS, PROMISING = 3, 0.75
+#: A climb that stays below this share of another summit is given up.
+NEAR = 0.97
 #: Rounds of a climb. Half: 6e-9 in four bodies, 15 % faster.
 ROUNDS = 8
 #: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
@@ -115,16 +103,14 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     flat = float(scene.profile.flat_radius[0])
     search = _Search(scene, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
     place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
-    both = np.stack([place, own])
-    distinct = both[: 1 + bool(np.any(place != own))]
-    nodes = together(scene, *(_closer(scene, one, looks=3)[0] for one in distinct))
-    swt, normal = Body(scene, nodes, VALUE_CELLS).swt(*_cartesian(both))
-    best = int(swt[1] >= swt[0])
-    found = BodyMaximum(float(swt[best]), np.array(_cartesian(both[best])), normal[best])
+    swt, normal = zip(*(_swt(scene, one, one[None], VALUE) for one in (place, own)), strict=True)
+    best = int(swt[1][0] >= swt[0][0])
+    position = np.array(_cartesian((place, own)[best]))
+    found = BodyMaximum(float(swt[best][0]), position, normal[best][0])
     if far > 0.0 and far >= (1.0 - SAME) * found.swt:
         found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
-    at_line = CriticalPlane(np.array(far), _ALONG_X) if line_is_far else CriticalPlane(swt[1], normal[1])
-    return found, at_line
+    at_line = (np.array(far), _ALONG_X) if line_is_far else (swt[1][0], normal[1][0])
+    return found, CriticalPlane(*at_line)
 
 
 def _far_field(scene: Scene) -> float:
@@ -135,12 +121,18 @@ def _far_field(scene: Scene) -> float:
     return float(far[0])
 
 
-def _closer(scene: Scene, place: FloatArray, looks: int) -> tuple[TimeNodes, Spells]:
-    """Instants that resolve the extremes over the cycle at one place, and the parts of it that matter."""
-    point = tuple(float(v) for v in _cartesian(place))
-    nodes = time_nodes(scene, VALUE, place[:1])
-    spells = decisive_spells(Body(scene, nodes, CELLS), nodes, point)
-    return closer_nodes(scene, spells.of(nodes), point, CELLS, looks), spells
+def _swt(
+    scene: Scene, centre: FloatArray, places: FloatArray, fineness: Fineness
+) -> tuple[FloatArray, FloatArray]:
+    """swt at places near a centre, (m,), and the normals of the critical planes, (m, 3)."""
+    own = _own(places)
+    swt, _, normal = LocalSwt(scene, float(centre[0]), own, fineness).swt(own, np.full(len(places), True))
+    return swt, normal
+
+
+def _own(places: FloatArray) -> Places:
+    r, angle, depth = places.T
+    return Places(r, depth, angle)
 
 
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:
@@ -152,7 +144,7 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     angles = ANGLES[[0, -1]] if scene.profile.plane else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    swt = Body(scene, time_nodes(scene, LOOK), CELLS).coarse_swt(*_cartesian(grid))
+    swt = coarse_swt(scene, _own(grid), SEARCH)
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
@@ -177,47 +169,34 @@ def _radii(scene: Scene, largest: float) -> FloatArray:
 
 def _climb(search: _Search, places: FloatArray) -> FloatArray:
     """The highest of the summits to which a pattern search leads from each of the places, shape (3,)."""
-    resolved = [_closer(search.scene, place, looks=1) for place in places]
-    height = np.array(
-        [
-            Body(search.scene, nodes, CELLS).swt(*_cartesian(place)).swt
-            for (nodes, _), place in zip(resolved, places, strict=True)
-        ]
-    )
-    best, highest = places[0], float(height[0])
-    for start in np.argsort(-height):
-        if height[start] < WORTHY * highest:
-            break
-        nodes, spells = resolved[start]
-        summit, swt = _climb_from(search, places[start], nodes, spells, highest)
-        if swt > highest * (1.0 + 1e-9):
-            best, highest = summit, swt
+    best, highest = places[0], 0.0
+    for place in places:
+        summit, height = _climb_from(search, place, highest)
+        if height > (1.0 + SAME) * highest:
+            best, highest = summit, height
     return best
 
 
-def _climb_from(
-    search: _Search, place: FloatArray, sharp: TimeNodes, spells: Spells, rival: float
-) -> tuple[FloatArray, float]:
+def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[FloatArray, float]:
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     scene = search.scene
     # In the plane all is in the section.
     steps = FIRST_STEPS * np.array([search.largest, 0.0 if scene.profile.plane else 1.0, search.largest])
-    height = 0.0
+    height, local = 0.0, None
     for _ in range(ROUNDS):
         trial = _off_ring(search, _folded(place + steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
-        # The trials have three radii, at each of which the stress has its own cusps in time.
-        aligned = time_nodes(scene, LOOK, np.unique(trial[:, 0]))
-        nodes = together(scene, sharp, spells.of(aligned))
-        swt = Body(scene, nodes, CELLS).swt(*_cartesian(trial)).swt
-        here = int(np.abs(trial - place).max(axis=1).argmin())
-        best = int(swt.argmax())
-        if swt[best] <= swt[here] * (1.0 + 1e-9):
-            steps = 0.4 * steps
+        own = _own(trial)
+        # While the steps shrink, the same parts of the cycle and planes matter.
+        local = local or LocalSwt(scene, float(place[0]), own, SEARCH)
+        swt, _, _ = local.swt(own, np.full(len(trial), False))
+        here, best = int(np.abs(trial - place).max(axis=1).argmin()), int(swt.argmax())
+        if swt[best] <= swt[here] * (1.0 + SAME):
+            steps = SHRINKING * steps
         else:
-            place = trial[best]
+            place, local = trial[best], None
         height = float(swt[best])
         if height < NEAR * rival:
             break

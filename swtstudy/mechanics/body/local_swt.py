@@ -7,13 +7,14 @@ instants there, and at last some around those that make its swt.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import time_nodes
-from swtstudy.mechanics.body.histories import Histories
+from swtstudy.mechanics.body.histories import PLACES, Histories
 from swtstudy.mechanics.body.quick_planes import (
     CoarsePlanes,
     climb_from,
@@ -49,9 +50,9 @@ NEAREST = 9
 #: Peaks of each curve beside which instants are added: before the planes are searched, and in rounds after.
 FIRST, PEAKS = 1, (2, 1, 1, 1, 1, 1, 1, 1)
 #: So many rounds are for all places, the others for single ones; none for those that can hide less of swt,
-#: over it, than the next, and than the one after that if single: of 1,080 places 19 were more than 3e-4 low,
+#: over it, than the next, and than `Fineness.settled` if single: of 1,080 places 19 were more than 3e-4 low,
 #: and 5 with all of them single, at 1.1 times the time.
-ROUNDS, SETTLED, SETTLED_SINGLE = 4, 2e-3, 3e-4
+ROUNDS, SETTLED = 4, 2e-3
 #: What is missing at last, over what the first round added, and the others, and over what may be hidden:
 #: means of scenes all over the parameters miss less.
 DOUBTS, HIDDEN = (0.05, *(0.1,) * (len(PEAKS) - 1)), 0.15
@@ -78,10 +79,53 @@ class Fineness(NamedTuple):
         Of the common instants on each stretch between two events.
     cells
         As for `resolving_cells`.
+    settled
+        What a single value may hide at most, over it.
     """
 
     steps: int
     cells: int
+    settled: float
+
+
+def coarse_swt(scene: Scene, places: Places, fineness: Fineness) -> FloatArray:
+    """A lower bound of swt over E* δ0/R at N places of a batch of one point, within some per cent, (N,)."""
+    springs, ν = SpringCells.of(scene, fineness.cells), float(scene.poisson_ratio[0])
+    common, planes = _common_instants(scene, fineness), CoarsePlanes.everywhere()
+    swt = np.empty(places.radius.size)
+    for part in (slice(first, first + PLACES) for first in range(0, swt.size, PLACES)):
+        some = Places(*(values[part] for values in places))
+        own = _packed(*_passages(scene, some))
+        instant = np.concatenate([np.broadcast_to(common, (len(own), common.size)), own], axis=1)
+        stress = Histories(scene, *some, springs).stress(instant)
+        swt[part] = planes.swt(stress, ν, scene.criterion).max(axis=1)
+    return swt
+
+
+def _common_instants(scene: Scene, fineness: Fineness, circles: Sequence[float] = ()) -> FloatArray:
+    """Instants aligned with the events, at circles of the surface too."""
+    # The sides of a polygon of many are short.
+    steps = max(1, min(fineness.steps, MANY // scene.cycle.begin.shape[1]))
+    return np.unique(np.mod(time_nodes(scene, steps, circles).instant, PERIOD))
+
+
+def _passages(scene: Scene, places: Places) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Instants at which edge or fronts pass near N places, and whether they do, shape (N, E)."""
+    cycle = scene.cycle
+    near = np.maximum(places.radius[:, None] + places.depth[:, None] * OFFSETS, 0.0)
+    coordinate = scene.coordinate.of(near.reshape(1, -1))
+    found = cycle.load.passage(coordinate, cycle.begin, cycle.end), front_passes(cycle, coordinate)
+    instant = np.concatenate([passes.reshape(len(near), -1) for passes in found], axis=1)
+    ends = np.concatenate([[0.0], cycle.end[0]])
+    after = np.clip(np.searchsorted(ends, instant), 1, ends.size - 1)
+    gap = np.minimum(np.abs(instant - ends[after]), np.abs(instant - ends[after - 1]))
+    return np.mod(instant, PERIOD), gap > NO_PASSAGE
+
+
+def _packed(instant: FloatArray, kept: NDArray[np.bool_]) -> FloatArray:
+    """The instants that are kept, shape (N, E); a place without any keeps one for the others' sake."""
+    kept[:, 0] |= ~kept.any(axis=1)
+    return packed(kept, instant)[0]
 
 
 class LocalSwt:
@@ -104,9 +148,8 @@ class LocalSwt:
         self.criterion = scene.criterion
         self.springs = SpringCells.of(scene, fineness.cells, circle)
         # The sides of a polygon of many are short.
-        steps = max(1, min(fineness.steps, MANY // scene.cycle.begin.shape[1]))
-        instant = np.unique(np.mod(time_nodes(scene, steps, [circle]).instant, PERIOD))
-        self.instant, self.circle, self.shown = instant, circle, shown
+        self.instant = _common_instants(scene, fineness, [circle])
+        self.circle, self.shown, self.settled = circle, shown, fineness.settled
         #: Which of the gaps that follow the instants matter at the places that are shown.
         self.open, self.planes = self._decisive(shown)
 
@@ -131,7 +174,7 @@ class LocalSwt:
         """Which of the gaps matter at places: those that do at some of the nearest that are shown."""
         here, there = (self._scaled(some) for some in (places, self.shown))
         away = ((here[:, None] - there) ** 2).sum(axis=-1)
-        nearest = np.argpartition(away, NEAREST - 1, axis=1)[:, :NEAREST]
+        nearest = np.argpartition(away, min(NEAREST, away.shape[1]) - 1, axis=1)[:, :NEAREST]
         return np.asarray(self.open[nearest].any(axis=1))
 
     def _scaled(self, places: Places) -> FloatArray:
@@ -141,8 +184,8 @@ class LocalSwt:
         arc = np.minimum(places.angle, np.pi - places.angle)
         return np.stack([right / root, places.depth / root, arc], axis=1)
 
-    def swt(self, places: Places, single: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-        """swt over E* δ0/R at N places, and an estimate of what is missing of it, shape (N,) each.
+    def swt(self, places: Places, single: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """swt over E* δ0/R at N places, an estimate of what is missing of it, (N,) each, and normals, (N, 3).
 
         Those that are ``single``, (N,), are searched until they can hide little: nothing averages that out.
         """
@@ -156,21 +199,21 @@ class LocalSwt:
         row, value, normal = rival_planes(stress, self.planes, self.ν, self.criterion)
         instant, stress = self._high(instant[row], stress, row, normal)
         missing, hides = np.zeros((2, *value.shape))
-        highest, rival = np.zeros(len(single)), np.arange(len(row))
+        highest, rival, normals = np.zeros(len(single)), np.arange(len(row)), normal.copy()
         for number, (peaks, doubt) in enumerate(zip(PEAKS, DOUBTS, strict=True), start=1):
             at = row[rival]
             instant, stress, share = self._closer(histories, at, instant, stress, normal, peaks)
             better, normal = climb_from(stress, self.ν, normal, self.criterion)
             missing[rival] += doubt * (better - value[rival])
-            value[rival], hides[rival] = better, share * better
+            value[rival], hides[rival], normals[rival] = better, share * better, normal
             np.maximum.at(highest, at, better)
-            least = np.where(single[at], SETTLED_SINGLE, SETTLED if number < ROUNDS else np.inf)
+            least = np.where(single[at], self.settled, SETTLED if number < ROUNDS else np.inf)
             open_ = (share > least) & (better * (1.0 + share) >= highest[at])
             rival, instant, stress, normal = rival[open_], instant[open_], stress[open_], normal[open_]
             if not rival.size:
                 break
         best = np.lexsort((value, row))[np.append(np.diff(row) > 0, True)]
-        return value[best], missing[best] + HIDDEN * hides[best]
+        return value[best], missing[best] + HIDDEN * hides[best], normals[best]
 
     def _high(
         self, instant: FloatArray, stress: FloatArray, row: NDArray[np.intp], normal: FloatArray
@@ -225,19 +268,9 @@ class LocalSwt:
 
     def _own_instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""
-        cycle = self.scene.cycle
-        near = np.maximum(places.radius[:, None] + places.depth[:, None] * OFFSETS, 0.0)
-        coordinate = self.scene.coordinate.of(near.reshape(1, -1))
-        found = cycle.load.passage(coordinate, cycle.begin, cycle.end), front_passes(cycle, coordinate)
-        instant = np.concatenate([passes.reshape(len(near), -1) for passes in found], axis=1)
-        ends = np.concatenate([[0.0], cycle.end[0]])
-        after = np.clip(np.searchsorted(ends, instant), 1, ends.size - 1)
-        gap = np.minimum(np.abs(instant - ends[after]), np.abs(instant - ends[after - 1]))
-        within = np.searchsorted(self.instant, np.mod(instant, PERIOD), "right") - 1
-        kept = (gap > NO_PASSAGE) & gather(open_, within % self.instant.size)
-        # A place without instants of its own keeps one for the others' sake.
-        kept[:, 0] |= ~kept.any(axis=1)
-        return np.mod(packed(kept, instant)[0], PERIOD)
+        instant, passes = _passages(self.scene, places)
+        within = np.searchsorted(self.instant, instant, "right") - 1
+        return _packed(instant, passes & gather(open_, within % self.instant.size))
 
     def _curves(self, stress: FloatArray, normal: FloatArray) -> FloatArray:
         """The curves of the criterion, shape (3, m, T), of histories on one plane each."""

@@ -66,6 +66,7 @@ def solve_cycle(load: Load) -> Cycle:
     depth = min(most, DEPTH)
     stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
     stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
+    slips = np.any(course.forward | course.backward, axis=0)
     for period in range(2):
         for i in range(intervals):
             # An interval pushes two pieces at most.
@@ -76,7 +77,8 @@ def solve_cycle(load: Load) -> Cycle:
             if period == 1:
                 record.write((slice(None), i), stack.take((slice(None), 0)))
             _lose_contact(stack, course, i)
-            _slip(load, stack, course, i)
+            if slips[i]:
+                _slip(load, stack, course, i)
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
     return Cycle(

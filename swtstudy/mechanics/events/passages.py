@@ -57,7 +57,9 @@ def split_at(cycle: Cycle, cuts: FloatArray) -> Cycle:
     n = len(cuts)
     edges = np.sort(np.concatenate([np.zeros((n, 1)), cycle.end, cuts], axis=1), axis=1)
     middle = 0.5 * (edges[:, 1:] + edges[:, :-1])
-    below = count_below(cycle.end, np.repeat(np.arange(n), middle.shape[1]), np.nextafter(middle.ravel(), np.inf))
+    below = count_below(
+        cycle.end, np.repeat(np.arange(n), middle.shape[1]), np.nextafter(middle.ravel(), np.inf)
+    )
     parent = below.reshape(middle.shape)
     parent = np.minimum(parent, cycle.end.shape[1] - 1)
     finer = cycle.take_intervals(np.arange(n), parent)

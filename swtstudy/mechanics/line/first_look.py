@@ -37,7 +37,7 @@ OTHER_PLANE = 0.08
 #: what is looked at stays in the processor's cache.
 LOOK_SIZE = 32_000
 #: Positions of a point that are looked at together at least, however many intervals its cycle has.
-LEAST_PART = 16
+LEAST_PART = 32
 
 
 @dataclass(frozen=True)

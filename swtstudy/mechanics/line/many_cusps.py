@@ -18,8 +18,9 @@ from swtstudy.mechanics.stress.scene import Scene
 
 #: Points with so many pieces at most are looked at in each of them.
 MANY = 128
-#: Runs of pieces at first; a piece longer than such a share of the line is none of a run.
-RUNS = 64
+#: Runs of pieces at first, and how many of a point are halved at a time, the highest ones. A piece longer
+#: than such a share of the line is none of a run.
+RUNS, HALVED = 64, 48
 #: Places of a point around which pieces stay, the highest ones, and how many of these to either side.
 PLACES, BESIDE = 16, 2
 #: How finely swt is computed to choose them.
@@ -44,7 +45,7 @@ def _begins(scene: Scene, pieces: Pieces) -> NDArray[np.bool_]:
     run = _runs(pieces)
     seen = Seen(*np.full((3, len(run), 1 if scene.mirrored_half else 2), np.nan))
     looked, new = np.zeros_like(run), np.flatnonzero(run)
-    while new.size:
+    for _ in range(int(np.diff(new, append=len(run)).max()).bit_length() + 1):
         of_new = look_at(scene, pieces, new, np.zeros(new.size), ROUGH)
         for values, found in zip(vars(seen).values(), vars(of_new).values(), strict=True):
             values[new] = found
@@ -74,9 +75,10 @@ def _halves(point: NDArray[np.intp], swt: FloatArray, looked: NDArray[np.intp]) 
     around = np.pad(change, ((1, 1), (0, 0)))
     rise = np.maximum(np.maximum(around[:-2], around[2:]), change)
     top = _tops(point[looked], swt[looked])[point[looked[:-1]]]
-    may = (np.maximum(left, right) + rise).max(axis=1) >= (1.0 - SHARE) * top
-    may &= same & (np.diff(looked) > 1)
-    return (looked[:-1][may] + looked[1:][may]) // 2
+    height = (np.maximum(left, right) + rise).max(axis=1)
+    open_ = np.flatnonzero((height >= (1.0 - SHARE) * top) & same & (np.diff(looked) > 1))
+    chosen = open_[_highest(point[looked[open_]], height[open_], HALVED)]
+    return (looked[chosen] + looked[chosen + 1]) // 2
 
 
 def _kept(point: NDArray[np.intp], seen: Seen, looked: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -85,14 +87,19 @@ def _kept(point: NDArray[np.intp], seen: Seen, looked: NDArray[np.intp]) -> NDAr
     high = some.swt >= (1.0 - 3.0 * SHARE) * _tops(own, some.swt)[own][:, None]
     high &= peaks(own, some.swt) | flanks(own, some)
     height = np.where(high, some.swt, 0.0).max(axis=1)
-    order = np.lexsort((-height, own))
-    rank = np.empty(len(order), dtype=np.intp)
-    rank[order] = np.arange(len(order)) - np.searchsorted(own, own)
-    places = looked[(rank < PLACES) & (height > 0.0)]
+    places = looked[_highest(own, height, PLACES) & (height > 0.0)]
     kept = np.zeros(len(point), dtype=bool)
     for step in range(-BESIDE, BESIDE):
         kept[np.clip(places + step, 0, len(point) - 1)] = True
     return kept
+
+
+def _highest(point: NDArray[np.intp], height: FloatArray, count: int) -> NDArray[np.bool_]:
+    """Which heights are among the highest ones of their points, (m,) ascending."""
+    order = np.lexsort((-height, point))
+    highest = np.empty(len(order), dtype=bool)
+    highest[order] = np.arange(len(order)) - np.searchsorted(point, point) < count
+    return highest
 
 
 def _tops(point: NDArray[np.intp], swt: FloatArray) -> FloatArray:

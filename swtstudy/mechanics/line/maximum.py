@@ -106,7 +106,9 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
     """How far off swt > 0 may be by rounding and tables, shape (n,)."""
-    size = np.sqrt(found.swt)
+    # What swt is made of is as large as its root; it is a stress times a strain.
+    is_product = scene.criterion.degree == 2
+    size = np.sqrt(found.swt) if is_product else found.swt
     # Two bounds of one thing.
     rounding = np.minimum(
         _rounding(scene, np.abs(found.position)[:, None]), _share_within_rounding(scene, found) * size
@@ -116,8 +118,7 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    # swt is a stress times a strain.
-    return np.asarray(rounding * size)
+    return np.asarray(rounding * size if is_product else rounding)
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:

@@ -102,7 +102,7 @@ class Pieces:
     @classmethod
     def of(cls, split: Scene) -> Pieces:
         """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
-        ends = cusps(split.cycle, split.coordinate, split.bulk is not None)
+        ends = cusps(split.cycle, split.coordinate, split.critical_everywhere)
         return cls.between(ends, split.profile.feature_length)
 
     @classmethod
@@ -203,6 +203,11 @@ class Positions:
             (self.alpha[:, 0] == np.pi) | (self.alpha[:, 1] == 0.0) | (self.alpha[:, 1] == np.pi)
         )
 
+    @property
+    def is_even(self) -> NDArray[np.bool_]:
+        """Shape (m,): whether both neighbours are equally far."""
+        return np.asarray(np.abs(np.diff(self.step)[:, 0]) <= EVEN * self.step[:, 0])
+
     def around(self, c: FloatArray) -> FloatArray:
         """r beside the positions, shape (m, k), at c from −1, the left neighbour, to 1, the right one."""
         right = c > 0.0
@@ -212,7 +217,7 @@ class Positions:
 
         turn = c * of_side(self.step)
         # Within a piece r is a smooth function of c, also where the neighbours are not equally far.
-        rows = np.flatnonzero(~self.is_corner & (np.abs(np.diff(self.step)[:, 0]) > EVEN * self.step[:, 0]))
+        rows = np.flatnonzero(~self.is_corner & ~self.is_even)
         if rows.size:
             left, far = self.step[rows, :1], self.step[rows, 1:]
             ratio = np.log(far / left)

@@ -135,8 +135,8 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     beside_corner = is_corner & (np.abs(climb.centre) < OFFSETS[-1] * climb.width)
     share = np.where(beside_corner, CORNER_CHANGE_SHARE, CHANGE_SHARE)
     remaining, clear = share * np.abs(top - climb.top), np.zeros(len(top), dtype=bool)
-    # Five values on a smooth maximum may be enough.
-    first = (climb.width == FIRST_WIDTH) & (climb.centre == 0.0) & ~is_corner
+    # Five values on a smooth maximum may be enough, between neighbours that predict one another.
+    first = (climb.width == FIRST_WIDTH) & (climb.centre == 0.0) & ~is_corner & seen.brackets.is_even
     smooth = np.flatnonzero(accuracy.hasty & first & (np.abs(seen.place) < seen.c[:, -1]))
     parabola = top[smooth]
     centre[smooth], top[smooth] = _polynomial_maximum(seen.values[smooth], centre[smooth])

@@ -146,7 +146,7 @@ def _maximum_at_edge(scene: Scene, accuracy: Accuracy) -> Maximum:
                 count = NEXT_COUNT
             there = distance[rows, best][:, None]
             value, change = _checked(scene, there, swt[rows, best], side, start, steps, accuracy)
-            error = change + (LEFT_OUT + accuracy.tolerance) * value
+            error = np.maximum(change + LEFT_OUT * value, accuracy.tolerance * value)
             larger = value > found.swt
             found = found.put(larger, Maximum(value, error, side * flat, angle[rows, best]).take(larger))
     return found

@@ -4,6 +4,7 @@ The stress on the circle is made of the same building blocks as on the line, see
 `swtstudy.mechanics.stress.circle`. They know only r: edge and slip fronts pass the whole circle at once, and
 the instants that make swt on the line make it on the circle. Not so with a bulk stress: where it presses, the
 line may be the lowest place of the circle, whose highest has its own instants and a plane that turns with it.
+Nor with a criterion that needs no tension.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
 #: radial, and the fall of swt below which no climb is tried, over sin²θ: on most circles it falls like that
 #: to the square or more.
 LOOK_ANGLES, TURNS, SLOW_FALL = ANGLES[2::3], np.array([0.0, 0.5, 1.0]), 0.4
+#: Normals from which a criterion of shear is climbed to, besides.
+OBLIQUE = np.sqrt(0.5) * np.array([[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 1.0]])
 #: Where the base is less than this share of the line's maximum the two have nothing in common: rounding of no
 #: tension at all.
 SAME_SHARE = 0.5
@@ -73,21 +76,21 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
 
 def _surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     r, flat = np.abs(found.position), scene.profile.flat_radius
-    at_edge = (flat > 0.0) & (r == flat)
+    at_edge = scene.profile.has_singular_edge & (flat > 0.0) & (r == flat)
     surface = np.where(at_edge, np.nan, found.swt)
-    doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | (scene.bulk is not None)
+    doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | scene.critical_everywhere
     rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
     if rows.size:
         some = scene.take(rows)
         history, normal = _decisive_history(some, found.position[rows], found.double_angle[rows])
-        if scene.bulk is not None:
+        if scene.bulk is not None and scene.criterion.needs_tension:
             slow = np.flatnonzero(
                 (some.poisson_ratio > SAFE_POISSON_RATIO) | _falls_slowly(some, history, normal)
             )
             rows, some, history, normal = rows[slow], some.take(slow), history.take(slow), normal[slow]
         swt = _on_circle(some, history, normal, np.broadcast_to(ANGLES, (rows.size, ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
-        off = np.flatnonzero((best > 0) & ((base > 0.0) | (scene.bulk is not None)))
+        off = np.flatnonzero((best > 0) & ((base > 0.0) | scene.critical_everywhere))
         if off.size:
             near = ANGLES[best[off], None] + CLOSER
             top = _on_circle(some.take(off), history.take(off), normal[off], near).max(axis=1)
@@ -160,7 +163,7 @@ def _decisive_history(
     closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
     narrow = look.line.history(brackets.narrowed(closer).samples())
     history = wide.joined(narrow)
-    if scene.bulk is not None:
+    if scene.critical_everywhere:
         history = history.joined(look.history)
     history = history.take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
     history = history.with_tangential_sign(side[:, None])
@@ -174,8 +177,11 @@ def _on_circle(scene: Scene, history: History, normal: FloatArray, angle: FloatA
     flat = (-1, *stress.shape[-2:])
     criterion = scene.criterion.take(np.repeat(np.arange(len(scene)), angle.shape[1]))
     starts = [np.broadcast_to(normal[:, None], (*angle.shape, 3))]
-    if scene.bulk is not None:
+    if scene.critical_everywhere:
         starts += [_turned(normal, angle), _radial(angle)]
+    if not scene.criterion.needs_tension:
+        # Planes that do not hold the y axis may slide most.
+        starts += [np.broadcast_to(each, (*angle.shape, 3)) for each in OBLIQUE]
     histories = stress.reshape(flat), tensor.reshape(flat)
     found = [climb(*histories, start.reshape(-1, 3), criterion)[0] for start in starts]
     return np.asarray(np.max(found, axis=0).reshape(angle.shape))

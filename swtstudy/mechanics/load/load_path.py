@@ -18,7 +18,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.numbers import read_numbers
 
-#: Most vertices of a loop: a value with so many takes 30 s and 5 GB.
+#: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000
 #: Sides of a loop that cost as much as one oscillation: 100 take as long as 8 to 16 of them, 200 as 32.
 SIDES_PER_OSCILLATION = 12

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights
+from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights, tangent_basis
 from swtstudy.mechanics.points import FloatArray
 
 #: Largest step of a climb, rad. Half or twice: 2e-16 in 16 values of bodies.
@@ -82,7 +82,7 @@ def climb_by(
         if not len(going):
             break
         here, own = normal[going], criterion.take(going)
-        tangent = _tangent_basis(here)
+        tangent = tangent_basis(here)
         jets = jet_weights(here, tangent)
         forms = apply_jets(jets, tension[going]), own.swing.amplitude_jets(jets, change[going])
         step, _ = _newton_step(*forms, trust[going], own)
@@ -117,7 +117,7 @@ def swap_instants(
         Shape (n, 3): where the quadratic model of ln h, for the triple that differs in one instant and
         promises most, has its summit.
     """
-    tangent = _tangent_basis(normal)
+    tangent = tangent_basis(normal)
     jets = jet_weights(normal, tangent)
     tension, swing = apply_jets(jets, stress), criterion.swing.curve_jets(jets, normal, tangent, tensor)
     # The active instants first, then their rivals.
@@ -216,17 +216,3 @@ def _move(normal: FloatArray, tangent: FloatArray, step: FloatArray) -> FloatArr
     """The unit normal a small step away in the tangent plane."""
     moved = normal + (step[:, :, None] * tangent).sum(axis=1)
     return moved / np.linalg.norm(moved, axis=-1, keepdims=True)
-
-
-def _tangent_basis(normal: FloatArray) -> FloatArray:
-    """Two unit vectors normal to each normal and to one another, shape (n, 2, 3)."""
-    least = np.argmin(np.abs(normal), axis=-1)
-    first = _cross(normal, np.eye(3)[least])
-    first /= np.linalg.norm(first, axis=-1, keepdims=True)
-    return np.stack([first, _cross(normal, first)], axis=1)
-
-
-def _cross(left: FloatArray, right: FloatArray) -> FloatArray:
-    """``np.cross`` of vectors of shape (n, 3), several times as fast."""
-    (a, b, c), (d, e, f) = left.T, right.T
-    return np.stack([b * f - c * e, c * d - a * f, a * e - b * d], axis=-1)

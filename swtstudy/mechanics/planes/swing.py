@@ -9,9 +9,24 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
+import numpy as np
+
 from swtstudy.mechanics.planes.hooke import strain_history
-from swtstudy.mechanics.planes.weights import apply_jets, normal_weights
+from swtstudy.mechanics.planes.weights import (
+    apply_jets,
+    bilinear_weights,
+    normal_weights,
+    squared,
+    tangent_basis,
+)
 from swtstudy.mechanics.points import FloatArray
+
+#: Lines in the plane of which a look at many planes takes the one with the largest swing, and from which the
+#: largest chord is looked for: 2 and 0.5 % of it may be missed.
+COARSE_LINES, LINES = 8, 16
+#: A swing below this has no line, and below this share of the change of the stress no direction in which it
+#: rises.
+NO_SWING, NO_SHARE = 1e-100, 1e-9
 
 
 class Swing(ABC):
@@ -101,4 +116,88 @@ class NormalStrain(Swing):
         return apply_jets(jets, tensor)
 
 
+class ShearStress(Swing):
+    """τ: in the section a number; on other planes a vector, of which the largest chord of its path counts."""
+
+    def in_section(self, tension: FloatArray, yy: FloatArray, poisson_ratio: FloatArray) -> FloatArray:
+        _, b, c = tension
+        return np.stack([np.zeros_like(b), c, -b])
+
+    def tensor(
+        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+    ) -> FloatArray:
+        return stress
+
+    def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:
+        shape = tensor.shape[:-1]
+        tensor, normal = tensor.reshape(-1, *tensor.shape[-2:]), normal.reshape(-1, 3)
+        weights = bilinear_weights(normal[:, None], tangent_basis(normal))
+        path = tensor @ weights.swapaxes(1, 2)
+        return (path @ _chord(path)[..., None])[..., 0].reshape(shape)
+
+    def amplitudes(
+        self,
+        stress: FloatArray,
+        normals: FloatArray,
+        tension: FloatArray,
+        poisson_ratio: float,
+        young_modulus: float,
+    ) -> FloatArray:
+        first, second = tangent_basis(normals).swapaxes(0, 1)
+        highest = np.zeros_like(tension[..., 0, :])
+        for turn in np.pi / COARSE_LINES * np.arange(COARSE_LINES):
+            line = (np.cos(turn) * first + np.sin(turn) * second).astype(normals.dtype)
+            np.matmul(stress, bilinear_weights(normals, line).T.astype(stress.dtype), out=tension)
+            np.maximum(highest, 0.5 * (tension.max(axis=-2) - tension.min(axis=-2)), out=highest)
+        return highest
+
+    def amplitude_jets(self, jets: FloatArray, change: FloatArray) -> FloatArray:
+        # The square of a is nᵀ Δ² n − (nᵀ Δ n)².
+        normal, whole = apply_jets(jets, change), apply_jets(jets, squared(change))
+        square = whole - 2.0 * normal[:, :1] * normal
+        # Where nothing swings it has a tip.
+        least = NO_SWING**2 + NO_SHARE**2 * (change * change).sum(axis=1)
+        square[:, 0] = np.maximum(whole[:, 0] - normal[:, 0] ** 2, least)
+        one, two = [1, 2, 1], [1, 2, 2]
+        square[:, 3:] -= 2.0 * normal[:, one] * normal[:, two]
+        a = np.sqrt(square[:, :1])
+        first = square[:, 1:3] / (2.0 * a)
+        bend = square[:, 3:] / (2.0 * a) - first[:, [0, 1, 0]] * first[:, [0, 1, 1]] / a
+        return np.concatenate([a, first, bend], axis=1)
+
+    def curve_jets(
+        self, jets: FloatArray, normal: FloatArray, tangent: FloatArray, tensor: FloatArray
+    ) -> FloatArray:
+        first, second = tangent[:, 0], tangent[:, 1]
+        path = tensor @ bilinear_weights(normal[:, None], tangent).swapaxes(1, 2)
+        chord = _chord(path)
+        p, q = chord[:, :1], chord[:, 1:]
+        line = p * first + q * second
+        here, square = bilinear_weights(line, normal), normal_weights(normal)
+        along = [bilinear_weights(normal, each) for each in (first, second)]
+        # On a great circle along t the line m turns with the plane by −(m·t) n.
+        weights = [
+            here,
+            bilinear_weights(line, first) - p * square,
+            bilinear_weights(line, second) - q * square,
+            -3.0 * p * along[0] - here,
+            -3.0 * q * along[1] - here,
+            -1.5 * (p * along[1] + q * along[0]),
+        ]
+        return apply_jets(np.stack(weights, axis=-1), tensor)
+
+
+def _chord(path: FloatArray) -> FloatArray:
+    """Directions, (n, 2), of the largest chords of paths of points in the plane, (n, T, 2)."""
+    turns = np.pi / LINES * np.arange(LINES)
+    along = path @ np.stack([np.cos(turns), np.sin(turns)])
+    row = np.arange(len(path))[:, None]
+    chords = path[row, along.argmax(axis=1)] - path[row, along.argmin(axis=1)]
+    length = np.hypot(chords[..., 0], chords[..., 1])
+    best = length.argmax(axis=1)
+    chord, length = chords[row[:, 0], best], length[row[:, 0], best]
+    return np.where((length > NO_SWING)[:, None], chord / np.maximum(length, NO_SWING)[:, None], [1.0, 0.0])
+
+
+SHEAR_STRESS = ShearStress()
 NORMAL_STRAIN = NormalStrain()

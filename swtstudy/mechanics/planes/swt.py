@@ -36,7 +36,7 @@ class Swt(Criterion):
 
     name: ClassVar[str] = "swt"
     words: ClassVar[str] = "Smith–Watson–Topper parameter"
-    symbol: ClassVar[str] = r"\mathrm{SWT}"
+    symbol: ClassVar[str] = "swt"
     degree: ClassVar[int] = 2
     swing: ClassVar[Swing] = NORMAL_STRAIN
     needs_tension: ClassVar[bool] = True

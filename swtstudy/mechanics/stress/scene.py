@@ -94,6 +94,11 @@ class Scene:
         return replace(self, cycle=split_at_breakpoints(self.cycle))
 
     @property
+    def critical_everywhere(self) -> bool:
+        """Whether places in mere pressure may be critical, or those outside of the contact."""
+        return self.bulk is not None or not self.criterion.needs_tension
+
+    @property
     def largest_radius(self) -> FloatArray:
         """Largest contact radius of each point in a_H, shape (n,)."""
         return self.coordinate.radius(self.cycle.load.largest_normal[:, None])[:, 0]

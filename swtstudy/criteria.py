@@ -1,0 +1,29 @@
+"""The criteria of which s may be the largest value, as the parameters know them.
+
+The formulas are in `swtstudy.mechanics.planes.criteria`.
+"""
+
+from __future__ import annotations
+
+#: Their names: the Smith–Watson–Topper parameter, and the criteria of shear.
+SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
+NAMES = (SWT, FATEMI_SOCIE, FINDLEY)
+
+#: What s is, in words for attributes, and its symbol with its unit.
+MEANING = {
+    SWT: "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
+    FATEMI_SOCIE: "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
+    FINDLEY: "maximum Findley stress over E* delta0 / a_H",
+}
+SYMBOLS = {
+    SWT: r"\mathrm{SWT}/\mathrm{SWT}_0",
+    FATEMI_SOCIE: r"G \mathrm{FS}/(E^*\delta_0/a_H)",
+    FINDLEY: r"f/(E^*\delta_0/a_H)",
+}
+#: Where a criterion of shear may be larger than s.
+BENEATH = (
+    "a criterion of shear may be larger beneath the surface, where the normal load oscillates or friction is "
+    "small: swtstudy audit compares"
+)
+#: The profile next to whose edge only SWT is known.
+SHARP = "truncated_paraboloid"

@@ -1,0 +1,132 @@
+"""Blocks of stationary loads, run one after the other again and again: Miner's sum of their damage."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.mistakes import Mistake, StudyError, literal, nearest, plain_number
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.grid.values import Value
+
+#: Beginnings of the names of what is made of each life: their ends are those of the life.
+REPETITIONS, SHARE, LIFE = "repetitions", "damage_share", "cycles"
+#: What is allowed as a number of rounds.
+ROUNDS = "a positive number of rounds"
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rounds of one load within a sequence.
+
+    Attributes
+    ----------
+    load
+        Name of the load.
+    rounds
+        How many in each repetition of the sequence.
+    """
+
+    load: str
+    rounds: float
+
+
+def checked_blocks(rounds: Mapping[str, object], loads: Sequence[Value]) -> tuple[Block, ...]:
+    """Blocks of some rounds of each of the loads, by their names.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in them; also if one of the loads is in no block.
+    """
+    known = list(map(str, loads))
+    mistakes = [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
+    for name, number in rounds.items():
+        mistakes += wrong_rounds(number, f"blocks.{name}")
+    if left := [name for name in known if name not in rounds]:
+        found = f"no rounds of {', '.join(map(literal, left))}"
+        mistakes.append(Mistake("blocks", found, "rounds of each load, or none of these loads"))
+    if mistakes:
+        raise StudyError(mistakes)
+    return tuple(Block(name, plain_number(number)) for name, number in rounds.items())
+
+
+def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
+    """What is wrong with a number of rounds."""
+    sound = 0.0 < plain_number(rounds) < np.inf
+    return [] if sound else [Mistake(key, literal(rounds), ROUNDS)]
+
+
+def lives_in(names: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """The lives among data variables, and the names of what blocks make of each."""
+    for name in names:
+        if name == LIFE or name.startswith(f"{LIFE}_"):
+            end = name.removeprefix(LIFE)
+            yield name, f"{REPETITIONS}{end}", f"{SHARE}{end}"
+
+
+def miner(
+    dataset: xr.Dataset, blocks: Sequence[Block], loads: Sequence[Value]
+) -> dict[str, tuple[Any, Any, dict[str, Any]]]:
+    """Repetitions of a sequence to a crack, and the share of each load in its damage, for every life.
+
+    D = Σ n_k / N_k, with n_k rounds of load k in the sequence and N_k rounds of it alone to a crack.
+
+    Parameters
+    ----------
+    dataset
+        Lives of each load, along ``load`` if there are several.
+    blocks
+        The sequence.
+    loads
+        The loads in their order.
+
+    Returns
+    -------
+    dict
+        Dimensions, values and attributes by name.
+    """
+    rounds = np.array([sum(each.rounds for each in blocks if each.load == str(load)) for load in loads])
+    found = {}
+    for name, repetitions, share in lives_in(list(map(str, dataset.data_vars))):
+        life = dataset[name]
+        along = "load" if "load" in life.dims else None
+        axis = life.dims.index("load") if along else -1
+        values = life.values if along else life.values[..., None]
+        lengths = [1] * values.ndim
+        lengths[axis] = len(rounds)
+        damage = rounds.reshape(lengths) / values
+        whole = damage.sum(axis=axis, keepdims=True)
+        with np.errstate(divide="ignore", invalid="ignore"):  # no damage, no end
+            times, of_each = (1.0 / whole).squeeze(axis), damage / whole
+        dims = tuple(dim for dim in life.dims if dim != "load")
+        where = life.attrs["long_name"].removeprefix("rounds to a crack")
+        found[repetitions] = (
+            dims,
+            times,
+            _words(f"repetitions to a crack{where}", r"N_\mathrm{seq}", REPEATED),
+        )
+        found[share] = (
+            life.dims,
+            of_each if along else of_each.squeeze(axis),
+            _words(f"share of the damage{where}", "D_k/D", SHARED),
+        )
+    return found
+
+
+#: What is said of both.
+REPEATED = (
+    "repetitions of the sequence of blocks to the initiation of a crack, by Miner's sum of their damage, "
+    "each at its own worst place: where these differ, the life is longer"
+)
+SHARED = "share of a load's rounds in the damage of a repetition of the sequence of blocks"
+
+
+def _words(name: str, symbol: str, comment: str) -> dict[str, Any]:
+    return {"long_name": name, "units": "1", "symbol": symbol, "comment": comment}

@@ -1,0 +1,163 @@
+"""Blocks of loads: Miner's sum, held against the same by hand."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
+from swtstudy.runner.work import assess
+
+RIG = """
+title = "Blocks"
+rtol = 1e-3
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[material]
+strength = 927
+strength_exponent = -0.113
+ductility = 0.409
+ductility_exponent = -0.713
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+body = 1
+critical_distance = 0.05
+"""
+START = "[loads.start-up]\nabsolute = true\nvertices = [[150, -50], [180, 60], [150, 20]]\n"
+RUNNING = "[loads.running]\nabsolute = true\nvertices = [[200, -60], [210, 60]]\n"
+ALUMINIUM = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+
+
+def block(load: str, rounds: object) -> str:
+    return f'[[blocks]]\nload = "{load}"\nrounds = {rounds}\n'
+
+
+def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) -> None:
+    """Both loads with a mean of their own, one of them in two blocks; lives of each in studies of its own."""
+    blocks = block("start-up", 10) + block("running", 1e3) + block("start-up", 5.5)
+    study = Study.from_text(RIG + START + RUNNING + blocks)
+    found = run(study, tmp_path / "blocks.nc")
+    for end in ("", "_volume", "_point", "_line"):
+        lives = []
+        for name, load in (("start-up", START), ("running", RUNNING)):
+            own = RIG.replace("[fixed]", f'[fixed]\nload = "{name}"')
+            lives.append(run(Study.from_text(own + load), tmp_path / f"{name}.nc")[f"cycles{end}"])
+        damage = 15.5 / lives[0], 1e3 / lives[1]
+        np.testing.assert_allclose(found[f"repetitions{end}"], 1.0 / sum(damage), rtol=1e-9)
+        share = found[f"damage_share{end}"]
+        np.testing.assert_allclose(share.sel(load="running"), damage[1] / sum(damage), rtol=1e-9)
+        np.testing.assert_allclose(share.sum("load"), 1.0, rtol=1e-12)
+    assert found.repetitions.dims == ()
+    assert found.cycles.dims == ("load",)
+    assert "worst place" in found.repetitions.comment
+    # The archive knows its blocks, also where they come from files.
+    archived = open_results(tmp_path / "blocks.nc")
+    assert assess(Study.from_text(archived.attrs["study"]), tmp_path / "blocks.nc").todo == 0
+    np.testing.assert_array_equal(archived.repetitions, found.repetitions)
+
+
+def test_a_single_load_and_a_contact_in_python_have_blocks_too(tmp_path: Path) -> None:
+    found = run(Study.from_text(RIG + RUNNING + block("running", 250)), tmp_path / "one.nc")
+    np.testing.assert_allclose(found.repetitions, found.cycles / 250.0, rtol=1e-12)
+    assert found.damage_share.item() == 1.0
+    same = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5, "body": 1}
+    loads = [
+        LoadPath.absolute("start-up", [[150, -50], [180, 60], [150, 20]]),
+        LoadPath.absolute("running", [[200, -60], [210, 60]]),
+    ]
+    contact = swtstudy.physical(**same, load=loads)
+    both = contact.solve(rtol=1e-3, constants=ALUMINIUM, blocks={"start-up": 10, "running": 1e3})
+    damage = (np.array([10, 1e3]) / both.cycles).sum("load")
+    np.testing.assert_allclose(both.repetitions, 1.0 / damage, rtol=1e-12)
+    np.testing.assert_allclose(both.cycles.sel(load="running"), found.cycles, rtol=1e-9)
+    for blocks, words in (
+        ({"runing": 1, "start-up": 1}, r"blocks: found 'runing'; allowed: did you mean running"),
+        ({"running": -1, "start-up": 1}, r"blocks.running: found -1; allowed: a positive number of rounds"),
+        ({"running": 1}, r"blocks: found no rounds of 'start-up'; allowed: rounds of each load"),
+    ):
+        with pytest.raises(StudyError, match=words):
+            contact.solve(constants=ALUMINIUM, blocks=blocks)
+    with pytest.raises(StudyError, match="blocks: found blocks without constants"):
+        contact.solve(blocks={"running": 1, "start-up": 1})
+
+
+@pytest.mark.parametrize("count", [2, 5, 10])
+def test_equal_cycles_in_a_round_have_so_many_times_the_damage(count: int) -> None:
+    """As blocks of a single one have; exactly, since all of them are the same."""
+    same = {
+        "young_modulus": 73.1e3,
+        "poisson_ratio": 0.33,
+        "radius": 50.0,
+        "normal_force": 200.0,
+        "friction": 0.5,
+    }
+    newton = {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0, "body": 1}
+    loads = [LoadPath("one", [[0, 60], [0, -60]]), LoadPath("many", [[0, 60], [0, -60]] * count)]
+    found = swtstudy.physical(**same, load=loads, **newton).solve(constants=ALUMINIUM)
+    one, many = found.cycles.values
+    assert one / many == pytest.approx(count, rel=1e-9)
+
+
+def test_recorded_cycles_are_blocks_one_by_one_if_they_are_kept(tmp_path: Path) -> None:
+    cycles = np.array([[200, 0], [210, 60], [190, -60]])[None] * np.array([1.0, 0.9, 1.0, 0.8])[:, None, None]
+    lines = [f"{normal!r},{tangential!r}" for normal, tangential in cycles.reshape(-1, 2).tolist()]
+    (tmp_path / "rig.csv").write_text("\n".join(["normal,tangential", *lines]))
+    table = '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 4\nkeep_cycles = true\n'
+    study = Study.from_text(RIG + table + block("rig", 25), "s", tmp_path)
+    assert list(map(str, study.grid.values("load"))) == [f"rig {k}" for k in (1, 2, 3, 4)]
+    found = run(study, tmp_path / "rig.nc")
+    np.testing.assert_allclose(found.repetitions, 1.0 / (25.0 / found.cycles).sum("load"), rtol=1e-12)
+    # The first and the third cycle are the same.
+    share = found.damage_share.values
+    assert share[0] == share[2] > share[1] > share[3]
+    (tmp_path / "rig.csv").unlink()
+    again = Study.from_text(study.text)
+    assert again.grid.blocks == study.grid.blocks
+    assert assess(again, tmp_path / "rig.nc").todo == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (RUNNING + block("running", 0), "blocks.0.rounds: found 0; allowed: a positive number of rounds"),
+        (RUNNING + block("running", '"many"'), "blocks.0.rounds: found 'many'; allowed: a positive number"),
+        (RUNNING + block("runing", 1), r"blocks.load: found 'runing' .*; allowed: did you mean running"),
+        (RUNNING + '[[blocks]]\nload = "running"\n', "blocks.0.rounds: found nothing; allowed: "),
+        (RUNNING + block("running", 1) + "times = 2\n", "blocks.0.times: found unknown key 'times'"),
+        (
+            "[axes]\nload = ['running']\n" + RUNNING + block("running", 1),
+            r"axes.load: found \['running'\]; allowed: nothing: the loads are those of \[\[blocks\]\]",
+        ),
+    ],
+)
+def test_one_message_for_each_mistake_in_blocks(text: str, words: str) -> None:
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(RIG + text, "s")
+    (line,) = map(str, caught.value.mistakes)
+    assert re.match(f"s: {words}", line), line
+
+
+def test_blocks_need_lives() -> None:
+    text = re.sub(r"\[material\][^\[]*", "", RIG) + RUNNING + block("running", 1)
+    with pytest.raises(StudyError, match=r"blocks: found blocks without \[units\] and \[material\]"):
+        Study.from_text(text)
+
+
+def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
+    text = RIG + "[axes]\nwalker_exponent = [0.4, 0.5]\n" + START + RUNNING
+    text += block("start-up", 10) + block("running", 1e3)
+    text += '[figure]\nx = "walker_exponent"\nhue = "load"\ny = "damage_share"\n'
+    results = run(Study.from_text(text), tmp_path / "shares.nc")
+    (axes,) = results.swt.figure().axes
+    lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+    np.testing.assert_allclose(lines["running"], results.damage_share.sel(load="running"))
+    assert Study.from_text(text.replace('hue = "load"\n', "").replace("damage_share", "repetitions")).figure
