@@ -156,12 +156,24 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
     assert "400 N" in sentences(dataset)[0]
 
 
-@pytest.mark.parametrize("name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress"])
+@pytest.mark.parametrize(
+    "name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress", "plane_contacts"]
+)
 def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
     dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
     for one in extreme_points(dataset).values():
         again = swtstudy.solve(rtol=1e-4, **parameters_of(one))
         assert float(again.s) == pytest.approx(float(one.s), rel=2e-3)
+
+
+def test_values_of_several_criteria_are_not_compared() -> None:
+    dataset = swtstudy.open_results(RESULTS / "criteria.nc")
+    assert "criterion" not in [lever.name for lever in levers(dataset)]
+    first = dataset.isel(criterion=0)
+    assert {word: float(one.s) for word, one in extreme_points(dataset).items()} == {
+        "best": float(first.s.min()),
+        "worst": float(first.s.max()),
+    }
 
 
 def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_page: str) -> None:

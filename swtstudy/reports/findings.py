@@ -20,6 +20,8 @@ from swtstudy.results.extrema import extrema
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.wording import number_words
 
+#: The parameter whose values have an s of another kind each.
+CRITERION = "criterion"
 #: A parameter that changes swt by less goes unmentioned in the sentences.
 _MOVES = 1.005
 
@@ -61,12 +63,13 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 def levers(dataset: xr.Dataset) -> list[Lever]:
     """Every dimension of more than one value: the phase first, which costs nothing to choose, then by ratio.
 
-    None of a sample, whose points differ in all that is sampled.
+    None of a sample, whose points differ in all that is sampled; nor the criterion, whose values are not of
+    one kind.
     """
     swt = measured(dataset)
     found = []
     for name in map(str, swt.dims):
-        if swt.sizes[name] < 2 or SAMPLE in swt.dims:
+        if swt.sizes[name] < 2 or SAMPLE in swt.dims or name == CRITERION:
             continue
         table = extrema(dataset.assign(s=swt), name)
         ratio = table.ratio.where(np.isfinite(table.ratio))
@@ -138,6 +141,8 @@ def worst_place(dataset: xr.Dataset) -> dict[str, int]:
 
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     """The point with the least and that with the greatest swt; one only where all are equal."""
+    if CRITERION in dataset.dims:
+        dataset = dataset.isel({CRITERION: 0})  # values of several are not to be compared
     values = measured(dataset)
     flat = values.values.ravel()
     if not np.isfinite(flat).any():
