@@ -157,7 +157,7 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress", "plane_contacts"]
+    "name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress", "plane_contacts", "criteria"]
 )
 def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
     dataset = swtstudy.open_results(RESULTS / f"{name}.nc")

@@ -14,7 +14,10 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.axes import AXES
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.criteria import SWT
+from swtstudy.families import family_of
 from swtstudy.grid.grid import SAMPLE
+from swtstudy.parameters import PARAMETERS
 from swtstudy.reports.symbols import place_html, symbol_of, unit_of, value_text
 from swtstudy.results.extrema import extrema
 from swtstudy.units.grid import PhysicalGrid
@@ -163,6 +166,12 @@ def parameters_of(one: xr.Dataset) -> dict[str, Any]:
     if isinstance(grid, PhysicalGrid):
         body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
         return PhysicalContact(grid).parameters(body)
+    lacking = {name for name, row in PARAMETERS.items() if row.part == "shape"} - {"profile"}
+    lacking -= {*family_of(grid.fixed["profile"]).shape}
+    if grid.fixed.get(CRITERION, SWT) == SWT:
+        lacking.add("normal_sensitivity")
     return {
-        name: value for name, value in grid.fixed.items() if not grid.row(name).goes_without_saying(value)
+        name: each
+        for name, each in grid.fixed.items()
+        if name not in lacking and not grid.row(name).goes_without_saying(each)
     }
