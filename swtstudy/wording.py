@@ -43,7 +43,9 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
     units = attributes.get("units", AXES[name].units)
-    words = f"{AXES[name].meaning}, " if AXES[name].part == "criterion" else ""
+    words = (
+        f"{AXES[name].meaning}, " if AXES[name].part == "criterion" and AXES[name].kind == "number" else ""
+    )
     return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
