@@ -35,6 +35,40 @@ class SwtAccessor:
     def __init__(self, dataset: xr.Dataset) -> None:
         self._dataset = dataset
 
+    def __repr__(self) -> str:
+        """What the results are, as ``swtstudy info`` says it of an archive."""
+        from swtstudy.archive.describe import describe
+
+        return "\n".join(describe(self._dataset)) if "s" in self._dataset else "<no results of swtstudy>"
+
+    def words(self, name: str = "regime") -> xr.DataArray:
+        """Flags as words: of every point what a number in ``regime`` or ``status`` stands for.
+
+        Parameters
+        ----------
+        name
+            A data variable of flags.
+
+        Returns
+        -------
+        xarray.DataArray
+            Texts of the same dimensions; empty where there is no value.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is no variable of flags.
+
+        Examples
+        --------
+        >>> import swtstudy
+        >>> swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2).swt.words().values.tolist()
+        ['partial_slip', 'lift_off']
+        """
+        from swtstudy.results.table import words_of
+
+        return words_of(self._dataset, name)
+
     def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """The figure that the study asks for; a dimension that has been sliced away is left out of it.
 
@@ -192,8 +226,9 @@ class SwtAccessor:
         -------
         pandas.DataFrame
             Columns: the dimensions in their order, the other parameters, and the results but for the strain
-            cycles counted, of which a point has several. The index has the
-            name "point", so that ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
+            cycles counted, of which a point has several; what has a value for each direction has a column
+            for each, such as "s_point[depth]". The index has the name "point", so that
+            ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
         """
         from swtstudy.results.table import to_table
 

@@ -15,6 +15,10 @@ _TOLERANCE = 1e-9
 _LARGEST_DENOMINATOR = 20
 
 
+#: Numbers below this power of ten are written out.
+_PLAIN = 6
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 #: Attributes of a coordinate, which say the unit of results that have one.
 _NONE: Mapping[Any, Any] = {}
 
@@ -39,7 +43,8 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
     units = attributes.get("units", AXES[name].units)
-    return parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
+    words = f"{AXES[name].meaning}, " if AXES[name].part == "criterion" else ""
+    return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
 def as_text(words: str) -> str:
@@ -62,6 +67,8 @@ def value_words(name: str, value: float | str) -> str:
     ('8/9', 'π')
     >>> value_words("wavelength", 20**0.5), value_words("profile", "rounded_punch")
     ('√20', 'rounded punch')
+    >>> value_words("young_modulus", 73.1e3), value_words("friction", 5e-7)
+    ('73100', '5·10⁻⁷')
     """
     if isinstance(value, str):
         return value.replace("_", " ")
@@ -72,14 +79,32 @@ def value_words(name: str, value: float | str) -> str:
         if multiple is not None:
             return pi_words(multiple)
     if float(f"{value:.4g}") == value:
-        return f"{value:.4g}"
+        return number_words(value)
     fraction = _fraction(value, _LARGEST_DENOMINATOR)
     if fraction is not None:
         return str(fraction)
     square = round(value**2)
     if value > 0 and 0 < square < 1000 and math.isclose(value**2, square, rel_tol=_TOLERANCE):
         return f"√{square}"
-    return f"{value:.4g}"
+    return number_words(value)
+
+
+def number_words(value: float, digits: int = 4) -> str:
+    """A number to so many digits, a very large or small one with a power of ten.
+
+    Examples
+    --------
+    >>> number_words(0.123456), number_words(73.1e3), number_words(5e7), number_words(1.25e-7)
+    ('0.1235', '73100', '5·10⁷', '1.25·10⁻⁷')
+    """
+    text = f"{value:.{digits}g}"
+    if "e" not in text:
+        return text
+    lead, power = text.split("e")
+    if 0 <= int(power) < _PLAIN:
+        return f"{float(text):.0f}"
+    lead = {"1": "", "-1": "-"}.get(lead, f"{lead}·")
+    return f"{lead}10{str(int(power)).translate(_RAISED)}"
 
 
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:

@@ -18,6 +18,7 @@ from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
+from swtstudy.reports.data import LARGEST_TABLE
 from swtstudy.units.rows import SIMILAR
 
 RESULTS = shown.ROOT / "results"
@@ -257,7 +258,7 @@ def lives() -> None:
     said = "averaged over a radius of {} µm they are about {} to {} times as long there"
     tens = round(times.min(), -1), round(times.max(), -1)
     says(said, 50, *tens)
-    says("lives in the [example](physical.md) are {} to {} times as long", *tens)
+    says("lives in the [example](from_rig_to_study.md#a-worked-example) are {} to {} times as long", *tens)
 
 
 def checks() -> None:
@@ -353,3 +354,12 @@ CLAIMS: tuple[Callable[[], None], ...] = (
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.__name__)
 def test_numbers_are_those_of(claim):
     claim()
+
+
+def test_the_size_of_reports() -> None:
+    says("a table whose packed values are larger than {} MB", LARGEST_TABLE / 1e6)
+
+
+def test_the_first_screen() -> None:
+    figure4 = open_results(RESULTS / "figure4.nc")
+    says("the larger the sooner a crack, differs {} times", float(figure4.swt.extrema("phase").ratio.max()))

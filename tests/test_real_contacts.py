@@ -28,7 +28,10 @@ def test_arrays_in_python_are_the_study(solved):
     assert both.s.dims == ("normal_force", "tangential_amplitude", "phase", "body")
     assert (both.SWT[..., 0] == both.SWT[..., 1]).all()
     found = both.sel(body=2)
-    assert repr(contacts) == "<PhysicalContact: 8 = 2 normal_force × 2 tangential_amplitude × 2 phase>"
+    assert (
+        repr(contacts).splitlines()[0]
+        == "<PhysicalContact: 8 = 2 normal_force × 2 tangential_amplitude × 2 phase>"
+    )
     assert {*found.data_vars} == {*solved.data_vars} - {"status", "run"}
     for name in found.data_vars:
         np.testing.assert_allclose(found[name], solved[name], rtol=1e-9, err_msg=name)
@@ -37,7 +40,7 @@ def test_arrays_in_python_are_the_study(solved):
     assert {name: found[name].attrs["symbol"] for name in symbols} == symbols
     sizes = {name: value for name, value in RIG.items() if name != "radius"}
     deeper = physical(**sizes, radius=[50.0, 60.0], depth=[1e-3, 2e-3], tangential_amplitude=1e-3)
-    assert repr(deeper) == "<PhysicalContact: 4 = 2 radius × 2 depth>"
+    assert repr(deeper).splitlines()[0] == "<PhysicalContact: 4 = 2 radius × 2 depth>"
     both = physical(**RIG, normal_force=[150.0], tangential_amplitude=1e-3).solve(1e-3, constants=pair)
     assert both.cycles.dims == ("normal_force", "body")
     assert both.cycles[0, 1] < both.cycles[0, 0]

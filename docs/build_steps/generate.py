@@ -3,6 +3,7 @@
 import shutil
 from pathlib import Path
 
+from build_steps.best_and_worst import draw_best_and_worst
 from build_steps.citation import citation
 from build_steps.commands import commands
 from build_steps.gallery import gallery
@@ -34,6 +35,7 @@ def generate(folder: Path) -> None:
     draw_house(WHOLE, folder / "house.svg")
     draw_house(MECHANICS, folder / "mechanics.svg")
     draw_profiles(folder)
+    draw_best_and_worst(ROOT, folder / "best_and_worst.svg")
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
 
 

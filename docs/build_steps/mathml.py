@@ -5,14 +5,21 @@ from docutils.utils.math import latex2mathml
 from sphinx.application import Sphinx
 from sphinx.writers.html5 import HTML5Translator
 
+#: Without these browsers take a bar for a relation, with spaces around it: |τ | for |τ|.
+_BAR, _TIGHT = '<mo stretchy="false">|</mo>', '<mo stretchy="false" lspace="0" rspace="0">|</mo>'
+
+
+def _mathml(text: str, as_block: bool = False) -> str:
+    return latex2mathml.tex2mathml(text, as_block=as_block).replace(_BAR, _TIGHT)
+
 
 def _inline(writer: HTML5Translator, node: nodes.math) -> None:
-    writer.body.append(latex2mathml.tex2mathml(node.astext()))
+    writer.body.append(_mathml(node.astext()))
     raise nodes.SkipNode
 
 
 def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
-    writer.body.append(f"<div>{latex2mathml.tex2mathml(node.astext(), as_block=True)}</div>\n")
+    writer.body.append(f"<div>{_mathml(node.astext(), as_block=True)}</div>\n")
     raise nodes.SkipNode
 
 

@@ -20,7 +20,7 @@ _ELSEWHERE = {
 }
 #: Sections of pages that show what a table in the package holds.
 _TABLES = {
-    "swtstudy.parameters.PARAMETERS": ("study_file", "parameters"),
+    "swtstudy.parameters.PARAMETERS": ("study_reference", "parameters"),
     "swtstudy.quantities.NAMED": ("study_file", "what-is-computed-beside-s"),
     "swtstudy.quantities.QUANTITIES": ("study_file", "what-is-computed-beside-s"),
 }

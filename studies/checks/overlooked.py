@@ -144,7 +144,9 @@ def shortfall(task: tuple[str, int, int, Path | None]) -> tuple[str, Array, list
     name, seed, chunk, kept = task
     points = SCENES[name][0](np.random.default_rng([seed, list(SCENES).index(name), chunk]))
     solved = [solve_points(points, rtol) for rtol in RTOLS]
-    dense, x = _dense(points, np.isfinite(solved[0].s) & (solved[0].s > 0.0), kept and kept / f"{task[:3]}.npz")
+    dense, x = _dense(
+        points, np.isfinite(solved[0].s) & (solved[0].s > 0.0), kept and kept / f"{task[:3]}.npz"
+    )
     some = np.isfinite(dense)
     low, error = (
         np.array([values[some] for values in of_each])

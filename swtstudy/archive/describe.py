@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.archive.recall import grid_of
 from swtstudy.axes import AXES, CONTACT_AXES
 from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
@@ -16,96 +15,122 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
-from swtstudy.wording import value_words
+from swtstudy.wording import number_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
-    """What an archive is: its study and versions, how complete and how accurate; line by line."""
+    """What results are: their study and versions, how complete and how accurate; line by line.
+
+    Those of `swtstudy.solve` have neither study nor versions.
+    """
+    yield str(dataset.attrs.get("title", "Results"))
+    for label, words in facts(dataset):
+        yield f"  {label:<13}  {words}"
+
+
+def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """The same as pairs of a label, which several may share, and what there is to say."""
     attributes = dataset.attrs
-    yield f"{attributes['title']}"
-    yield f"  made by        {attributes['source']} ({attributes['versions']})"
-    for line in attributes["history"].splitlines():
-        yield f"  history        {line}"
+    if "source" in attributes:
+        versions = f" ({attributes['versions']})" if "versions" in attributes else ""
+        yield "made by", f"{attributes['source']}{versions}"
+    for line in attributes.get("history", "").splitlines():
+        yield "history", line
     yield from _parameters(dataset)
     yield from _contact(dataset)
-    yield f"  prescribed     {grid_of(dataset).control.name}"
-    yield from _quantities(dataset)
-    yield f"  complete       {_completeness(dataset)}"
-    yield f"  asked for      rtol {attributes['rtol']:g}"
-    yield f"  accurate       {_accuracy(dataset)}"
-    yield f"  regimes        {_regimes(dataset)}"
-    yield from _runs(dataset)
-    yield from _failures(dataset)
-    yield f"  figure         {'yes' if 'figure' in attributes else 'no'}"
+    if "control" in dataset.coords:
+        yield "prescribed", str(dataset.control.item())
+    if "runs" in attributes:
+        yield from _quantities(dataset)
+    if "status" in dataset:
+        yield "complete", completeness(dataset)
+    if "rtol" in attributes:
+        yield "asked for", f"rtol {attributes['rtol']:g}"
+        yield "accurate", accuracy(dataset)
+    yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
+    if "runs" in attributes:
+        yield from _runs(dataset)
+    if "failures" in dataset.get("status", dataset.s).attrs:
+        yield from _failures(dataset)
+    if "figure" in attributes:
+        yield "figure", _figure_words(FigureLayout.from_json(attributes["figure"]))
 
 
-def _parameters(dataset: xr.Dataset) -> Iterator[str]:
+def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for name in map(str, dataset.s.dims):
         if name == SAMPLE:
-            yield f"  sample         {_sample_words(dataset[SAMPLE])}"
+            yield "sample", _sample_words(dataset[SAMPLE])
         else:
-            yield f"  axis           {name}: {_axis_words(name, dataset[name].values)}{_unit(dataset[name])}"
+            yield "axis", f"{name}: {_axis_words(name, dataset[name].values)}{_unit(dataset[name])}"
     for name in (*PARAMETERS, *CONTACT_AXES):
         if name not in dataset.coords or name in dataset.dims:
             continue
         values, unit = dataset[name].values, _unit(dataset[name])
         if not values.ndim:
-            yield f"  fixed          {name}: {value_words(name, dataset[name].item())}{unit}"
+            yield "fixed", f"{name}: {value_words(name, dataset[name].item())}{unit}"
         elif dataset[name].dims == ("body",):
-            yield f"  of each body   {name}: {_axis_words(name, values)}{unit}"
+            yield "of each body", f"{name}: {_axis_words(name, values)}{unit}"
         else:
-            yield f"  sampled        {name}: {_range_words(name, values)}{unit}"
+            yield "sampled", f"{name}: {_range_words(name, values)}{unit}"
 
 
-def _quantities(dataset: xr.Dataset) -> Iterator[str]:
+def _quantities(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     asked = request_of(dataset, made_by(read_runs(dataset.attrs["runs"])))
     if asked.names:
-        yield f"  quantities     {', '.join(asked.names)}"
+        yield "quantities", ", ".join(asked.names)
     if asked.distances:
         distances = ", ".join(f"{value:.4g}" for value in asked.distances)
-        yield f"  distances      {distances}{_unit(dataset[DISTANCE])}"
+        yield "distances", f"{distances}{_unit(dataset[DISTANCE])}"
 
 
-def _regimes(dataset: xr.Dataset) -> str:
+def _figure_words(layout: FigureLayout) -> str:
+    """What the study's figure shows: "s over phase, a line for each normal_amplitude"."""
+    parts = [f"{', '.join(layout.y)} over {layout.x}"]
+    parts += [f"upwards {layout.vertical}"] * bool(layout.vertical)
+    parts += [f"a line for each {layout.hue}"] * bool(layout.hue)
+    parts += [f"a panel for each {layout.panels}"] * bool(layout.panels)
+    return ("" if layout.kind == "lines" else f"{layout.kind}: ") + ", ".join(parts)
+
+
+def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
+    """How many computed points have each regime that there is."""
     meanings = dataset.regime.attrs["flag_meanings"].split()
-    computed = dataset.status.values == COMPUTED
+    computed = (dataset.status == COMPUTED if "status" in dataset else dataset.regime.notnull()).values
     counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
-    return ", ".join(f"{n} {meaning}" for n, meaning in zip(counts, meanings, strict=False) if n)
+    return {meaning: int(n) for n, meaning in zip(counts, meanings, strict=False) if n}
 
 
-def _runs(dataset: xr.Dataset) -> Iterator[str]:
+def _runs(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     runs = read_runs(dataset.attrs["runs"])
     counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
     for number, run in enumerate(runs):
-        yield (
-            f"  run {number}          {counted[number]} points, rtol {run.rtol:g}, "
-            f"solver version {run.solver_version}, {run.seconds:.1f} s of computing, "
-            f"started {run.started}"
-        )
+        words = f"{counted[number]} points, rtol {run.rtol:g}, solver version {run.solver_version}, "
+        yield f"run {number}", f"{words}{run.seconds:.1f} s of computing, started {run.started}"
 
 
-def _failures(dataset: xr.Dataset) -> Iterator[str]:
+def _failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     failures = read_failures(dataset.status.attrs["failures"])
     for failure in failures[:_LISTED]:
-        yield f"  failed         {failure['point']}: {failure['message']}"
+        yield "failed", f"{failure['point']}: {failure['message']}"
     if len(failures) > _LISTED:
-        yield f"  failed         {len(failures) - _LISTED} more"
+        yield "failed", f"{len(failures) - _LISTED} more"
 
 
-def _contact(dataset: xr.Dataset) -> Iterator[str]:
+def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """What the results of a study with units say of its contacts, beside the values of parameters."""
     if has_units(dataset):
         given, _ = read_contact(dataset.attrs[CONTACT])
-        yield f"  units          {', '.join(vars(given.units).values())}"
+        yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
-            yield f"  material       {', '.join(f'{name} {v:g}' for name, v in vars(material).items())}"
+            yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())
         if given.materials:
-            yield f"  lives          {_counted_words(dataset)}"
+            yield "lives", _counted_words(dataset)
 
 
 def _counted_words(dataset: xr.Dataset) -> str:
@@ -143,7 +168,8 @@ def _range_words(name: str, values: np.ndarray) -> str:
     return f"from {value_words(name, min(known))} to {value_words(name, max(known))}"
 
 
-def _completeness(dataset: xr.Dataset) -> str:
+def completeness(dataset: xr.Dataset) -> str:
+    """How many points are computed, failed, missing."""
     counts = np.bincount(dataset.status.values.astype(int).ravel(), minlength=len(STATES))
     return ", ".join(f"{count} {state}" for count, state in zip(counts, STATES, strict=False) if count)
 
@@ -154,12 +180,12 @@ def relative_errors(dataset: xr.Dataset) -> FloatArray:
     return relative[np.isfinite(relative)]
 
 
-def _accuracy(dataset: xr.Dataset) -> str:
+def accuracy(dataset: xr.Dataset) -> str:
+    """How large the estimated errors of s are."""
     relative = relative_errors(dataset)
     if not relative.size:
         return "no value of s"
     above = int((relative > dataset.attrs["rtol"]).sum())
-    return (
-        f"relative error of s estimated up to {relative.max():.1e}, median {np.median(relative):.1e}; "
-        f"{above} of {relative.size} points above rtol"
-    )
+    largest, median = (number_words(float(each), 2) for each in (relative.max(), np.median(relative)))
+    words = f"relative error of s estimated up to {largest}, median {median}"
+    return f"{words}; {above} of {relative.size} points above rtol"

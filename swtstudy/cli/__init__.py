@@ -22,6 +22,7 @@ from swtstudy.cli.new import new
 from swtstudy.cli.options import check_options
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
+from swtstudy.cli.report import report
 from swtstudy.cli.run import run
 from swtstudy.cli.schema import schema
 from swtstudy.cli.sensitivity import sensitivity
@@ -36,8 +37,22 @@ BAD_INPUT = 2
 STOPPED = 130
 
 
+#: The commands by what they are for, as help lists them.
+_SECTIONS = {
+    "Studies": ("new", "validate", "plan", "run", "list", "schema"),
+    "Results": ("report", "plot", "info", "merge"),
+    "Single points": ("solve", "show"),
+    "What matters, and checks": ("sensitivity", "check", "audit"),
+}
+
+
 class _Commands(click.Group):
     """A group whose commands answer bad input with one line per mistake, never with a traceback."""
+
+    def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
+        for title, names in _SECTIONS.items():
+            with formatter.section(title):
+                formatter.write_dl([(name, _first_sentence(self.commands[name])) for name in names])
 
     def resolve_command(
         self, context: click.Context, args: list[str]
@@ -63,6 +78,11 @@ class _Commands(click.Group):
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
+
+
+def _first_sentence(command: click.Command) -> str:
+    """What a command does, uncut."""
+    return " ".join(str(command.help).split("\n\n")[0].split())
 
 
 def _log_to_terminal() -> None:
@@ -95,6 +115,7 @@ _COMMANDS = (
     plan,
     validate,
     plot,
+    report,
     check,
     info,
     merge,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -9,9 +10,41 @@ from typing import Any
 import click
 
 from swtstudy.mistakes import Mistake, StudyError, meant
+from swtstudy.parameters import PARAMETERS
 
 #: Placeholder of an option that takes several values, separated by commas.
 SEVERAL = "VALUES"
+
+
+#: Parts of parameters as headings of help.
+_PARTS = {
+    "load": "The load",
+    "shape": "The profile and its shape",
+    "body": "The bodies",
+    "bulk": "Bulk stress",
+    "criterion": "The criterion",
+}
+
+
+class InSections(click.Command):
+    """A command whose many parameters are listed by what they are a part of."""
+
+    def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:
+        sections: dict[str, list[tuple[str, str]]] = {title: [] for title in (*_PARTS.values(), "Options")}
+        for each in self.get_params(context):
+            row = PARAMETERS.get(str(each.name))
+            title = _PARTS[row.part] if row else "Options"
+            record = each.get_help_record(context)
+            if record:
+                sections[title].append(record)
+        for title, records in sections.items():
+            with formatter.section(title):
+                formatter.write_dl(records)
+
+
+def on_terminal() -> bool:
+    """Whether people read what is printed: not in a pipe or a file."""
+    return sys.stdout.isatty()
 
 
 def with_width(command: Callable[..., Any]) -> Callable[..., Any]:

@@ -8,17 +8,18 @@ from typing import Any
 import click
 
 from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import InSections, with_width
 from swtstudy.cli.solve import with_parameters
 from swtstudy.parameters import PARAMETERS
 
 
 @click.command(
+    cls=InSections,
     epilog=examples(
         "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
         "swtstudy show --profile rounded_punch --flat-radius 0.5",
         "swtstudy show --profile worn.csv",
-    )
+    ),
 )
 @with_parameters("VALUE")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")

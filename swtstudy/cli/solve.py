@@ -11,7 +11,7 @@ import click
 from swtstudy.accuracy import DEFAULT_RTOL
 from swtstudy.axes import QUANTITY_AXES
 from swtstudy.cli.examples import examples
-from swtstudy.cli.options import SEVERAL
+from swtstudy.cli.options import SEVERAL, InSections, on_terminal
 from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE, NAMED
 
@@ -20,6 +20,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _DISTANCE = QUANTITY_AXES[DISTANCE]
+
+
+#: Why there is no s in a regime.
+WHY = {
+    "not_finite": "s is infinite, since swt grows without bound towards the edge of the contact",
+    "no_equilibrium": "there is no s, since friction does not carry the force, or the normal force pulls",
+}
 
 
 def _short(value: object) -> str:
@@ -43,11 +50,12 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 
 
 @click.command(
+    cls=InSections,
     epilog=examples(
         "swtstudy solve --phase 0,pi/2",
         "swtstudy solve --quantities dissipation,stick_radius --tangential-amplitude 0.2,0.4",
         "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
-    )
+    ),
 )
 @with_parameters(SEVERAL)
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
@@ -59,6 +67,8 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 )
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
+
+    The columns are aligned on a terminal, and parted by tabs in a pipe or a file.
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
@@ -72,7 +82,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
     columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
     more = _more(dataset, columns)
-    click.echo("\t".join([*dims, *columns, *more]))
+    lines = [[*dims, *columns, *more]]
     rows = zip(*(dataset[name].values.ravel() for name in columns), *more.values(), strict=True)
     for place, (s, error, surface, x, angle, regime, *others) in zip(places, rows, strict=True):
         numbers = (
@@ -84,7 +94,35 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
             REGIMES[int(regime)],
             *(f"{value:.6g}" for value in others),
         )
-        click.echo("\t".join([*map(_short, place), *numbers]))
+        lines.append([*map(_short, place), *numbers])
+    for line in aligned(lines) if on_terminal() else map("\t".join, lines):
+        click.echo(line)
+    known = {REGIMES[int(regime)] for regime in dataset.regime.values.ravel()}
+    for name in known & WHY.keys():
+        click.echo(f"{name}: {WHY[name]}", err=True)
+
+
+def aligned(lines: list[list[str]]) -> list[str]:
+    """Lines whose columns are as wide as they need to be, words to the left and numbers to the right.
+
+    Examples
+    --------
+    >>> for line in aligned([["phase", "s"], ["0", "0.142857"], ["1.5708", "0.15"]]):
+    ...     print(line)
+     phase         s
+         0  0.142857
+    1.5708      0.15
+    """
+    columns = list(zip(*lines, strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    left = [column[-1][-1:].isalpha() and column[-1] != "nan" for column in columns]
+    return [
+        "  ".join(
+            f"{cell:{'<' if own else '>'}{width}}"
+            for cell, own, width in zip(line, left, widths, strict=True)
+        ).rstrip()
+        for line in lines
+    ]
 
 
 def _more(dataset: xr.Dataset, columns: tuple[str, ...]) -> dict[str, NDArray]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.contacts.overview import as_html, as_text
 from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
 from swtstudy.grid.reading import read_distances, read_grid
@@ -73,12 +74,10 @@ class PhysicalContact:
         several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
         words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
         count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
-        return f"<PhysicalContact: {count}{words}>"
+        return f"<PhysicalContact: {count}{words}>\n{as_text(self)}"
 
     def _repr_html_(self) -> str:
         """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
-        from swtstudy.contacts.overview import as_html
-
         return as_html(self)
 
     def __getattr__(self, name: str) -> Any:

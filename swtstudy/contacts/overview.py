@@ -37,6 +37,16 @@ def as_html(contact: PhysicalContact) -> str:
     return f"<div><b>Real contact</b>, in any consistent set of units<table>{body}</table></div>"
 
 
+def as_text(contact: PhysicalContact) -> str:
+    """The same in lines: a name, its value and its meaning in columns."""
+    rows = [*_rows(contact)]
+    kinds, names, values = (max(len(row[column]) for row in rows) for column in range(3))
+    return "\n".join(
+        f"  {kind:<{kinds}}  {name:<{names}}  {value:>{values}}  {meaning}".rstrip()
+        for kind, name, value, meaning in rows
+    )
+
+
 def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
     grid = contact.grid
     table = rows(Units(*(f"the unit of {kind}" for kind in KINDS)))

@@ -9,6 +9,7 @@ from swtstudy.axes import AXES
 from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
+from swtstudy.figures.loop_legend import loops_of
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
@@ -136,7 +137,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         words = quantity_words(values, y)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
-                draw_lines(one, panel, layout, scale)
+                draw_lines(one, panel, y, layout, scale)
         else:
             flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
             surfaces = [panel.value.rename(values.name) for panel in flat]
@@ -159,7 +160,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         figure.suptitle(layout.title)
     if scale and layout.hue:
         add_scale(figure, axes, scale, dataset[layout.hue])
-    add_legend(figure, axes)
+    add_legend(figure, axes, loops_of(dataset) if layout.hue == "load" else {})
     return figure
 
 

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
+
+from matplotlib.lines import Line2D
+
+from swtstudy.figures.loop_legend import HANDLE, LoopHandler
 
 if TYPE_CHECKING:
     from matplotlib.legend import Legend
     from numpy.typing import NDArray
 
     from swtstudy.figures.figure import Figure
+    from swtstudy.mechanics.load.load_path import LoadPath
 
+_NO_LOOPS: Mapping[str, Any] = MappingProxyType({})
 #: Points in an inch.
 _POINTS = 72.0
 
 
-def add_legend(figure: Figure, axes: NDArray[Any]) -> None:
+def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, LoadPath] = _NO_LOOPS) -> None:
     """Add one legend for all panels, lines before markers; no entry is cut off.
 
     Parameters
@@ -24,6 +32,8 @@ def add_legend(figure: Figure, axes: NDArray[Any]) -> None:
         than all panels; in print the letters of the legend get smaller there.
     axes
         Its panels.
+    loops
+        What lines are about, by their labels, if loops: drawn beside their samples.
     """
     handles: dict[str, Any] = {}
     for one in axes.flat:
@@ -32,14 +42,19 @@ def add_legend(figure: Figure, axes: NDArray[Any]) -> None:
     labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
     if not labels:
         return
-    place_legend(figure, [handles[label] for label in labels], labels)
+    look: dict[str, Any] = {"handler_map": {Line2D: LoopHandler(loops)}, **HANDLE} if loops else {}
+    place_legend(figure, [handles[label] for label in labels], labels, look)
 
 
-def place_legend(figure: Figure, handles: list[Any], labels: list[str]) -> None:
+def place_legend(
+    figure: Figure, handles: list[Any], labels: list[str], look: Mapping[str, Any] = _NO_LOOPS
+) -> None:
     """Add a legend of these entries in as many columns as fit; see `add_legend`."""
     size: float | None = None
     for count in (*range(len(labels), 0, -1), 1):
-        legend = figure.legend(handles, labels, loc="outside lower center", ncols=count, fontsize=size)
+        legend = figure.legend(
+            handles, labels, loc="outside lower center", ncols=count, fontsize=size, **look
+        )
         width, height = _inches(legend, figure.dpi)
         if width <= figure.get_figwidth() or size is not None:
             break

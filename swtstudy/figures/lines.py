@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rcParams
 
 from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
-from swtstudy.quantities import DISTANCE
+from swtstudy.quantities import DISTANCE, QUANTITIES
 from swtstudy.study.figure import FigureLayout
 
 if TYPE_CHECKING:
@@ -23,10 +24,15 @@ if TYPE_CHECKING:
 _MARK_EVERY = 0.1
 #: An error below this fraction of the panel's range of values is thinner than its line.
 _VISIBLE_ERROR = 0.004
+#: A step of a place is a jump from this share of its range, if it is so many times those beside it.
+_FAIR_SHARE, _LONGER = 0.02, 3.0
+_NONE = np.array([], dtype=np.intp)
+#: The plane of a normal at this angle, in degrees, is that at 0.
+_HALF_TURN = 180.0
 
 
 def draw_lines(
-    axes: Axes, panel: xr.Dataset, layout: FigureLayout, scale: ScalarMappable | None = None
+    axes: Axes, panel: xr.Dataset, y: str, layout: FigureLayout, scale: ScalarMappable | None = None
 ) -> None:
     """Draw the curves of one panel.
 
@@ -37,6 +43,8 @@ def draw_lines(
     panel
         Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; and
         ``regime``, if that is to be marked.
+    y
+        The quantity, as the layout names it.
     layout
         What goes where.
     scale
@@ -55,20 +63,62 @@ def draw_lines(
         if flag_words(whole):
             look["drawstyle"] = "steps-mid"
         curve = part.value.values
-        across, up = (curve, x) if layout.kind == "life" else (x, curve)
+        gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y) if may_jump(y) else _NONE
+        at, broken = np.insert(x, gaps, np.nan), np.insert(curve, gaps, np.nan)
+        across, up = (broken, at) if layout.kind == "life" else (at, broken)
         (line,) = axes.plot(across, up, **look)
+        _mark_jumps(axes, x, curve, gaps, line.get_color())
         banded = layout.kind != "life" and visible > 0.0 and "error" in part
         if banded and np.any(part.error.values > visible):
             low, high = curve - part.error.values, curve + part.error.values
             axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
         if layout.regimes:
-            mark_regimes(axes, x, curve, _names(part.regime), line.get_color())
+            mark_regimes(axes, x, curve, _names(part.regime))
     if layout.kind == "life":
         _scale_upright(axes, x, layout.x)
         return
     _scale_axes(axes, x, whole, layout.x)
     if layout.regimes:
         shade_without(axes, x, [_names(part.regime) for part in parts])
+
+
+def may_jump(name: str) -> bool:
+    """Whether a quantity belongs to the place of a maximum, which jumps where another one takes over.
+
+    Places and planes themselves, and what is found about a place: means over a volume or a line.
+    """
+    row = QUANTITIES.get(name)
+    about = ("_position", "_volume", "_point", "_line")
+    known = name in ("critical_x", "critical_angle") or name.endswith(about)
+    return known or (row is not None and row.is_place)
+
+
+def place_jumps(curve: NDArray[Any], name: str) -> NDArray[np.intp]:
+    """Indices of the points of a curve that another maximum begins at.
+
+    A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it: a
+    steep part of a curve has steps of its length on both sides.
+    """
+    step = np.abs(np.diff(curve))
+    if name == "critical_angle":
+        step = np.minimum(step, _HALF_TURN - step)  # a plane has no direction
+    known = curve[np.isfinite(curve)]
+    if len(known) < 3:
+        return _NONE
+    beside = np.fmax(np.append(0.0, step[:-1]), np.append(step[1:], 0.0))
+    jump = (step > _FAIR_SHARE * np.ptp(known)) & (step > _LONGER * beside)
+    return np.flatnonzero(jump) + 1
+
+
+def _mark_jumps(
+    axes: Axes, x: NDArray[Any], curve: NDArray[Any], gaps: NDArray[np.intp], colour: Any
+) -> None:
+    """Open dots at both ends of a gap."""
+    if len(gaps):
+        ends = np.concatenate([gaps - 1, gaps])
+        size = 0.8 * rcParams["lines.markersize"]
+        look: dict[str, Any] = {"linestyle": "none", "marker": "o", "markersize": size, "zorder": 3}
+        axes.plot(x[ends], curve[ends], color=colour, markerfacecolor="white", **look)
 
 
 def _names(regime: xr.DataArray) -> list[str | None]:

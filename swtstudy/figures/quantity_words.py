@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.criteria import SWT, SYMBOLS
 from swtstudy.families import family_of
 from swtstudy.grid.values import as_number
-from swtstudy.quantities import attributes_of, every_variable
+from swtstudy.quantities import QUANTITIES, attributes_of, every_variable
 from swtstudy.records.labelled import ATTRIBUTES
 from swtstudy.study.figure import reference
 from swtstudy.wording import as_text, place_words
@@ -42,14 +42,31 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     known = {**ATTRIBUTES, **{name: attributes_of(name) for name in every_variable()}}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
+    if not kept and symbol and _is_unfamiliar(str(values.name)):
+        words = f"{_meaning(values)}, {words}"
     return words if units in (None, "1") else f"{words} ({as_text(_UNITS.get(units, units))})"
+
+
+def _is_unfamiliar(name: str) -> bool:
+    """Whether a symbol alone says too little: lives, means of SWT, places."""
+    return name.startswith(("cycles", "SWT_", "critical_")) and name not in ("critical_angle",)
+
+
+def _meaning(values: xr.DataArray) -> str:
+    """What an unfamiliar symbol stands for, in a few words."""
+    if is_life(values.attrs):
+        return "rounds to a crack"
+    nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
+    if nonlocal_one:
+        return nonlocal_one.meaning.replace("swt", "SWT")
+    return str(values.attrs.get("long_name", values.name)).removesuffix(" x/a_H")
 
 
 def title_words(values: xr.DataArray, y: str) -> str:
     """The quantity in the title of a panel: its symbol."""
     if y.strip() == "s":
         return "$s$"
-    return quantity_words(values.assign_attrs(units="1"), y)
+    return quantity_words(values.assign_attrs(units="1"), y).rpartition(", ")[2]
 
 
 def part_words(part: xr.Dataset, name: str) -> str:

@@ -33,6 +33,8 @@ LOG_RATIO = 100.0
 _DECADE = 10.0
 #: Where no line has a value: what is said there.
 _WITHOUT = {"not_finite": "not finite", "no_equilibrium": "no equilibrium"}
+#: Marks mean the same on every line: the legend shows them in no line's colour.
+_GREY = "0.25"
 #: Size of a mark over that of other markers.
 _SIZE = 1.4
 #: Words stand upright where they have less than this share of a panel.
@@ -41,9 +43,7 @@ _NARROW = 0.3
 _EQUAL = 1e-6
 
 
-def mark_regimes(
-    axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None], colour: Any
-) -> None:
+def mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None]) -> None:
     """Mark the points of a line where the regime changes; there is one for each point, None if unknown."""
     for place in range(1, len(regimes)):
         before, name = regimes[place - 1 : place + 1]
@@ -53,7 +53,7 @@ def mark_regimes(
             # On white and above all lines, or marks where these come together were buried.
             style: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "white", "zorder": 4}
             style["markersize"] = _SIZE * rcParams["lines.markersize"]
-            axes.plot(x[at : at + 1], s[at : at + 1], marker=MARKS[name], color=colour, label=words, **style)
+            axes.plot(x[at : at + 1], s[at : at + 1], marker=MARKS[name], color=_GREY, label=words, **style)
 
 
 def shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.figures.style import Style, styled
 from swtstudy.files import replacing
@@ -31,8 +31,27 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
     if suffix not in FORMATS:
         raise ValueError(f"{path}: found {suffix or 'no ending'}; allowed: {', '.join(FORMATS)}")
     # Drawn in memory first: it takes seconds, and a process killed meanwhile would leave an unfinished file.
-    picture = BytesIO()
-    with styled(style, getattr(figure, "width", None)):
-        figure.savefig(picture, format=suffix[1:], metadata=_NO_DATE.get(suffix))
+    content = picture(figure, suffix[1:], style)
     with replacing(path) as temporary:
-        temporary.write_bytes(picture.getvalue())
+        temporary.write_bytes(content)
+
+
+def picture(figure: Figure, ending: str, style: Style | None = None, dpi: float | None = None) -> bytes:
+    """The content of a file with a figure: png, pdf, svg, or webp without loss.
+
+    Parameters
+    ----------
+    figure, style
+        As for `save_figure`.
+    ending
+        The format.
+    dpi
+        Pixels per inch, in the place of the style's.
+    """
+    content = BytesIO()
+    options: dict[str, Any] = {"pil_kwargs": {"lossless": True}} if ending == "webp" else {}
+    if dpi is not None:
+        options["dpi"] = dpi
+    with styled(style, getattr(figure, "width", None)):
+        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"), **options)
+    return content.getvalue()

@@ -29,11 +29,17 @@ if TYPE_CHECKING:
 #: Most ticks of a heat map's axes.
 _TICKS_ACROSS, _TICKS_UP = 9, 20
 
+#: More rows have smaller words.
+_MANY_ROWS = 16
+
 #: Approximate number of contours: as many as are legible with labels.
 _LEVELS = 13
 
 #: Panels have a scale of colours each where one fills less than this share of their common one.
-_COMMON = 0.25
+_COMMON = 0.15
+
+#: Colours of a lower luminance have white letters.
+_DARK = 0.18
 
 #: Contours that are smaller than this share of a panel in both directions are left out.
 _ISLAND = 0.05
@@ -61,7 +67,9 @@ def draw_surfaces(
         for one, surface in zip(axes, surfaces, strict=True):
             draw_surfaces(figure, np.array([one]), [surface], kind, words)
         return
-    look = _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind)}
+    look = (
+        _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind), "cmap": _colours(surfaces[0])}
+    )
     for one, surface in zip(axes, surfaces, strict=True):
         if kind == "heatmap":
             filled = draw_cells(one, surface, look)
@@ -75,6 +83,19 @@ def draw_surfaces(
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
+
+
+def _colours(surface: xr.DataArray) -> str:
+    """The colour map of a quantity: dark is kind, so that long lives are; a ratio is pale where it is 1."""
+    if is_ratio(surface):
+        return "PuOr_r"
+    own = str(rcParams["image.cmap"])
+    return (own[:-2] if own.endswith("_r") else f"{own}_r") if is_life(surface.attrs) else own
+
+
+def is_ratio(surface: xr.DataArray) -> bool:
+    """Whether a quantity is s over s at one place."""
+    return str(surface.attrs.get("symbol", "")) == "s/s_0"
 
 
 def _in_common(surfaces: list[xr.DataArray]) -> bool:
@@ -94,6 +115,9 @@ def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     if is_life(surfaces[0].attrs) and low > 0.0:
         return LogNorm(low, high) if kind == "heatmap" else _decades(low, high)
+    if is_ratio(surfaces[0]):
+        most = max(high - 1.0, 1.0 - low, 1e-3)
+        low, high = 1.0 - most, 1.0 + most
     if kind == "heatmap":
         return Normalize(low, high)
     return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
@@ -147,12 +171,22 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
     shown = levels if is_life(surface.attrs) else levels[::2]
-    axes.clabel(lines, shown, fontsize="x-small", fmt=_power if is_life(surface.attrs) else "%g")
+    look_of_labels: dict[str, Any] = {"fmt": _power} if is_life(surface.attrs) else {"fmt": "%g"}
+    inks = [_ink(filled, float(level)) for level in shown]
+    for words in axes.clabel(lines, shown, fontsize="x-small", colors=inks, **look_of_labels):
+        words.set_color(words.get_color()[:3])  # not as pale as the lines
+        words.set_alpha(1.0)
     if surface.name == "s":
         _draw_extrema(axes, surface)
     axes.grid(False)
     _tick_angles(axes, surface)
     return filled
+
+
+def _ink(colours: ScalarMappable, level: float) -> str:
+    """Black or white, whichever is read on the colours beside a level."""
+    red, green, blue, _ = colours.to_rgba(level)  # type: ignore[arg-type]
+    return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > _DARK else "white"
 
 
 def _power(value: float) -> str:
@@ -214,5 +248,5 @@ def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
     axes.grid(False)
     for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
         tick_cells(axis, [as_text(value_words(name, value)) for value in surface[name].values.tolist()], most)
-    axes.tick_params(axis="y", labelsize="small")
+    axes.tick_params(axis="y", labelsize="small" if len(rows) <= _MANY_ROWS else "x-small")
     return mesh

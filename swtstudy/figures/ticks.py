@@ -21,7 +21,7 @@ _DECADES = 1e3
 #: Most steps between ticks, however long the axis.
 _STEPS = 6
 #: Width of a letter, and distance of two labels upwards, in em.
-_LETTER, _UPWARDS = 0.62, 1.2
+_LETTER, _UPWARDS = 0.62, 1.1
 #: Largest denominator of a multiple of π that is ticked.
 _DENOMINATOR = 4
 

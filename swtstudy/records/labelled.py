@@ -75,7 +75,7 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
     },
     "regime": {
         "long_name": "regime of the contact",
-        "comment": "over the stationary cycle",
+        "comment": "over the stationary cycle; in Python dataset.swt.words() gives its words",
         "flag_values": np.arange(len(REGIMES), dtype=np.int8),
         "flag_meanings": " ".join(REGIMES),
     },

@@ -33,4 +33,6 @@ def extrema(dataset: xr.Dataset, dim: str) -> xr.Dataset:
         parts[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
     words = {"long_name": "maximum over minimum of s", "comment": f"along {dim}", "units": "1"}
     parts["ratio"] = (parts["maximum"] / parts["minimum"]).drop_attrs().assign_attrs(words)
-    return xr.Dataset(parts)
+    found = xr.Dataset(parts)
+    # The places that xarray indexes by bring coordinates without attributes.
+    return found.assign_coords({name: found[name].assign_attrs(dataset[name].attrs) for name in found.coords})

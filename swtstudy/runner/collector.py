@@ -29,15 +29,17 @@ class Collector:
         Saves them as parts.
     todo
         Number of points to be computed.
+    name
+        Name of the study.
     """
 
-    def __init__(self, records: Records, run: Run, writer: PartsWriter, todo: int) -> None:
+    def __init__(self, records: Records, run: Run, writer: PartsWriter, todo: int, name: str = "") -> None:
         self.records = records
         self.pace = Pace()
         self._run = run
         self._writer = writer
         self._weights = weights(records.table)
-        self._bar = ProgressBar(todo)
+        self._bar = ProgressBar(todo, name=name)
 
     def __enter__(self) -> Collector:
         return self

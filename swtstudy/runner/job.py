@@ -171,7 +171,7 @@ def _compute(
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
     own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
-    collector = Collector(work.records, own, writer, work.todo)
+    collector = Collector(work.records, own, writer, work.todo, path.stem)
     weight = collector.pace.chunk_weight
     todo = (
         chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, weight, asked)

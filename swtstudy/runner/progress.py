@@ -6,21 +6,22 @@ import logging
 import sys
 import time
 from collections.abc import Callable
+from shutil import get_terminal_size
 from typing import TextIO
 
 from swtstudy.grid.cost import duration
 
 _log = logging.getLogger(__name__)
 
-#: Width of the bar in characters: with the words it fits into a line of 80.
-_WIDTH = 30
+#: Most and fewest characters of the bar: without room for the fewest there is none.
+_WIDTH, _LEAST = 30, 6
 
 #: Seconds between two lines in a log, and between two updates of the bar.
 _LINE_SECONDS, _BAR_SECONDS = 30.0, 0.1
 
 
 class ProgressBar:
-    """Counts finished points, and shows their rate and the time left.
+    """Counts finished points, and shows their rate and the time left; on a terminal at once.
 
     Parameters
     ----------
@@ -31,16 +32,25 @@ class ProgressBar:
         default `sys.stderr`, which is None in a process without one.
     clock
         Returns increasing seconds.
+    name
+        What is computed.
     """
 
     def __init__(
-        self, total: int, stream: TextIO | None = None, clock: Callable[[], float] = time.monotonic
+        self,
+        total: int,
+        stream: TextIO | None = None,
+        clock: Callable[[], float] = time.monotonic,
+        name: str = "",
     ) -> None:
         self.total = total
+        self._name = name
         self.done = 0
         self._terminal = _terminal(sys.stderr if stream is None else stream)
         self._clock = clock
         self._begin = self._shown = clock()
+        if total:
+            self._show(f"0 of {total} points")
 
     def add(self, points: int) -> None:
         """Count more points as done."""
@@ -50,15 +60,20 @@ class ProgressBar:
         if now - self._shown < every and self.done < self.total:
             return
         if self._terminal is not None:
-            self._write(f"\r{bar(self.done, self.total)}  {self._words(now)}\x1b[K")
+            self._show(self._words(now))
         elif now - self._begin >= _LINE_SECONDS:
-            _log.info(self._words(now))
+            _log.info(f"{self._name}: {self._words(now)}" if self._name else self._words(now))
         self._shown = now
 
     def close(self) -> None:
         """End the line of the bar."""
-        if self.done:
+        if self.total:
             self._write("\n")
+
+    def _show(self, said: str) -> None:
+        if self._terminal is not None:
+            columns = get_terminal_size().columns
+            self._write(f"\r{line(self._name, self.done / self.total, said, columns)}\x1b[K")
 
     def _write(self, text: str) -> None:
         if self._terminal is None:
@@ -81,17 +96,38 @@ def _terminal(stream: TextIO | None) -> TextIO | None:
         return None
 
 
-def bar(done: int, total: int) -> str:
+def line(name: str, share: float, said: str, columns: int) -> str:
+    """A name, a bar and words in a line that no terminal of so many columns breaks.
+
+    Examples
+    --------
+    >>> line("figure3", 0.25, "50 of 200 points", 50)
+    'figure3  █████▌                  50 of 200 points'
+    >>> line("figure3", 0.25, "50 of 200 points", 30)
+    'figure3  50 of 200 points'
+    >>> line("a_long_name_of_a_study", 0.25, "50 of 200 points", 30)
+    'a_long_nam…  50 of 200 points'
+    """
+    room = columns - 1 - len(said) - 2  # a line of all columns would be broken by some terminals
+    if name and len(name) > room:
+        name = f"{name[: room - 1]}…" if room > 1 else ""
+    left = f"{name}  " if name else ""
+    width = min(_WIDTH, room - len(left))
+    drawn = f"{bar(share, width)}  " if width >= _LEAST else ""
+    return f"{left}{drawn}{said}"[: columns - 1]
+
+
+def bar(share: float, width: int) -> str:
     """A bar whose length shows how much is done.
 
     Examples
     --------
-    >>> bar(50, 200)
+    >>> bar(0.25, 30)
     '███████▌                      '
     """
-    eighths = round(8 * _WIDTH * done / total)
+    eighths = round(8 * width * share)
     full = "█" * (eighths // 8) + " ▏▎▍▌▋▊▉"[eighths % 8].strip()
-    return f"{full:<{_WIDTH}}"
+    return f"{full:<{width}}"
 
 
 def words(done: int, total: int, seconds: float) -> str:

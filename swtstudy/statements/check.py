@@ -79,6 +79,19 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     return [_outcome(statement, archives, problems) for statement in STATEMENTS]
 
 
+def about_archive(name: str, dataset: xr.Dataset) -> list[Outcome]:
+    """The statements about one archive of the suite alone; none about another one.
+
+    Parameters
+    ----------
+    name
+        Name of the archive's study.
+    dataset
+        Its results.
+    """
+    return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS if each.studies == (name,)]
+
+
 def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
     """Add an archive to the others; return the reason if it cannot be used."""
     from swtstudy.archive.open import open_results

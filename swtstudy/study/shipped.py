@@ -2,12 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent.parent
 
 #: Where they are in an installed package, and in the source tree.
 _PLACES = (_PACKAGE / "studies", _PACKAGE.parent / "studies")
+
+
+#: The studies by what they are about, in the order in which they are listed.
+GROUPS: dict[str, tuple[str, ...]] = {
+    "The paper": (
+        *(f"figure{number}" for number in range(3, 9)),
+        *("frequencies", "other_frequencies", "friction", "poisson_ratio", "tangential_amplitude"),
+    ),
+    "Loads": ("contour", "force_control", "loops", "bulk_stress"),
+    "Parameters": ("sensitivity", "walker_exponent"),
+    "Real contacts": ("sphere_on_flat", "fretting_map", "life", "critical_distance"),
+    "Limits": ("stability", "stability_friction", "stability_small_motion", "stability_thin_annulus"),
+    "Random points, for swtstudy audit": ("parameter_box", "bulk_stress_box"),
+}
+#: The group of a study that none of these is.
+OTHERS = "Others"
+
+
+def in_groups(names: Iterable[str]) -> dict[str, list[str]]:
+    """Names of studies by group; those of no group last."""
+    names = list(names)
+    known = [name for group in GROUPS.values() for name in group]
+    found = {group: [name for name in own if name in names] for group, own in GROUPS.items()}
+    found[OTHERS] = [name for name in names if name not in known]
+    return {group: own for group, own in found.items() if own}
 
 
 def shipped_folder() -> Path:

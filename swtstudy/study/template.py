@@ -87,6 +87,7 @@ young_modulus = 73.1e3  # of both bodies; or of each, [73.1e3, 71e3]
 poisson_ratio = 0.33
 radius = 50             # 1/R = 1/R1 + 1/R2
 normal_force = 200      # or depth
+normal_amplitude = 2e-3 # of the depth; with 0 the phase would do nothing
 friction = 0.5
 {_with_units()}
 
@@ -107,7 +108,7 @@ y = ["SWT", "cycles"]
 #: What the template with units uses.
 _USED_WITH_UNITS = (
     *("young_modulus", "poisson_ratio", "radius", "normal_force", "friction", "profile"),
-    *("tangential_amplitude", "phase"),
+    *("normal_amplitude", "tangential_amplitude", "phase"),
 )
 
 

@@ -184,9 +184,7 @@ class LocalSwt:
         arc = np.minimum(places.angle, np.pi - places.angle)
         return np.stack([right / root, places.depth / root, arc], axis=1)
 
-    def swt(
-        self, places: Places, single: NDArray[np.bool_]
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def swt(self, places: Places, single: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray, FloatArray]:
         """swt over E* δ0/R at N places, an estimate of what is missing of it, (N,) each, and normals, (N, 3).
 
         Those that are ``single``, (N,), are searched until they can hide little: nothing averages that out.

@@ -1,0 +1,1 @@
+"""Archives as pages: one HTML file each, which needs nothing else."""

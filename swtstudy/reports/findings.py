@@ -1,0 +1,163 @@
+"""What matters in results, from their extrema: which parameter moves swt by how much, and where."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.archive.recall import grid_of
+from swtstudy.axes import AXES
+from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.reports.symbols import place_html, symbol_of, unit_of, value_text
+from swtstudy.results.extrema import extrema
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.wording import number_words
+
+#: A parameter that changes swt by less goes unmentioned in the sentences.
+_MOVES = 1.005
+
+
+@dataclass(frozen=True)
+class Lever:
+    """A dimension, and what it does where it does most.
+
+    Attributes
+    ----------
+    name
+        The dimension.
+    table
+        Its extrema, as of `swtstudy.results.extrema.extrema`, of swt where results have units.
+    there
+        The place along the other dimensions at which the ratio of the extrema is largest.
+    """
+
+    name: str
+    table: xr.Dataset
+    there: xr.Dataset
+
+    @property
+    def ratio(self) -> float:
+        """Greatest over least."""
+        return float(self.there.ratio)
+
+    @property
+    def chosen(self) -> bool:
+        """Whether it is of the load, of which there may be a better and a worse one."""
+        return AXES[self.name].part == "load"
+
+
+def measured(dataset: xr.Dataset) -> xr.DataArray:
+    """s; of real contacts SWT, since the unit of s differs from contact to contact."""
+    return dataset["SWT" if "SWT" in dataset else "s"]
+
+
+def levers(dataset: xr.Dataset) -> list[Lever]:
+    """Every dimension of more than one value: the phase first, which costs nothing to choose, then by ratio.
+
+    None of a sample, whose points differ in all that is sampled.
+    """
+    swt = measured(dataset)
+    found = []
+    for name in map(str, swt.dims):
+        if swt.sizes[name] < 2 or SAMPLE in swt.dims:
+            continue
+        table = extrema(dataset.assign(s=swt), name)
+        ratio = table.ratio.where(np.isfinite(table.ratio))
+        if not ratio.notnull().any():
+            continue
+        most = np.unravel_index(int(np.nanargmax(ratio.values)), ratio.shape)
+        there = table.isel(dict(zip(map(str, ratio.dims), most, strict=True)))
+        found.append(Lever(name, table, there))
+    return sorted(found, key=lambda lever: (lever.name != "phase", -lever.ratio))
+
+
+def sentences(dataset: xr.Dataset) -> list[str]:
+    """What matters, as HTML; the most important sentence first."""
+    swt = symbol_of(measured(dataset)) if "SWT" in dataset else "<i>s</i>"
+    said = [_sentence(lever, swt) for lever in levers(dataset) if lever.ratio > _MOVES]
+    return [*said, *_ranges(dataset, swt, bool(said))]
+
+
+def _sentence(lever: Lever, swt: str) -> str:
+    there = lever.there
+    where = place_words(there.drop_vars(["at_minimum", "at_maximum"]), lever.table)
+    words = ("best", "worst") if lever.chosen else ("least", "greatest")
+    least, greatest = (along(lever.name, there[f"at_{end}"]) for end in ("minimum", "maximum"))
+    named = f"The {re.split('[,:]', AXES[lever.name].meaning)[0]}"
+    if AXES[lever.name].kind != "name":
+        named += f" {symbol_of(there.at_minimum.rename(lever.name))}"
+    moves = f"{named} moves {swt} by <b>{number_words(lever.ratio, 3)} times</b>"
+    return f"{moves}{f' at {where}' if where else ''}: {words[0]} at {least}, {words[1]} at {greatest}."
+
+
+def along(name: str, place: xr.DataArray) -> str:
+    """A value of a dimension with its unit."""
+    return escape(" ".join(filter(None, (value_text(name, place.item()), unit_of(place)))))
+
+
+def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
+    """Where one place lies along the dimensions of a table of extrema."""
+    return ", ".join(place_html(one[name]) for name in map(str, of.ratio.dims))
+
+
+def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
+    """From where to where values go."""
+    values = measured(dataset)
+    if SAMPLE in values.dims or not one:
+        known = values.values[np.isfinite(values.values)]
+        if known.size > 1:
+            low, middle, high = np.percentile(known, (0, 50, 100))
+            ends = f"from {number_words(low)} to {number_words(high)}, median {number_words(middle)}"
+            yield f"Over {known.size} points {swt} goes {ends}{_blank(unit_of(values))}."
+    if "cycles" in dataset:
+        lives = dataset.cycles.values[np.isfinite(dataset.cycles.values)]
+        if lives.size:
+            least, most = (number_words(each, 2) for each in (lives.min(), lives.max()))
+            yield f"A crack starts after {least} to {most} rounds of the load, at the worst place."
+
+
+def _blank(unit: str) -> str:
+    return f" {escape(unit)}" if unit else ""
+
+
+def worst_place(dataset: xr.Dataset) -> dict[str, int]:
+    """Index of the greatest swt along each dimension; nothing if there is none."""
+    values = measured(dataset)
+    if not np.isfinite(values.values).any():
+        return {}
+    found = np.unravel_index(int(np.nanargmax(values.values)), values.shape)
+    return dict(zip(map(str, values.dims), map(int, found), strict=True))
+
+
+def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
+    """The point with the least and that with the greatest swt; one only where all are equal."""
+    values = measured(dataset)
+    flat = values.values.ravel()
+    if not np.isfinite(flat).any():
+        return {}
+    places = {"best": int(np.nanargmin(flat)), "worst": int(np.nanargmax(flat))}
+    if flat[places["best"]] == flat[places["worst"]]:
+        places.pop("best")
+    found = {}
+    for word, place in places.items():
+        index = np.unravel_index(place, values.shape) if values.ndim else ()
+        found[word] = dataset.isel(dict(zip(map(str, values.dims), index, strict=True)))
+    return found
+
+
+def parameters_of(one: xr.Dataset) -> dict[str, Any]:
+    """The parameters without units that one point of results was solved with, for `swtstudy.inspect`."""
+    grid = grid_of(one)
+    if isinstance(grid, PhysicalGrid):
+        body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
+        return PhysicalContact(grid).parameters(body)
+    return {
+        name: value for name, value in grid.fixed.items() if not grid.row(name).goes_without_saying(value)
+    }

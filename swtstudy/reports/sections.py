@@ -1,0 +1,215 @@
+"""The sections of a page: what was found, and how sure it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.archive.attributes import read_failures
+from swtstudy.archive.describe import accuracy, completeness, regime_counts, relative_errors
+from swtstudy.axes import AXES
+from swtstudy.figures.bars import draw_sensitivity
+from swtstudy.grid.grid import SAMPLE
+from swtstudy.mistakes import StudyError
+from swtstudy.records.records import COMPUTED
+from swtstudy.records.requested import CONTACT, has_units
+from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
+from swtstudy.reports.parts import Section, figure, section, table
+from swtstudy.reports.pictures import embedded, of_point
+from swtstudy.reports.symbols import place_html, share, symbol_html, symbol_of, unit_of, value_text
+from swtstudy.results.sensitivity import sensitivity
+from swtstudy.units.reading import read_contact
+from swtstudy.wording import number_words
+
+#: Most rows of a table of extrema, failed points and values of an axis that are listed one by one.
+_ROWS, _FAILURES, _LISTED = 12, 12, 8
+
+
+def tiles(dataset: xr.Dataset) -> str:
+    """The four numbers that one asks for first."""
+    relative, values = relative_errors(dataset), measured(dataset)
+    shape = " × ".join(map(str, values.shape)) or "one"
+    missing = values.size - int((dataset.status == COMPUTED).sum())
+    found = [
+        ("points", f"{values.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value")
+    ]
+    for word, one in extreme_points(dataset).items():
+        end = {"best": "least", "worst": "greatest"}[word]
+        swt = measured(one)
+        where = ", ".join(place_html(one[name]) for name in _varying(dataset))
+        value = f"{number_words(float(swt))} {escape(unit_of(swt))}".strip()
+        found.append((f"{end} {symbol_of(values)}", value, where))
+    if relative.size:
+        words = f"estimated, half of them below {share(float(np.median(relative)))}"
+        found.append(("relative error, at most", share(float(relative.max())), words))
+    each = (f"<div><dt>{a}</dt><dd>{b}<small>{c}</small></dd></div>" for a, b, c in found)
+    return f'<dl class="tiles">{"".join(each)}</dl>'
+
+
+def _varying(dataset: xr.Dataset) -> list[str]:
+    """Names of the parameters that differ from point to point."""
+    dims = {*map(str, dataset.s.dims)}
+    names = (str(name) for name, values in dataset.coords.items() if {*map(str, values.dims)} & dims)
+    return [name for name in names if name in AXES and dataset[name].size > 1]
+
+
+def extrema_section(dataset: xr.Dataset) -> Section:
+    """Least and greatest values along every dimension, for each place of the others."""
+    return section("extremes", "Extremes", *_extrema_tables(dataset))
+
+
+def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
+    symbol = symbol_of(measured(dataset))
+    for lever in levers(dataset):
+        ratio = lever.table.ratio
+        others = [str(name) for name in ratio.dims]
+        order = np.argsort(-np.nan_to_num(ratio.values.ravel(), nan=-1.0, posinf=-0.5), kind="stable")
+        rows = []
+        if len(order) > _ROWS:
+            known = order[np.isfinite(ratio.values.ravel()[order])]
+            order = known[[0, len(known) // 2, -1]]
+        for flat in order:
+            at = np.unravel_index(int(flat), ratio.shape) if others else ()
+            one = lever.table.isel(dict(zip(others, at, strict=True)))
+            cells = [along(name, one[name]) for name in others]
+            for end in ("minimum", "maximum"):
+                cells += [number_words(float(one[end])), along(lever.name, one[f"at_{end}"])]
+            rows.append([*cells, number_words(float(one.ratio), 3)])
+        own = symbol_of(dataset[lever.name])
+        head = [symbol_of(dataset[name]) for name in others]
+        head += [f"least {symbol}", f"at {own}", f"greatest {symbol}", f"at {own}", "ratio"]
+        count = len(others)
+        more = f": of {ratio.size} ratios the largest, the middle and the smallest" * (ratio.size > len(rows))
+        yield f"<h3>Along {own}, {escape(AXES[lever.name].meaning)}{more}</h3>"
+        yield table(head, rows, numbers=(count, count + 2, count + 4))
+
+
+def points_section(dataset: xr.Dataset) -> Section:
+    """The best and the worst point, as `swtstudy.inspect` draws them."""
+    parts = []
+    for word, one in extreme_points(dataset).items():
+        end = {"best": "least", "worst": "greatest"}[word]
+        where = ", ".join(place_html(one[name]) for name in _varying(dataset))
+        title = f"<h3>The {end} {symbol_of(measured(dataset))}{f': {where}' if where else ''}</h3>"
+        try:
+            picture = of_point(parameters_of(one))
+        except StudyError as error:
+            parts.append(f'{title}<p class="note">Not drawn: {escape(str(error))}</p>')
+            continue
+        words = f"Load path, slip, springs, tractions, stress cycle and swt of the point with the {end} value"
+        parts.append(f"<div>{title}{_point_line(one)}{figure(picture, words)}</div>")
+    body = f'<div class="points">{"".join(parts)}</div>' if parts else ""
+    return section("points", "Best and worst", body)
+
+
+def _point_line(one: xr.Dataset) -> str:
+    """What results say of one point, in a line."""
+    said = [f"<i>s</i> = {number_words(float(one.s))} ± {number_words(float(one.s_error), 2)}"]
+    names = ("SWT", "cycles", "critical_x", "critical_angle")
+    said += [place_html(one[name]) for name in names if name in one and not one[name].ndim]
+    said.append(escape(one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")))
+    return f"<p>{'; '.join(said)}.</p>"
+
+
+def settings_section(dataset: xr.Dataset) -> Section:
+    """Every parameter with its symbol, values and unit."""
+    rows: list[tuple[str, str, str, str]] = []
+    for name in [*map(str, dataset.s.dims), *map(str, dataset.coords)]:
+        if name in AXES and name not in ("body", "direction") and name not in (row[0] for row in rows):
+            values = dataset[name]
+            own = "<b>{}</b>" if values.size > 1 else "{}"
+            said = own.format(f"{escape(_values(name, values))} {escape(unit_of(values))}".strip())
+            symbol = "" if AXES[name].kind == "name" else symbol_of(values)
+            rows.append((name, symbol, escape(AXES[name].meaning), said))
+    control = escape(str(dataset.control.item())) if "control" in dataset.coords else ""
+    body = table(("symbol", "parameter", "value"), [row[1:] for row in rows], wide=True)
+    note = f'<p class="note">Prescribed: {control}.{_units_note(dataset)}</p>'
+    return section("settings", "Settings", note, body, *_materials(dataset))
+
+
+def _units_note(dataset: xr.Dataset) -> str:
+    length = "<i>a</i><sub>H</sub> = √(<i>R</i><i>δ</i><sub>0</sub>)"
+    return "" if has_units(dataset) else f" Lengths are in {length}."
+
+
+def _values(name: str, values: xr.DataArray) -> str:
+    known = np.atleast_1d(values.values)
+    if len(known) > _LISTED and known.dtype.kind in "fiu":
+        ends = (value_text(name, float(end)) for end in (known.min(), known.max()))
+        return f"{' to '.join(ends)} ({len(np.unique(known))} values)"
+    return ", ".join(dict.fromkeys(value_text(name, value) for value in known.tolist()))
+
+
+def _materials(dataset: xr.Dataset) -> Iterator[str]:
+    if has_units(dataset):
+        given, _ = read_contact(dataset.attrs[CONTACT])
+        for material in dict.fromkeys(given.materials):
+            rows = [(escape(name.replace("_", " ")), number_words(v)) for name, v in vars(material).items()]
+            yield "<h3>Strain-life constants</h3>" + table(("", ""), rows, numbers=(1,))
+
+
+def sureness_section(dataset: xr.Dataset, validity: list[str]) -> Section:
+    """Errors, regimes, failed points, and what limits the model."""
+    counts = regime_counts(dataset)
+    total = sum(counts.values())
+    shares = [(name.replace("_", " "), count / total) for name, count in counts.items()]
+    bar = "".join(
+        f'<span class="b{i % 7}" style="flex:{part:.5f}"></span>' for i, (_, part) in enumerate(shares)
+    )
+    key = "".join(
+        f'<li><i class="box b{i % 7}"></i>{escape(name)}, {share(part)}</li>'
+        for i, (name, part) in enumerate(shares)
+    )
+    regimes = f'<h3>Regimes</h3><div class="bar">{bar}</div><ul class="key">{key}</ul>' if total else ""
+    lines = "".join(f"<li>{escape(line)}</li>" for line in validity)
+    return section(
+        "sure",
+        "How sure",
+        f"<p>{_capital(escape(accuracy(dataset)))}. Points: {escape(completeness(dataset))}.</p>",
+        f"<h3>Where the model holds</h3><ul>{lines}</ul>" if validity else "",
+        regimes,
+        _failed(dataset),
+    )
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _failed(dataset: xr.Dataset) -> str:
+    failures = read_failures(dataset.status.attrs.get("failures", "[]"))
+    if not failures:
+        return ""
+    rows = [(escape(each["point"]), escape(each["message"])) for each in failures[:_FAILURES]]
+    more = f'<p class="note">and {len(failures) - _FAILURES} more.</p>' if len(failures) > _FAILURES else ""
+    return f"<h3>Failed points</h3>{table(('point', 'why'), rows)}{more}"
+
+
+def sensitivity_section(dataset: xr.Dataset) -> Section:
+    """Sobol indices of a sample whose design has them."""
+    if SAMPLE not in dataset.coords or dataset[SAMPLE].attrs.get("design") != "saltelli":
+        return section("matters", "What matters")
+    try:
+        indices = sensitivity(dataset)
+    except StudyError as error:
+        return section("matters", "What matters", f'<p class="note">No indices: {escape(str(error))}</p>')
+    axes = [str(dim) for dim in indices.total.dims if dim not in ("quantity", "parameter")]
+    flat = indices.isel(quantity=0).stack(place=[*axes, "parameter"]) if axes else indices.isel(quantity=0)
+    rows = []
+    for k in range(flat.total.size):
+        one = flat.isel({flat.total.dims[0]: k})
+        cells = [along(name, dataset[name].sel({name: one[name].item()})) for name in axes]
+        cells += [symbol_html(str(one.symbol.item())), escape(AXES[str(one.parameter.item())].meaning)]
+        for name in ("first_order", "total"):
+            low, high = (float(one[f"{name}_{end}"]) for end in ("low", "high"))
+            cells.append(f"{float(one[name]):.2f} ({low:.2f} to {high:.2f})")
+        rows.append(cells)
+    head = [symbol_of(dataset[name]) for name in axes] + ["", "parameter", "alone", "with others"]
+    words = (
+        "Sobol indices: the share of the variance of <i>s</i> that each sampled parameter is responsible for."
+    )
+    picture = figure(embedded(draw_sensitivity(indices)), "Bars of the Sobol indices in the table")
+    return section("matters", "What matters", f"<p>{words}</p>", picture, table(head, rows))

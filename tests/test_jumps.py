@@ -1,0 +1,110 @@
+"""Curves of places break where another maximum takes over; maps can be read on dark cells, ratios about 1."""
+
+from __future__ import annotations
+
+import matplotlib.text
+import numpy as np
+import pytest
+import xarray as xr
+from made_up import made_up
+
+from swtstudy.figures.draw import draw
+from swtstudy.figures.lines import may_jump, place_jumps
+from swtstudy.study.figure import FigureLayout
+
+X = np.linspace(0.0, 2.0 * np.pi, 49)
+
+
+@pytest.mark.parametrize(
+    ("curve", "jumps"),
+    [
+        (np.where(X < 3.0, 1.0 - 0.01 * X, -1.0), [int(np.argmax(X >= 3.0))]),
+        (np.cos(X), []),
+        (np.tanh(4.0 * (X - np.pi)), []),  # steep, with steps of its length beside one another
+        (np.full(49, 0.9), []),
+        (np.where(X < 1.0, np.nan, np.where(X < 4.0, 0.5, 0.9)), [int(np.argmax(X >= 4.0))]),
+        (
+            np.where(X < 2.0, 1.0, np.where(X < 5.0, 0.0, 1.0)),
+            [int(np.argmax(X >= 2.0)), int(np.argmax(X >= 5.0))],
+        ),
+    ],
+)
+def test_a_jump_is_a_step_much_longer_than_those_beside_it(curve: np.ndarray, jumps: list[int]) -> None:
+    assert place_jumps(curve, "critical_x").tolist() == jumps
+
+
+def test_a_plane_at_90_degrees_is_that_at_minus_90() -> None:
+    turning = (np.linspace(80.0, 100.0, 21) + 90.0) % 180.0 - 90.0
+    assert np.ptp(turning) > 170.0
+    assert place_jumps(turning, "critical_angle").tolist() == []
+    assert len(place_jumps(turning, "critical_x")) == 1
+
+
+def places() -> xr.Dataset:
+    dataset = made_up(lambda phase: 1.0 + 0.0 * phase, phase=X)
+    dataset["critical_x"] = dataset.critical_x.copy(data=np.where(X < 3.0, 0.9, -0.8))
+    return dataset
+
+
+def test_the_line_of_a_place_breaks_and_both_ends_are_marked() -> None:
+    (axes,) = draw(places(), FigureLayout("phase", y=("critical_x",))).axes
+    line, marks = axes.lines
+    assert np.isnan(line.get_ydata()).sum() == 1
+    assert marks.get_ydata() == pytest.approx([0.9, -0.8])
+    assert marks.get_linestyle() == "None"
+    (whole,) = draw(places(), FigureLayout("phase", y=("s",))).axes[0].lines
+    assert np.isfinite(whole.get_ydata()).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        ("critical_x", True),
+        ("volume_x", True),
+        ("critical_position", True),
+        ("s", False),
+        ("cycles", False),
+        ("cycles_volume", True),
+    ],
+)
+def test_which_quantities_are_places(name: str, place: bool) -> None:
+    assert may_jump(name) is place
+
+
+def luminance(colour: object) -> float:
+    from matplotlib.colors import to_rgb
+
+    return float(np.dot(np.array(to_rgb(colour)) ** 2.2, [0.2126, 0.7152, 0.0722]))  # type: ignore[arg-type]
+
+
+def test_words_on_contours_differ_from_what_is_beneath_them() -> None:
+    dataset = made_up(
+        lambda phase, normal_amplitude: 1.0 + normal_amplitude * (1.0 + 0.2 * np.cos(phase)),
+        phase=X,
+        normal_amplitude=np.linspace(0.1, 0.9, 20),
+    )
+    figure = draw(dataset, FigureLayout("phase", kind="contour", vertical="normal_amplitude"))
+    filled = next(each for each in figure.axes[0].collections if each.get_array() is not None)
+    labels = [
+        each
+        for each in figure.axes[0].findobj(matplotlib.text.Text)
+        if each.get_text().startswith(("1.", "2."))
+    ]
+    assert {each.get_color() for each in labels} == {(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)}
+    for each in labels:
+        beneath = luminance(filled.to_rgba(float(each.get_text()))[:3])
+        light, dark = sorted((luminance(each.get_color()), beneath), reverse=True)
+        assert (light + 0.05) / (dark + 0.05) > 4.0, each.get_text()
+
+
+def test_a_map_of_a_ratio_is_pale_where_it_is_1() -> None:
+    dataset = made_up(
+        lambda phase, normal_amplitude: 1.0 + normal_amplitude * np.sin(phase),
+        phase=X,
+        normal_amplitude=np.linspace(0.1, 0.9, 20),
+    )
+    layout = FigureLayout("phase", y=("s/s(phase=0)",), kind="heatmap", vertical="normal_amplitude")
+    mesh = draw(dataset, layout).axes[0].collections[0]
+    assert mesh.norm.vmin + mesh.norm.vmax == pytest.approx(2.0)
+    assert luminance(mesh.to_rgba(1.0)[:3]) > 0.85
+    assert max(luminance(mesh.to_rgba(end)[:3]) for end in mesh.get_clim()) < 0.15
