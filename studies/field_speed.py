@@ -19,7 +19,7 @@ from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, nodes_at
 from swtstudy.mechanics.line import surface_maximum
 from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.planes.all_planes import highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.field import contact_states
 from swtstudy.mechanics.stress.scene import scene_of
@@ -171,18 +171,16 @@ def planes(size):
     x, y, z = *rng.uniform(-1.5, 1.5, (2, size.points)), rng.uniform(0.0, 0.3, size.points)
     stress = body.stress(x, y, z)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))
-    coarse, first = timed(lambda: highest_coarse_swt(stress, POISSON, 1.0 - POISSON**2))
     normals = hemisphere(PLAIN_PLANES)
     parts = np.array_split(stress, 20)
     simple, plain = timed(lambda: np.concatenate([plain_search(part, normals) for part in parts]))
     high = found.swt > 0.1 * found.swt.max()
-    low, simply_low = (100 * (1.0 - swt[high] / found.swt[high]).max() for swt in (coarse, simple))
+    low = 100 * (1.0 - simple[high] / found.swt[high]).max()
     return [
         "",
-        f"swt over all plane orientations, {size.instants} instants: 256 planes take "
-        f"{1e6 * first / len(x):.0f} µs a point (up to {low:.1f} % low where swt is above a tenth of "
-        f"its maximum), refined to rounding {1e6 * full / len(x):.0f} µs a point. A plain vectorised search "
-        f"of {PLAIN_PLANES} planes takes {1e6 * plain / len(x):.0f} µs (up to {simply_low:.1f} % low).",
+        f"swt over all plane orientations, {size.instants} instants: to rounding "
+        f"{1e6 * full / len(x):.0f} µs a point. A plain vectorised search of {PLAIN_PLANES} planes takes "
+        f"{1e6 * plain / len(x):.0f} µs (up to {low:.1f} % low where swt is above a tenth of its maximum).",
     ]
 
 

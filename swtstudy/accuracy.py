@@ -5,13 +5,16 @@ from __future__ import annotations
 from swtstudy.mistakes import plain_number
 
 DEFAULT_RTOL = 1e-4
-SMALLEST_RTOL = 1e-8
+#: Closer, rounding would be most of the error.
+SMALLEST_RTOL = 1e-7
 LARGEST_RTOL = 0.1
+#: Archives of earlier versions may have been asked for as much.
+SMALLEST_STORED_RTOL = 1e-8
 
 #: The allowed range in words, for messages.
 ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
 
 
-def is_rtol(raw: object) -> bool:
+def is_rtol(raw: object, smallest: float = SMALLEST_RTOL) -> bool:
     """Whether a value is allowed as relative accuracy."""
-    return SMALLEST_RTOL <= plain_number(raw) <= LARGEST_RTOL
+    return smallest <= plain_number(raw) <= LARGEST_RTOL

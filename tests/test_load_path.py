@@ -178,7 +178,7 @@ def test_a_normal_load_that_almost_stops_while_all_sticks(rtol: float) -> None:
     tangential = [(2, 0.20445448, 3.67845041), (1, 0.93671587, 2.84211607)]
     own = {"poisson_ratio": 0.3, "friction": 0.5, "normal_amplitude": 1.15467, "tangential_amplitude": 0.2352}
     own |= {"load": LoadPath.harmonic_sum("mine", ALMOST_STOPPING[1], tangential)}
-    found, closest = swtstudy.solve(**own, rtol=rtol), swtstudy.solve(**own, rtol=1e-8)
+    found, closest = swtstudy.solve(**own, rtol=rtol), swtstudy.solve(**own, rtol=1e-7)
     assert abs(found.s.item() - closest.s.item()) <= found.s_error.item()
     assert found.s_error.item() <= rtol * found.s.item()
     # Its polygon of 800 sides.

@@ -7,7 +7,7 @@ import xarray as xr
 
 import swtstudy
 from swtstudy import StudyError, solve
-from swtstudy.accuracy import is_rtol
+from swtstudy.accuracy import SMALLEST_STORED_RTOL, is_rtol
 from swtstudy.mistakes import plain_number
 
 
@@ -26,6 +26,13 @@ def test_scalars_give_scalars():
     assert dataset.s.ndim == 0
     assert dataset.frequency_ratio.item() == 1.5
     assert dataset.frequency_ratio.attrs["fractions"] == "3/2"
+
+
+def test_archives_may_hold_what_is_no_longer_asked_for():
+    assert not is_rtol(1e-8)
+    assert is_rtol(1e-8, SMALLEST_STORED_RTOL)
+    with pytest.raises(ValueError, match=r"rtol: found 1e-08; allowed: a number in \[1e-07"):
+        solve(rtol=1e-8)
 
 
 @pytest.mark.parametrize(

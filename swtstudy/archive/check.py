@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.accuracy import ALLOWED_RTOL, is_rtol
+from swtstudy.accuracy import ALLOWED_RTOL, SMALLEST_STORED_RTOL, is_rtol
 from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
@@ -55,7 +55,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     for name in _TEXTS:
         if not isinstance(attributes[name], str):
             yield f"attribute {name}", _words(attributes[name]), "a text"
-    if not is_rtol(attributes["rtol"]):
+    if not is_rtol(attributes["rtol"], SMALLEST_STORED_RTOL):
         yield "attribute rtol", _words(attributes["rtol"]), ALLOWED_RTOL
     if not 0.0 <= plain_number(attributes["wall_time_seconds"]) < math.inf:
         yield "attribute wall_time_seconds", _words(attributes["wall_time_seconds"]), "a number of seconds"

@@ -37,7 +37,7 @@ TINY = 1e-300
 #: show which part of the cycle matters; and places on lines, over the largest distance, its single ones too.
 SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
 #: How finely swt is searched for.
-FINENESS = Fineness(4, 40, 3e-4)
+FINENESS = Fineness(4, 40)
 #: No places.
 NOWHERE = Places(*np.empty((3, 0)))
 #: Abscissae of the integrals of the interpolation along a line, at least; fewer than its nodes: 3e-3.

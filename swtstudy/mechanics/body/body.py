@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.events.nodes import cosine_nodes
 from swtstudy.mechanics.events.stretches import stretches
-from swtstudy.mechanics.numerics.peaks import near_maximum
-from swtstudy.mechanics.planes.all_planes import CriticalPlane, highest_coarse_swt, swt_of_history
+from swtstudy.mechanics.planes.all_planes import CriticalPlane, swt_of_history
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field import contact_states
@@ -19,9 +18,6 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Parts into which a gap between instants is divided beside an extreme over the cycle. Three: 5e-4 in 16
 #: values of bodies, 10 % faster; twelve: 3e-5, 10 % slower.
 SUBDIVISIONS = 6
-#: A stress or strain this near to its extreme over the cycle, in its range, may have it close by. Half: 7e-7
-#: in 16 values of bodies; twice: 2e-6. The line's (`line.look.HOT`) is larger: few points cost it little.
-HOT = 0.15
 #: Instants whose contact states are held at a time: memory grows with its square. 16: 20 % slower; 1024: 20 %
 #: faster, 1 MB more at 229 instants. The cells follow it: s by up to 7e-6 in 16 values of bodies.
 INSTANTS = 64
@@ -80,11 +76,6 @@ class Body:
             swt[part], normal[part] = swt_of_history(stress, ν, 1.0 - ν**2, criterion)
         return CriticalPlane(swt.reshape(x.shape), normal.reshape(*x.shape, 3))
 
-    def coarse_swt(self, x: ArrayLike, y: ArrayLike, z: ArrayLike) -> FloatArray:
-        """A lower bound of swt at points of shape S, within a few per cent, for a first look."""
-        ν = float(self.scene.poisson_ratio[0])
-        return highest_coarse_swt(self.stress(x, y, z), ν, 1.0 - ν**2, self.scene.criterion)
-
 
 def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
     """Cosine-spaced instants of the cycle, aligned with the events at some radii.
@@ -134,41 +125,6 @@ def closer_nodes(
         low, high = nodes.instant[left, None], nodes.instant[left + 1, None]
         nodes = _sorted_nodes(scene, np.concatenate([nodes.instant, (low + (high - low) * share).ravel()]))
     return nodes
-
-
-@dataclass(frozen=True)
-class Spells:
-    """Parts of a cycle: those gaps between sorted instants that are ``open``, shapes (T,) and (T − 1,)."""
-
-    instant: FloatArray
-    open: NDArray[np.bool_]
-
-    def of(self, nodes: TimeNodes) -> TimeNodes:
-        """Those instants that lie in the parts, the ends included."""
-        last = len(self.open) - 1
-        before, after = (
-            np.clip(np.searchsorted(self.instant, nodes.instant, side) - 1, 0, last)
-            for side in ("left", "right")
-        )
-        keep = self.open[before] | self.open[after]
-        return TimeNodes(nodes.interval[keep], nodes.instant[keep])
-
-
-def decisive_spells(body: Body, nodes: TimeNodes, point: tuple[float, ...]) -> Spells:
-    """The parts of the cycle in which a stress or strain at a point is near the extreme that makes swt.
-
-    Parameters
-    ----------
-    body, nodes
-        The body at instants.
-    point
-        x, y, z in a_H; close to it, the same parts make swt.
-    """
-    stress, swing = _on_critical_plane(body, point)
-    hot = np.zeros(len(nodes.instant), dtype=bool)
-    for curve in body.scene.criterion.curves(stress, swing):
-        hot |= near_maximum(curve, HOT)
-    return Spells(nodes.instant, hot[1:] | hot[:-1])
 
 
 def together(scene: Scene, *several: TimeNodes) -> TimeNodes:

@@ -85,7 +85,7 @@ class Fineness(NamedTuple):
 
     steps: int
     cells: int
-    settled: float
+    settled: float = 3e-4
 
 
 def coarse_swt(scene: Scene, places: Places, fineness: Fineness) -> FloatArray:

@@ -114,34 +114,6 @@ def swt_on_planes(
     return criterion.value(tension, amplitude)
 
 
-def highest_coarse_swt(
-    stress: ArrayLike,
-    poisson_ratio: float,
-    young_modulus: float = 1.0,
-    criterion: Criterion = SWT,
-) -> FloatArray:
-    """Largest value over the coarse planes only: a few per cent low, several times as fast.
-
-    Parameters
-    ----------
-    stress, poisson_ratio, young_modulus, criterion
-        As for `swt_of_history`.
-
-    Returns
-    -------
-    swt
-        Shape (...).
-    """
-    history = np.asarray(stress, dtype=np.float32)
-    batch = history.shape[:-2]
-    history = history.reshape(-1, *history.shape[-2:])
-    normals = hemisphere(COARSE_PLANES).astype(np.float32)
-    blocks = (history[first : first + BLOCK] for first in range(0, len(history), BLOCK))
-    of_criterion = poisson_ratio, young_modulus, criterion
-    swt = [swt_on_planes(block, normals, *of_criterion).max(axis=1) for block in blocks]
-    return np.concatenate([np.zeros(0), *swt]).reshape(batch)
-
-
 def _starts(
     stress: FloatArray, poisson_ratio: float, young_modulus: float, criterion: Criterion
 ) -> FloatArray:
