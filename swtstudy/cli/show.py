@@ -48,9 +48,9 @@ def show(
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
     CSV file with the columns radius and height, in a_H and δ0.
 
-    With a STUDY its contact is drawn in its units, with single values of what are axes there; with the name of
-    one of its loads alone, that load: its course with the recorded cycles, its path, and how near friction comes
-    to its end.
+    With a STUDY its contact is drawn in its units, with single values of what are axes there; with the name
+    of one of its loads alone, that load: its course with the recorded cycles, its path, and how near friction
+    comes to its end.
 
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
