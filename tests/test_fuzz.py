@@ -172,6 +172,7 @@ def all_survive(contents: list[bytes]) -> None:
         survives(content)
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.floats(0, 1, exclude_max=True), st.binary(min_size=1, max_size=8)), min_size=12))
 @settings(max_examples=2, deadline=None)
 def test_mangled_archives(changes):

@@ -140,6 +140,7 @@ def test_every_slider_is_within_what_is_allowed():
         assert low > each.lower or not each.open_lower
 
 
+@pytest.mark.pages
 @pytest.mark.filterwarnings("ignore")  # the machinery around the kernel has its own
 def test_the_notebook(monkeypatch):
     pytest.importorskip("ipywidgets")

@@ -61,13 +61,9 @@ def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig
     assert done.output.startswith("rig: 3 cycles of 4 samples; mean normal load 203.")
     assert "scatter by 0.1" in done.output
     assert picture.stat().st_size > 10_000
-    for arguments, words in (
-        (["--load", "rg"], "did you mean rig"),
-        (["--phase", "1"], "--load and the name of one of its loops"),
-    ):
-        done = CliRunner().invoke(main, ["show", *arguments, str(rig)])
-        assert done.exit_code == 2
-        assert words in done.output
+    done = CliRunner().invoke(main, ["show", "--load", "rg", str(rig)])
+    assert done.exit_code == 2
+    assert "did you mean rig" in done.output
 
 
 def test_a_smooth_loop_without_units_is_drawn_too() -> None:
