@@ -44,7 +44,7 @@ _SECTIONS = {
     "Studies": ("new", "validate", "plan", "run", "list", "schema"),
     "Results": ("report", "plot", "info", "merge"),
     "Single points": ("solve", "show"),
-    "What matters, and checks": ("sensitivity", "check", "audit"),
+    "What matters, and checks": ("sensitivity", "fit", "check", "audit"),
 }
 
 
