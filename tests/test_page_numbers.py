@@ -206,6 +206,9 @@ def audit_of_criteria() -> None:
     says("the line was enough at {} of these {} points", *2 * [int(inside.sum())])
     says("it was not at {} of {} points", int(misses.sum()), int((~inside).sum()))
     says("s being too low by up to a factor of {}", float((found.s_body / found.s).max()))
+    ((_, *rows),) = tables("criteria.md")
+    assert {row[3] for row in rows} == {"0"}
+    says("of {} random points none was lower by more than s_error", sum(int(row[2]) for row in rows))
 
 
 def stability() -> None:
