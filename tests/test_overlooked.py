@@ -78,7 +78,7 @@ CASES = [
             "poisson_ratio": 0.11722577,
             "friction": 0.88147396,
         },
-        "2",
+        "1/2",
         0.70709077,
     ),
     # Two planes, of which one's maximum stands beside the flank of the other's.
