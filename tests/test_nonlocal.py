@@ -17,6 +17,7 @@ from swtstudy.mechanics.body.quick_planes import CoarsePlanes, rival_planes
 from swtstudy.mechanics.body.spring_cells import SpringCells
 from swtstudy.mechanics.body.time_peaks import Peaks
 from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.stress.scene import scene_of
 
 
@@ -400,8 +401,8 @@ def test_tension_between_the_coarse_planes_is_found() -> None:
     towards = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
     every = CoarsePlanes.everywhere()
     planes = CoarsePlanes(every.normal @ towards, every.beside)
-    assert planes.swt(stress, ν, 0.5).max() == 0.0
-    history, swt, normal = rival_planes(stress, planes, ν, 0.5)
+    assert planes.swt(stress, ν, SWT).max() == 0.0
+    history, swt, normal = rival_planes(stress, planes, ν, SWT)
     assert history.tolist() == [0]
     # σ_max Δε/2 over E* = E/(1 − ν²) = 1, with ε = (σ_zz + 2ν)/E.
     assert swt[0] == pytest.approx(pull * 0.5 * (pull + 2.0 * ν) / (1.0 - ν**2), rel=1e-6)
