@@ -38,6 +38,7 @@ nitpick_ignore = [
     )
 ]
 autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True  # solver=solve_points, not where that lies in memory
 autodoc_typehints = "none"  # docstrings say shapes and units
 napoleon_google_docstring = False
 napoleon_use_ivar = True

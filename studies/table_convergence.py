@@ -1,13 +1,15 @@
 """How s of a table comes near that of the closed form, over the number of its points and over its noise.
 
-A rounded punch and a wavy paraboloid as tables of 25 to 2,000 points, and a paraboloid with noisy heights
-that are smoothed by as much, each at points all over the box of parameters. Run from the project's folder:
+A rounded punch, a wavy paraboloid, and in the plane a flat with rounded edges and a cylinder, as tables of 25
+to 2,000 points, and a paraboloid with noisy heights that are smoothed by as much, each at points all over the
+box of parameters; plane ones by forces. Run from the project's folder:
 ``python studies/table_convergence.py``; writes results/table_convergence.png.
 """
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,17 +18,22 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
+from swtstudy.families import FAMILIES, is_plane
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.prescribed import Control
 
 COUNTS = (25, 50, 100, 200, 500, 1000, 2000)
 NOISE = (1e-5, 1e-4, 1e-3, 1e-2)
 #: Points of a noisy table, largest radius of all, points of the box and relative tolerance.
-NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 40, 1e-7
+NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 12, 1e-7
 H, WAVELENGTH, FACE = 0.05, 5.0, 0.5
-SHAPES = {
+SHAPES: dict[str, dict[str, float]] = {
     "rounded_punch": {"flat_radius": FACE},
     "wavy_paraboloid": {"waviness_amplitude": H, "wavelength": WAVELENGTH},
+    "rounded_flat": {"flat_half_width": FACE},
+    "wavy_cylinder": {"waviness_amplitude": H, "wavelength": WAVELENGTH},
+    "cylinder": {},
 }
 
 Array = NDArray[np.float64]
@@ -34,15 +41,24 @@ Array = NDArray[np.float64]
 
 def height(name: str, r: Array) -> Array:
     """f over δ0 (eqs. 3, 4, 6)."""
-    if name == "rounded_punch":
+    if name in ("rounded_punch", "rounded_flat"):
         return np.where(r > FACE, 0.5 * (r - FACE) ** 2, 0.0)
     waves = H * (1.0 - np.cos(2.0 * np.pi / (WAVELENGTH * np.sqrt(H)) * r))
-    return 0.5 * r * r + (waves if name == "wavy_paraboloid" else 0.0)
+    return 0.5 * r * r + (waves if name.startswith("wavy") else 0.0)
+
+
+def in_forces(box: Points) -> Points:
+    """The points of the box by forces that friction bears, whatever the phase."""
+    pull = np.minimum(box.tangential_amplitude, 1.0) * (1.0 - box.normal_amplitude)
+    return replace(box, tangential_amplitude=pull, control=Control(True, True))
 
 
 def of_profile(box: Points, profile: str | TabulatedProfile, shape: dict[str, float], rtol: float) -> Array:
     """s at the points of the box on another profile."""
-    columns = vars(box) | {"profile": profile, "shape": {n: np.full(len(box), v) for n, v in shape.items()}}
+    columns = vars(in_forces(box) if is_plane(profile) else box) | {
+        "profile": profile,
+        "shape": {n: np.full(len(box), v) for n, v in shape.items()},
+    }
     return solve_points(Points(**columns), rtol).s
 
 
@@ -68,7 +84,8 @@ def main() -> None:
         exact, errors = of_profile(box, name, shape, rtol), []
         for count in counts:
             r = np.linspace(0.0, LARGEST, count)
-            table = TabulatedProfile(f"{name} of {count}", r, height(name, r))
+            geometry = FAMILIES[name].geometry
+            table = TabulatedProfile(f"{name} of {count}", r, height(name, r), geometry=geometry)
             errors.append(np.abs(of_profile(box, table, {}, rtol) / exact - 1.0))
         draw(left, counts, errors, name.replace("_", " "))
     exact = of_profile(box, "paraboloid", {}, rtol)

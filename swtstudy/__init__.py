@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import stress_field
     from swtstudy.fields.swt import swt_field
     from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.load import draw_load
     from swtstudy.figures.profile import draw_profile
+    from swtstudy.fitting import fit
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.mistakes import StudyError
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import read_signal
+    from swtstudy.study.trace import read_trace
     from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
     from swtstudy.units.shear_life import ShearConstants
@@ -42,13 +45,16 @@ __all__ = [
     "__version__",
     "audit_study",
     "criterion_of_history",
+    "draw_load",
     "draw_profile",
+    "fit",
     "inspect",
     "inspect_point",
     "open_results",
     "optimise",
     "physical",
     "read_signal",
+    "read_trace",
     "run",
     "run_suite",
     "sensitivity",
@@ -69,13 +75,16 @@ _HOMES = {
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
     "audit_study": "swtstudy.audit.audit",
     "criterion_of_history": "swtstudy.fields.history",
+    "draw_load": "swtstudy.figures.load",
     "draw_profile": "swtstudy.figures.profile",
+    "fit": "swtstudy.fitting",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",
     "optimise": "swtstudy.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "read_signal": "swtstudy.study.signal",
+    "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.suite",
     "sensitivity": "swtstudy.results.sensitivity",

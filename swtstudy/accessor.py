@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from swtstudy.contacts.contact import PhysicalContact
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
@@ -68,6 +69,29 @@ class SwtAccessor:
         from swtstudy.results.table import words_of
 
         return words_of(self._dataset, name)
+
+    def _repr_html_(self) -> str:
+        """The same for a notebook."""
+        from html import escape
+
+        return f"<pre>{escape(repr(self))}</pre>"
+
+    def validity(self, inside: bool = False) -> tuple[str, ...]:
+        """Where the results are outside of what the model holds for: none where all is well.
+
+        Parameters
+        ----------
+        inside
+            Whether to say, too, how far they are from the limits that they are inside of.
+
+        Returns
+        -------
+        tuple of str
+            One line for each limit: how many of how many points are outside of it, and the worst one.
+        """
+        from swtstudy.records.validity import validity_lines
+
+        return validity_lines(self._dataset, inside)
 
     def figure(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """The figure that the study asks for; a dimension that has been sliced away is left out of it.
@@ -196,28 +220,42 @@ class SwtAccessor:
 
         return quantity(self._dataset, f"s/s({place})")
 
-    def extrema(self, dim: str) -> xr.Dataset:
-        """Least and greatest s along a dimension, and where they are.
+    def contact(self) -> PhysicalContact:
+        """The contacts of results with units: of one point its stress, its SWT, what happens at it.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if the results have no units.
+        """
+        from swtstudy.contacts.of_results import contact_of
+
+        return contact_of(self._dataset)
+
+    def extrema(self, dim: str, y: str = "s") -> xr.Dataset:
+        """Least and greatest values along a dimension, and where they are.
 
         Parameters
         ----------
         dim
-            A dimension of s.
+            A dimension of the quantity.
+        y
+            The quantity: a data variable, such as "SWT" or "cycles_volume", or "s/s(name=value)".
 
         Returns
         -------
         xarray.Dataset
-            minimum, maximum and ratio (greatest over least) of s, and their places at_minimum and at_maximum,
+            minimum, maximum and ratio (greatest over least), and their places at_minimum and at_maximum,
             over the other dimensions. NaN values are ignored; where all values are NaN, so is the result.
 
         Raises
         ------
         ValueError
-            If s has no such dimension, or the results are empty.
+            If the quantity has no such dimension, or the results are empty.
         """
         from swtstudy.results.extrema import extrema
 
-        return extrema(self._dataset, dim)
+        return extrema(self._dataset, dim, y)
 
     def to_table(self) -> pd.DataFrame:
         """A tidy table: one row per point, one column per parameter or result, flags as words.

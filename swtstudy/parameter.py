@@ -100,7 +100,7 @@ class Parameter:
         if self.kind == "ratio":
             return f"a positive rational p/q with p, q ≤ {self.upper:g}"
         if self.units == "rad":
-            return f"a finite angle in {interval} rad"
+            return f'a finite angle in {interval} rad, or such as "90 deg"'
         return f"a number in {interval}"
 
 

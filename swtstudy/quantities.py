@@ -15,6 +15,8 @@ from swtstudy.mistakes import Report, literal, nearest
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
+#: What studies with a yield strength ask for.
+YIELD = "von_mises"
 #: What studies with fatigue constants ask for: the strain cycles in a round, at so many places at most and so
 #: many of them at each.
 COUNTS = "strain_cycles"
@@ -36,9 +38,9 @@ class Quantity:
     comment
         What it is exactly, in one line.
     function
-        Name of the function in `swtstudy.mechanics.stress.work`, or of the attribute of
-        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or `swtstudy.mechanics.line.few_cycles.FewCycles`,
-        that has it.
+        Name of the function in `swtstudy.mechanics.stress.work` or `swtstudy.mechanics.body.von_mises`, or of
+        the attribute of `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or
+        `swtstudy.mechanics.line.few_cycles.FewCycles`, that has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     units
@@ -100,6 +102,14 @@ QUANTITIES: dict[str, Quantity] = {
             "largest force ratio",
             "largest |F_x| over mu F_N while there is contact; 1 if the whole contact slides",
             "largest_force_ratio",
+        ),
+        Quantity(
+            "von_mises",
+            r"\sigma_\mathrm{v}/(E^* \delta_0/a_H)",
+            "largest von Mises stress",
+            "largest von Mises stress over the cycle and the body, in E* delta0/a_H, to about 1 %; infinite "
+            "at the edge of a truncated paraboloid",
+            "largest_von_mises",
         ),
         Quantity(
             "s_volume",

@@ -82,16 +82,16 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     from swtstudy.mechanics import solve_points
     from swtstudy.mechanics.quantities import quantities_of
     from swtstudy.quantities import columns_of
-    from swtstudy.records.bulk_shift import shifts
     from swtstudy.records.columns import columns_at, wanted
     from swtstudy.records.labelled import arrays_of, label
+    from swtstudy.records.margins import margins
     from swtstudy.records.solutions import joined, solution_at
 
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     batches = [points_from(block, unique.definitions) for block in blocks]
     solution = joined([solve_points(batch, rtol) for batch in batches])
-    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored) | shifts(unique)
+    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored) | margins(unique, grid)
     items, of = wanted(grid, asked, unique)
     known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
     ends = block_ends(unique.table).tolist()

@@ -43,7 +43,9 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
     units = attributes.get("units", AXES[name].units)
-    words = f"{AXES[name].meaning}, " if AXES[name].part == "criterion" else ""
+    words = (
+        f"{AXES[name].meaning}, " if AXES[name].part == "criterion" and AXES[name].kind == "number" else ""
+    )
     return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
@@ -107,6 +109,20 @@ def number_words(value: float, digits: int = 4) -> str:
     return f"{lead}10{str(int(power)).translate(_RAISED)}"
 
 
+def flag_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """`value_words`, or the name that the attributes of a coordinate have for the value, as of a body.
+
+    Examples
+    --------
+    >>> flag_words("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad test_piece"})
+    'test piece'
+    """
+    if "flag_meanings" not in attributes or isinstance(value, str):
+        return value_words(name, value)
+    flags = [int(flag) for flag in attributes["flag_values"]]
+    return str(attributes["flag_meanings"]).split()[flags.index(int(value))].replace("_", " ")
+
+
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
     """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
 
@@ -115,10 +131,11 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
     """
-    symbol = "" if AXES[name].kind == "name" else f"{parameter_words(name, attributes)} = "
+    alone = AXES[name].kind == "name" or "flag_meanings" in attributes
+    symbol = "" if alone else f"{parameter_words(name, attributes)} = "
     units = attributes.get("units", "1")
     units = "" if units in ("1", "rad", "") else f" {units}"
-    return symbol + as_text(value_words(name, value) + units)
+    return symbol + as_text(flag_words(name, value, attributes) + units)
 
 
 def pi_words(multiple: Fraction) -> str:

@@ -66,6 +66,9 @@ def test_equal_ratios():
     assert in_equal_ratios(np.array([0.1, 0.4, 1.6]))
     assert not in_equal_ratios(np.array([0.102, 0.319374388, 1.0]))  # less than a decade
     assert not in_equal_ratios(np.array([0.01, 1.0]))
+    few = np.sort([*np.geomspace(0.002, 0.05, 201), 0.0049778, 0.028078])
+    assert in_equal_ratios(few)  # a study's range with values of its own among them
+    assert not in_equal_ratios(np.linspace(0.002, 0.05, 201))
     assert not in_equal_ratios(np.array([0.0, 1.0, 100.0]))
     assert in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2))
     assert not in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2))

@@ -21,7 +21,7 @@ from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import PartsWriter, parts_folder, read_parts
 from swtstudy.cli import main
 from swtstudy.solving import solve_grid
-from swtstudy.study.definition import _study_from
+from swtstudy.study.definition import study_from
 from swtstudy.study.writing import to_toml
 
 NAMES = ["title", "rtol", "fixed", "axes", "figure", "x", "hue", "panels", "y", "start", "stop", "num"]
@@ -59,7 +59,7 @@ studies = st.fixed_dictionaries(
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_tables_are_a_study_or_a_study_error(raw):
     try:
-        study = _study_from(raw, "", "fuzz", Path("."))
+        study = study_from(raw, "", "fuzz", Path("."))
     except StudyError as error:
         assert error.mistakes
         assert all(
@@ -172,6 +172,7 @@ def all_survive(contents: list[bytes]) -> None:
         survives(content)
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.floats(0, 1, exclude_max=True), st.binary(min_size=1, max_size=8)), min_size=12))
 @settings(max_examples=2, deadline=None)
 def test_mangled_archives(changes):

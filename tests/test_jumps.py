@@ -22,6 +22,7 @@ X = np.linspace(0.0, 2.0 * np.pi, 49)
         (np.cos(X), []),
         (np.tanh(4.0 * (X - np.pi)), []),  # steep, with steps of its length beside one another
         (np.full(49, 0.9), []),
+        (np.where(np.arange(49) == 20, 0.8, -0.9), [20, 21]),  # a point between two jumps
         (np.where(X < 1.0, np.nan, np.where(X < 4.0, 0.5, 0.9)), [int(np.argmax(X >= 4.0))]),
         (
             np.where(X < 2.0, 1.0, np.where(X < 5.0, 0.0, 1.0)),

@@ -118,7 +118,7 @@ def test_forces_without_equilibrium_are_said_and_leave_the_picture():
     live.controls["control"].value = "forces"
     assert "no equilibrium" in live.caption.value
     assert live.picture.value == before
-    assert live.controls["tangential_amplitude"].description == "tangential force amplitude"
+    assert live.controls["tangential_amplitude"].description == "tangential force amplitude, QA/(μF0)"
     live.controls["normal_amplitude"].value = 0.5
     live.controls["tangential_amplitude"].value = 0.3
     assert "no equilibrium" not in live.caption.value
@@ -140,6 +140,7 @@ def test_every_slider_is_within_what_is_allowed():
         assert low > each.lower or not each.open_lower
 
 
+@pytest.mark.pages
 @pytest.mark.filterwarnings("ignore")  # the machinery around the kernel has its own
 def test_the_notebook(monkeypatch):
     pytest.importorskip("ipywidgets")
@@ -157,3 +158,54 @@ def test_the_notebook(monkeypatch):
     assert "application/vnd.jupyter.widget-view+json" in shown
     s = swtstudy.solve(phase=2.0, tangential_amplitude=0.83, rtol=1e-4).s
     assert float(notebook.cells[-1].outputs[0]["text"]) == pytest.approx(float(s), rel=1e-3)
+
+
+def test_a_fine_curve_misses_little_of_the_least_value():
+    given = {"phase": 1.0, "normal_amplitude": 0.85}
+    live = LiveFigure()
+
+    def least(fine: bool) -> float:
+        live.redraw(fine, **given)
+        return float(np.nanmin(live.figure.axes[2].get_lines()[0].get_ydata()))
+
+    dense = swtstudy.solve(phase=np.linspace(0.0, np.pi, 721), normal_amplitude=0.85, rtol=1e-3).s
+    assert least(False) > 1.02 * float(dense.min())
+    assert least(True) < 1.01 * float(dense.min())
+
+
+def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
+    pytest.importorskip("ipywidgets")
+    from PIL import Image
+
+    from swtstudy.figures.live_controls import Explorer
+
+    explorer = Explorer()
+    explorer.save(tmp_path / "point.svg")
+    assert (tmp_path / "point.svg").read_text().count("<path") > 20
+    assert len(explorer.live.figure.axes[2].get_lines()[0].get_xdata()) > 100
+    explorer.live.save(tmp_path / "point.png")
+    inches = explorer.live.figure.get_size_inches()
+    with Image.open(tmp_path / "point.png") as picture:
+        assert picture.size == pytest.approx(tuple(300.0 * inches), abs=1.0)
+
+
+def test_the_curve_is_fine_once_nothing_moves(monkeypatch):
+    pytest.importorskip("ipywidgets")
+    import asyncio
+
+    from swtstudy.figures import live_controls
+
+    monkeypatch.setattr(live_controls, "_IDLE", 0.01)
+
+    async def moved() -> list[int]:
+        explorer = live_controls.Explorer()
+        counts = []
+        for friction in (0.4, 0.5):
+            explorer.controls["friction"].value = friction
+            counts.append(len(explorer.live.figure.axes[2].get_lines()[0].get_xdata()))
+        await asyncio.sleep(0.05)
+        return [*counts, len(explorer.live.figure.axes[2].get_lines()[0].get_xdata())]
+
+    first, second, idle = asyncio.run(moved())
+    assert first == second
+    assert idle > 5 * first

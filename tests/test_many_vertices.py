@@ -57,6 +57,19 @@ def test_few_places_are_looked_at_however_many_vertices_there_are() -> None:
     assert looked[1000] < 2.2 * looked[250] < 1500
 
 
+def test_strain_cycles_are_counted_where_they_would_be_without_a_choice() -> None:
+    contact = swtstudy.physical(
+        young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, body=1,
+        load=LoadPath("rig", noisy(150, 0.05, 4).vertices * [40.0, 100.0], 200.0),
+    )  # fmt: skip
+    aluminium = swtstudy.FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+    found = contact.solve(constants=aluminium, rtol=1e-3)
+    with mock.patch.object(many_cusps, "MANY", 10**9):
+        every = contact.solve(constants=aluminium, rtol=1e-3)
+    assert found.counted_number.sum() > 3.0
+    np.testing.assert_allclose(found.cycles, every.cycles, rtol=0.01)
+
+
 def test_a_place_is_looked_at_the_same_in_any_part() -> None:
     loop, found = noisy(100, 0.02, 3), []
     for size, least in ((10**9, 1), (1000, 7)):

@@ -13,7 +13,6 @@ from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
 from swtstudy.mechanics.body.histories import Histories
-from swtstudy.mechanics.body.local_swt import Fineness
 from swtstudy.mechanics.body.quick_planes import CoarsePlanes, rival_planes
 from swtstudy.mechanics.body.spring_cells import SpringCells
 from swtstudy.mechanics.body.time_peaks import Peaks
@@ -174,7 +173,7 @@ def test_errors_are_within_what_is_claimed(monkeypatch):
     batches = [random_points(9, 1, name, largest_term=1) for name in PROFILE_NAMES]
     quick = [nonlocal_of(batch, distance)[1] for batch in batches]
     monkeypatch.setattr(around, "SEVERAL", around.SEVERAL._replace(distances=19, inclinations=31, on_line=47))
-    monkeypatch.setattr(around, "FINENESS", Fineness(6, 60))
+    monkeypatch.setattr(around, "FINENESS", around.FINENESS._replace(steps=6, cells=60, settled=1e-5))
     for batch, found in zip(batches, quick, strict=True):
         _, fine = nonlocal_of(batch, distance)
         for mean in ("volume", "point", "line"):

@@ -68,6 +68,19 @@ CASES = [
         "3/2",
         0.029960089,
     ),
+    # A smooth maximum behind the thin layer of a cusp that is nearly as high.
+    (
+        {
+            "profile": "cylinder",
+            "normal_force_amplitude": 0.11353057,
+            "tangential_force_amplitude": 0.90405637,
+            "phase": 4.75132428,
+            "poisson_ratio": 0.11722577,
+            "friction": 0.88147396,
+        },
+        "2",
+        0.70709077,
+    ),
     # Two planes, of which one's maximum stands beside the flank of the other's.
     (
         {

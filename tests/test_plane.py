@@ -19,6 +19,7 @@ from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
 from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
 from swtstudy.mechanics.load.polygon import PolygonLoad
+from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.bulk_shift import bulk_shift
 from swtstudy.mechanics.stress.history import stresses
@@ -248,6 +249,7 @@ def test_where_a_loop_starts_and_which_side_is_which_does_not_matter() -> None:
     assert float(mirrored.critical_x) == pytest.approx(-float(first.critical_x), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_sampled_loop_comes_near_to_the_exact_one() -> None:
     t = 2.0 * np.pi * np.arange(600) / 600
     sampled = LoadPath("sampled", np.stack([0.5 * np.sin(t + 2.3), 0.4 * np.sin(t)], axis=1))
@@ -282,14 +284,14 @@ def test_no_place_plane_or_instant_has_more(name: str) -> None:
         scene, gamma = scene_of(take(batch, k)), float(batch.walker_exponent[k])
         a = float(scene.largest_radius[0])
         b = float(scene.profile.flat_radius[0])
-        base = np.linspace(0.0, np.pi, 121)
+        base = np.linspace(0.0, np.pi, 61)
         near = abs(float(found.critical_x[k])) + (a - b) * np.array([-1e-3, -1e-4, 0.0, 1e-4, 1e-3])
         x = np.concatenate(
             [b + (a - b) * 0.5 * (1.0 - np.cos(base))[1:], near, a * np.geomspace(1.01, 30, 20)]
         )
         ends = np.concatenate([scene.cycle.begin[0], scene.cycle.end[0]])
-        instants = np.unique(np.concatenate([np.linspace(0.0, 2.0 * np.pi, 1500), ends]))
-        highest, angles = 0.0, np.radians(np.arange(-90.0, 90.0, 1.5))
+        instants = np.unique(np.concatenate([np.linspace(0.0, 2.0 * np.pi, 800), ends]))
+        highest, angles = 0.0, np.radians(np.arange(-90.0, 90.0, 3.0))
         for place in (*x, *-x):
             swt, angle, decisive = most_on_planes(scene, gamma, place, angles, instants)
             if swt < 0.93 * max(highest, float(found.s[k])):
@@ -330,7 +332,8 @@ def test_shift_of_the_stick_zone() -> None:
     batch = plane_points("cylinder", 0.3, 0.8, 0.0, 0.5, bulk_stress_amplitude=np.array([0.05, 0.2, 0.9]))
     width = 1.0 - np.sqrt(0.5)
     expected = np.array([0.05, 0.2, 0.9]) / (2.0 * 0.8)
-    np.testing.assert_allclose(bulk_shift(batch), np.where(expected <= width, expected, np.nan), rtol=1e-12)
+    np.testing.assert_allclose(bulk_shift(batch), expected, rtol=1e-12)
+    np.testing.assert_allclose(Margins.of(batch).slip_width, width, rtol=1e-12)
     flat = plane_points("rounded_flat", bulk_stress_amplitude=0.05, flat_half_width=0.5)
     assert np.isnan(bulk_shift(flat)).all()
 

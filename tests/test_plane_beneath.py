@@ -42,6 +42,7 @@ def mcewen(x: Array, z: Array, a: float) -> tuple[Array, Array, Array, Array, Ar
     return *normal, along, normal[2], normal[0]
 
 
+@pytest.mark.slow
 def test_hertz_is_mcewens_field() -> None:
     rng = np.random.default_rng(3)
     x, z, a = rng.uniform(-2.0, 2.0, 300), 10.0 ** rng.uniform(-2.0, 0.5, 300), 1.0

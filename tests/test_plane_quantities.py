@@ -60,6 +60,7 @@ def test_radii_and_force_ratio() -> None:
     np.testing.assert_allclose(of("largest_contact_radius", moving), np.sqrt(1.4), rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLANE_NAMES)
 def test_work_of_a_loop_does_not_depend_on_where_the_body_is_held(name: str) -> None:
     """∮ Q dU against a fine march of the diagram's own answer; a constant share of the load adds nothing."""

@@ -104,7 +104,8 @@ def test_a_study_says_newtons_per_millimetre(tmp_path: Path) -> None:
     assert "half-width" in found.contact_radius.attrs["long_name"]
     assert "depth" not in found
     expected = 90.0 / (2.0 * MU * MODULUS * 4.0 * P / (np.pi * MODULUS) / float(found.contact_radius))
-    np.testing.assert_allclose(found.bulk_shift, expected, rtol=1e-9)
+    np.testing.assert_allclose(found.bulk_shift, expected * float(found.contact_radius), rtol=1e-9)
+    assert found.bulk_shift.attrs["units"] == "mm"
     # With a length the same study is one of newtons.
     text = RIG.replace("normal_force = 795", "normal_force = 7950\ncontact_length = 10").replace(
         "137, 273", "1370, 2730"

@@ -103,6 +103,7 @@ def test_growth_nearly_along_the_slip_line(less: float) -> None:
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_sampled_cycles_converge_to_the_harmonic_one() -> None:
     one = np.ones(1)
     exact = s_of(BimodalLoad(0.75 * one, 5 / 6 * one, 2.3 * one, 1, 1)).swt[0]

@@ -57,13 +57,16 @@ def test_xarrays_own_plot_says_what_it_shows():
     assert axes.get_ylabel() == "critical plane angle [degree]"
 
 
+MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio")
+
+
 def test_what_a_reader_is_told_of_each_variable():
     units = {name: attributes.get("units") for name, attributes in ATTRIBUTES.items()}
     assert units == {
         "s": "1",
         "s_error": "1",
         "s_surface": "1",
-        "bulk_shift": "1",
+        **dict.fromkeys(MARGINS, "1"),
         "critical_x": "1",
         "critical_angle": "degree",
         "regime": None,
@@ -78,6 +81,9 @@ def test_what_a_reader_is_told_of_each_variable():
         "s_error": r"\Delta s",
         "s_surface": r"s_\mathrm{surface}",
         "bulk_shift": "e/a_H",
+        "bulk_shift_ratio": "e/(a - c)",
+        "prescribed_force_ratio": r"\max |F_x|/(\mu F_N)",
+        "radius_ratio": r"a_\mathrm{max}/R",
         "critical_x": "x/a_H",
         "critical_angle": r"\varphi",
     }
@@ -88,8 +94,8 @@ def test_what_a_reader_is_told_of_each_variable():
     assert ATTRIBUTES["status"]["flag_values"].tolist() == [0, 1, 2]
     assert "a_H = sqrt(R delta0)" in ATTRIBUTES["critical_x"]["comment"]
     assert "SWT0 = E* delta0 / R" in ATTRIBUTES["s"]["comment"]
-    # The shift is there with an oscillating bulk stress alone.
-    assert {*ATTRIBUTES} - {"bulk_shift"} == {*VARIABLES}
+    # What is there with a bulk stress, with forces or with units alone.
+    assert {*ATTRIBUTES} - {*MARGINS} == {*VARIABLES}
 
 
 def test_extrema_are_values_of_s_and_places_of_the_dimension(waves):

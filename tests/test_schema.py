@@ -49,7 +49,7 @@ def test_every_key_is_explained():
     for table in tables:
         for key, entry in table["properties"].items():
             assert entry["description"], key
-    for name, others in (("fixed", ["similar"]), ("axes", [])):
+    for name, others in (("fixed", ["similar", "bodies"]), ("axes", [])):
         known = [*PARAMETERS, "critical_distance", *CONTACT_AXES, *others]
         assert list(schema["properties"][name]["properties"]) == known
 

@@ -60,7 +60,7 @@ def fresh(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def clone(fresh, tmp_path_factory):
-    """Such a copy in which commands leave what they make; archives to merge, worn.csv, rig.toml are there."""
+    """Such a copy in which commands leave what they make, with archives to merge and files of examples."""
     folder = shutil.copytree(fresh, tmp_path_factory.mktemp("commands") / "clone")
     for name in "ab":
         shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
@@ -69,6 +69,7 @@ def clone(fresh, tmp_path_factory):
     (folder / "worn.csv").write_text(f"radius,height\n{rows}")
     (rig,) = (block for block in TOML if block.page.name == "README.md")
     (folder / "rig.toml").write_text(rig.text)
+    (folder / "tests.csv").write_text("tangential_force_amplitude,life\n30,2e10\n60,1e8\n")
     return folder
 
 

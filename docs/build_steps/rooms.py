@@ -90,18 +90,8 @@ WHOLE = House(
             "runner",
             "results",
         ),
-        *(
-            "solving",
-            "optimum",
-            "fields",
-            "figures",
-            "contacts",
-            "audit",
-            "statements",
-            "reports",
-            "suite",
-            "accessor",
-        ),
+        *("solving", "fitting", "optimum", "fields", "figures", "contacts", "audit", "statements"),
+        *("reports", "suite", "accessor"),
         *("registration", "cli", "__main__", "__init__"),
     ),
 )
@@ -110,7 +100,7 @@ MECHANICS = House(
     ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("solver", "worst_means", "quantities", "__init__"),
+        *("margins", "solver", "worst_means", "quantities", "__init__"),
     ),
 )
 

@@ -27,6 +27,7 @@ SYMBOLS = {
     "δA/δ0": r"\delta_A/\delta_0",
     "ω2/ω1": r"\omega_2/\omega_1",
     "b/a_H": "b/a_H",
+    "uA": "u_A",
     "ψ": r"\psi",
 }
 
@@ -46,10 +47,10 @@ def chart(table: Path) -> Figure:
         rows = list(csv.DictReader(file))
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     with styled(width="page"):
-        sheet = Sheet(2, 2, "page")
+        sheet = Sheet(-(-len(scenes) // 2), 2, "page")
         figure = sheet.figure()
         panels = sheet.panels(figure, share_y="all")
-        for axes, letter, scene in zip(panels.flat, "ABCD", scenes, strict=False):
+        for axes, letter, scene in zip(panels.flat, "ABCDEF", scenes, strict=False):
             for method in STYLES:
                 samples = [row for row in rows if (row["scene"], row["method"]) == (scene, method)]
                 if samples:
@@ -58,8 +59,11 @@ def chart(table: Path) -> Figure:
             place = {"transform": axes.get_yaxis_transform(), "ha": "right", "fontsize": "small"}
             axes.text(1.0, 2.2 * SMALLEST_ERROR, "no difference ", color="0.4", **place)
             axes.set_title(f"({letter})  {_in_symbols(scene)}", loc="left")
-        for axes in panels[-1]:
+        for axes in panels.flat[len(scenes) :]:
+            axes.set_visible(False)
+        for axes in panels.flat[max(len(scenes) - 2, 0) : len(scenes)]:
             axes.set_xlabel("processor time a value, s")
+            axes.tick_params(labelbottom=True)
         for axes in panels[:, 0]:
             axes.set_ylabel("relative error of $s$")
         add_legend(figure, panels[:1, :1])

@@ -43,6 +43,7 @@ def _scene(
     title: str,
     profile: str = "paraboloid",
     normal_amplitude: float = 0.75,
+    tangential_amplitude: float = 5 / 6,
     phase: float = 0.0,
     ratio: tuple[int, int] = (1, 1),
     **shape: float,
@@ -50,7 +51,8 @@ def _scene(
     values = (np.array([v]) for v in (0.3, 0.3, normal_amplitude))
     p, q = (np.array([v]) for v in ratio)
     lengths = {name: np.array([value]) for name, value in shape.items()}
-    return Scene(title, Points(profile, *values, p, q, np.array([5 / 6]), np.array([phase]), lengths))
+    pull = np.array([tangential_amplitude])
+    return Scene(title, Points(profile, *values, p, q, pull, np.array([phase]), lengths))
 
 
 SCENES = (
@@ -60,4 +62,5 @@ SCENES = (
     _scene(
         "rounded punch, b/a_H = 0.5, ω2/ω1 = 5/2", "rounded_punch", ratio=(5, 2), phase=1.0, flat_radius=0.5
     ),
+    _scene("small: δA/δ0 = uA = 0.05, ψ = 1", normal_amplitude=0.05, tangential_amplitude=0.05, phase=1.0),
 )

@@ -1,7 +1,7 @@
 """Size of the package by rooms: what somebody has to find their way through.
 
-``python studies/checks/house.py [folder] > results/house.txt``. The folder, this one unless given, is one
-that holds ``swtstudy``, such as an older state of it: both tables together say what a change has done.
+``python studies/checks/house.py [folder ...]``, where each folder, this one unless given, holds ``swtstudy``:
+``python studies/checks/house.py before after > results/house.txt`` says what a change has done.
 """
 
 from __future__ import annotations
@@ -28,23 +28,32 @@ COLUMNS = ("files", "code lines", "functions", "dataclasses", "tuned numbers", "
 
 def main() -> None:
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("folder", nargs="?", type=Path, default=Path(__file__).parents[2])
-    package = arguments.parse_args().folder / "swtstudy"
-    files = {module_of(path, package): path for path in sorted(package.rglob("*.py"))}
+    arguments.add_argument("folders", nargs="*", type=Path, default=[Path(__file__).parents[2]])
+    arguments.add_argument("--quick", action="store_true", help="totals alone")
+    given = arguments.parse_args()
+    for folder in given.folders:
+        package = folder / "swtstudy"
+        print(f"{folder.name}:\n")
+        report({module_of(path, package): path for path in sorted(package.rglob("*.py"))}, given.quick)
+
+
+def report(files: dict[str, Path], quick: bool) -> None:
+    """Print the rooms of a package, the largest first, and the arrows between them."""
     rooms: dict[str, Counter[str]] = {}
     for name, path in files.items():
         rooms.setdefault(room_of(name), Counter()).update(counts(path))
     whole = sum(rooms.values(), Counter())
-    print("".join([f"{'room':<16}", *(f"{column:>15}" for column in COLUMNS), f"{'share':>8}"]))
+    print("".join([f"{'room':<12}", *(f"{column:>16}" for column in COLUMNS), f"{'share':>8}"]))
     largest_first = sorted(rooms.items(), key=lambda item: -item[1]["code lines"])
-    for room, count in [*largest_first, ("all", whole)]:
+    for room, count in [*([] if quick else largest_first), ("all", whole)]:
         share = count["code lines"] / whole["code lines"]
-        print("".join([f"{room:<16}", *(f"{count[column]:>15,}" for column in COLUMNS), f"{share:>8.1%}"]))
+        print("".join([f"{room:<12}", *(f"{count[column]:>16,}" for column in COLUMNS), f"{share:>8.1%}"]))
     found = arrows(files)
-    print(f"\n{len(rooms)} rooms, {len(found)} arrows between them")
-    back = sorted((one, other) for one, other in found if (other, one) in found and one < other)
-    for one, other in back:
-        print(f"both ways: {one} and {other}")
+    print(f"\n{len(rooms)} rooms and loose modules, {len(found)} arrows between them")
+    for one, other in sorted(found):
+        if (other, one) in found and one < other:
+            print(f"both ways: {one} and {other}")
+    print()
 
 
 def module_of(path: Path, package: Path) -> str:

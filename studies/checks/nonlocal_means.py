@@ -28,7 +28,6 @@ from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import around
 from swtstudy.mechanics.body import nonlocal_swt as means
 from swtstudy.mechanics.body.body import Body, time_nodes
-from swtstudy.mechanics.body.local_swt import Fineness
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 
@@ -61,7 +60,7 @@ RUNS = 3
 #: Means with so many places and instants are what the others are held against.
 TIGHT = {
     "ONE": around.ONE._replace(distances=19, inclinations=39, on_line=63),
-    "FINENESS": Fineness(8, 60),
+    "FINENESS": around.FINENESS._replace(steps=8, cells=60, settled=1e-5),
 }
 #: Places of the other rule: over the distance from the circle, the angle about the axis, and the depth.
 OTHER = 9, 4, 13

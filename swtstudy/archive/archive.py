@@ -14,9 +14,9 @@ from swtstudy.archive.versions import versions
 from swtstudy.grid.canonical import describe_point
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
-from swtstudy.records.bulk_shift import shifts
 from swtstudy.records.columns import columns_at
 from swtstudy.records.labelled import arrays_of, label
+from swtstudy.records.margins import margins
 from swtstudy.records.records import FAILED, Records
 from swtstudy.records.solutions import solution_at
 from swtstudy.study.definition import Study
@@ -42,7 +42,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         Wall time of the run that ends with this archive.
     """
     arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
-    arrays |= shifts(points)
+    arrays |= margins(points, study.grid)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     columns = columns_at(study.grid, study.asked, points, records.quantity)
     dataset = label(study.grid, arrays, study.asked, columns)

@@ -15,6 +15,7 @@ from swtstudy.parameters import PARAMETERS
 from swtstudy.quantities import DISTANCE
 from swtstudy.records.records import COMPUTED, STATES, made_by
 from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.records.validity import validity_lines
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
@@ -54,6 +55,8 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "asked for", f"rtol {attributes['rtol']:g}"
         yield "accurate", accuracy(dataset)
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
+    for line in validity_lines(dataset, inside=True):
+        yield "validity", line
     if "runs" in attributes:
         yield from _runs(dataset)
     if "failures" in dataset.get("status", dataset.s).attrs:
@@ -67,7 +70,9 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         if name == SAMPLE:
             yield "sample", _sample_words(dataset[SAMPLE])
         else:
-            yield "axis", f"{name}: {_axis_words(name, dataset[name].values)}{_unit(dataset[name])}"
+            names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ").replace("_", " ")
+            words = names or _axis_words(name, dataset[name].values)
+            yield "axis", f"{name}: {words}{_unit(dataset[name])}"
     for name in (*PARAMETERS, *CONTACT_AXES):
         if name not in dataset.coords or name in dataset.dims:
             continue
@@ -129,6 +134,9 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
             yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())
+        if given.yield_strengths:
+            strengths = ", ".join(f"{each:g}" for each in dict.fromkeys(given.yield_strengths))
+            yield "yields at", f"{strengths} {given.units.stress}"
         if given.materials:
             yield "lives", _counted_words(dataset)
 

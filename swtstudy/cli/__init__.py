@@ -7,6 +7,7 @@ import gc
 import logging
 import signal
 import sys
+import warnings
 from typing import Any
 
 import click
@@ -15,6 +16,7 @@ import swtstudy
 from swtstudy.cli.audit import audit
 from swtstudy.cli.check import check
 from swtstudy.cli.examples import examples
+from swtstudy.cli.fit import fit
 from swtstudy.cli.info import info
 from swtstudy.cli.list import list_studies
 from swtstudy.cli.merge import merge
@@ -42,7 +44,7 @@ _SECTIONS = {
     "Studies": ("new", "validate", "plan", "run", "list", "schema"),
     "Results": ("report", "plot", "info", "merge"),
     "Single points": ("solve", "show"),
-    "What matters, and checks": ("sensitivity", "check", "audit"),
+    "What matters, and checks": ("sensitivity", "fit", "check", "audit"),
 }
 
 
@@ -86,7 +88,8 @@ def _first_sentence(command: click.Command) -> str:
 
 
 def _log_to_terminal() -> None:
-    """Print the package's log messages to the terminal as plain lines."""
+    """Print the package's log messages, and warnings, to the terminal as plain lines."""
+    warnings.showwarning = lambda message, *_, **__: click.echo(f"Warning: {message}", err=True)
     logger = logging.getLogger("swtstudy")
     if not logger.handlers:
         logger.addHandler(logging.StreamHandler())
@@ -123,6 +126,7 @@ _COMMANDS = (
     show,
     audit,
     sensitivity,
+    fit,
     list_studies,
     new,
     schema,

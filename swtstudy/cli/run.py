@@ -168,11 +168,14 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
     from swtstudy.archive.attributes import read_failures
     from swtstudy.archive.describe import relative_errors
+    from swtstudy.records.validity import validity_lines
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {relative.max():.1e}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
+    for line in validity_lines(dataset):
+        click.echo(f"validity: {line}", err=True)
     failures = read_failures(dataset.status.attrs["failures"])
     for failure in failures[:_NAMED]:
         click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)

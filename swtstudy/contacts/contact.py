@@ -1,4 +1,4 @@
-"""Real contacts: one, or all on the grid that sequences of values span."""
+"""What real contacts give: their parameters, SWT, cycles, and results of both bodies."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.contacts.measured import InUnits, Measured
 from swtstudy.contacts.overview import as_html, as_text
 from swtstudy.criteria import SWT
 from swtstudy.families import family_of, is_profile
@@ -21,10 +22,17 @@ from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
-from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
 from swtstudy.solving import solve_grid, spanned
 from swtstudy.units.blocks import Block, checked_blocks
-from swtstudy.units.bodies import bodies_of, checked_body, constants_of_both, cycles_from, swt_from
+from swtstudy.units.bodies import (
+    bodies_of,
+    checked_body,
+    constants_of_both,
+    cycles_from,
+    strengths_of_both,
+    swt_from,
+)
 from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.contact import Contact
 from swtstudy.units.grid import PhysicalGrid
@@ -52,7 +60,7 @@ def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedPr
 
 
 @dataclass(frozen=True, repr=False)
-class PhysicalContact:
+class PhysicalContact(InUnits):
     """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
 
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
@@ -260,6 +268,7 @@ class PhysicalContact:
         quantities: Sequence[str] = (),
         critical_distance: object = None,
         constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
         blocks: Mapping[str, float] | None = None,
     ) -> xr.Dataset:
         """s, SWT and, with constants, cycles of both bodies.
@@ -274,6 +283,8 @@ class PhysicalContact:
             One or several lengths, for nonlocal values.
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
+        yield_strength
+            Of both bodies, or a pair: for von_mises and yield_ratio.
         blocks
             Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
@@ -288,6 +299,21 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
+        grid, asked = self._with_request(
+            rtol, quantities, critical_distance, constants, yield_strength, blocks
+        )
+        return solve_grid(grid, float(rtol), asked)
+
+    def _with_request(
+        self,
+        rtol: object,
+        quantities: Sequence[str],
+        critical_distance: object,
+        constants: object,
+        yield_strength: object,
+        blocks: Mapping[str, float] | None = None,
+    ) -> tuple[PhysicalGrid, Request]:
+        """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
         fixed, axes, mistakes = spanned({} if critical_distance is None else {DISTANCE: critical_distance})
 
         def report(key: str, found: str, allowed: str) -> None:
@@ -297,12 +323,12 @@ class PhysicalContact:
             report("rtol", literal(rtol), ALLOWED_RTOL)
         distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
         names = read_quantities(quantities, "quantities", report)
-        asked = Request(names, *distances, counts=constants is not None)
         materials: tuple[FatigueConstants, ...] = ()
         try:
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
+        strengths = strengths_of_both(yield_strength, mistakes)
         sequence: tuple[Block, ...] = ()
         try:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
@@ -312,4 +338,53 @@ class PhysicalContact:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
-        return solve_grid(replace(self.grid, materials=materials, blocks=sequence), float(rtol), asked)
+        if strengths:
+            names = tuple(dict.fromkeys((*names, YIELD)))
+        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
+        return grid, Request(names, *distances, counts=constants is not None)
+
+    def optimise(
+        self,
+        over: Mapping[str, tuple[object, object]],
+        minimise: str = "SWT",
+        *,
+        rtol: float = DEFAULT_RTOL,
+        seed: int = 0,
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+    ) -> xr.Dataset:
+        """The load, or contact, with the least SWT or the longest life, and the other extreme.
+
+        Parameters
+        ----------
+        over
+            Ranges by name, ``(low, high)``, in your units, of parameters that are numbers; the others are
+            those of this contact.
+        minimise
+            A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
+            best is the longest. Of both bodies, and of both directions, that counts which is worse.
+        rtol, seed
+            As for `swtstudy.optimise`.
+        critical_distance, constants, yield_strength
+            As for `solve`.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of `swtstudy.optimise`, in your units.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        from swtstudy.contacts.optimum import optimum
+
+        self._one  # noqa: B018 – one contact only, or an error
+        grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
+        return optimum(grid, over, minimise, float(rtol), seed, asked)
+
+    def _measured(self, body: int) -> Measured:
+        """The scales of one body of one contact."""
+        return Measured(self._one, checked_body(body) - 1, self.grid.labels)

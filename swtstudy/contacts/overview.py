@@ -8,12 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.grid.unique import unique_points
 from swtstudy.parameters import PARAMETERS
+from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.records.margins import margins
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.rows import rows
 
 if TYPE_CHECKING:
     from swtstudy.contacts.contact import PhysicalContact
+    from swtstudy.units.grid import PhysicalGrid
 
 #: What a contact is at rest, and what everything else is measured in.
 _AT_REST = {
@@ -58,11 +62,19 @@ def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
     for name, meaning in _AT_REST.items():
         found = np.unique(getattr(contact, name))
         yield "at rest", name, " to ".join(map(_value, dict.fromkeys((found[0], found[-1])))), meaning
+    yield from _margins(grid)
     if grid.dims not in ((), ("body",)):
         return
     for name, value in contact.parameters(grid.bulk_stress_body + 1).items():
         if PARAMETERS[name].scale:
             yield "without units", name, _value(value), PARAMETERS[name].notation
+
+
+def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
+    """How far the contacts are from where the model ends, as far as that is known before they are solved."""
+    for name, values in margins(unique_points(grid), grid).items():
+        if name != "bulk_shift" and np.isfinite(values).any():
+            yield "margin", name, f"up to {_value(float(np.nanmax(values)))}", ATTRIBUTES[name]["comment"]
 
 
 def _value(value: Any) -> str:

@@ -11,10 +11,10 @@ from swtstudy.quantities import DISTANCE
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body
 from swtstudy.units.reading import Given, read_contacts
-from swtstudy.units.rows import SIMILAR, SIMILAR_KEY
+from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
 
 #: What is asked of contacts, not given of them.
-_ASKED = ("rtol", "quantities", DISTANCE, "constants")
+_ASKED = ("rtol", "quantities", DISTANCE, "constants", "yield_strength")
 
 
 def physical(
@@ -28,6 +28,7 @@ def physical(
     bulk_stress_ratio: Any = None,
     contact_length: Any = None,
     bulk_stress_body: Any = 1,
+    bodies: Any = None,
     **parameters: Any,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
@@ -51,6 +52,8 @@ def physical(
         Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
     bulk_stress_body
         1 or 2: the body that carries the bulk stress; the other one has none.
+    bodies
+        Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
     contact_length
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
@@ -109,7 +112,10 @@ def physical(
         about, mistakes = Given(), [*mistakes, *error.mistakes]
     if "body" not in parameters:
         axes = {**axes, "body": LABELS}
-    grid, found = read_contacts({**fixed, SIMILAR_KEY: similar}, axes, about, known=_defined(parameters))
+    named = {} if bodies is None else {NAMES_KEY: bodies}
+    grid, found = read_contacts(
+        {**fixed, **named, SIMILAR_KEY: similar}, axes, about, known=_defined(parameters)
+    )
     if grid is None or mistakes or wrong:
         raise StudyError([*mistakes, *wrong, *found])
     return PhysicalContact(grid)

@@ -27,12 +27,13 @@ from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.line.first_look import Seen, first_look
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.mechanics.margins import Margins
+from swtstudy.mechanics.points import REGIMES, FloatArray, Points
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.prescribed import PAIRS, Control
+from swtstudy.prescribed import PAIRS
 from swtstudy.solving import solve
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
@@ -94,7 +95,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         )
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
     if REGIMES[int(solved.regime)] == "no_equilibrium":
-        raise StudyError([no_equilibrium(points.control, parameters)])
+        raise StudyError([no_equilibrium(points, parameters)])
     scene = scene_of(points)
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
@@ -169,11 +170,14 @@ def _radii(scene: Scene, special: list[float]) -> FloatArray:
     return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
 
 
-def no_equilibrium(control: Control, parameters: Mapping[str, object]) -> Mistake:
+def no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
     """The force that friction does not carry, or the normal force that pulls."""
+    control, ratio = points.control, float(Margins.of(points).force_ratio[0])
     pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
     name = next(name for name in pairs if name in PAIRS)
     found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
+    if ratio > 1.0:
+        found += f": |F_x| is up to {ratio:.3g} μ F_N"
     return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.families import family_of
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
+from swtstudy.figures.in_units import Labels, show_units
 from swtstudy.figures.inspection_panels import (
     draw_load,
     draw_slip,
@@ -21,6 +22,7 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.parameters import PARAMETERS
+from swtstudy.records.validity import validity_lines
 from swtstudy.wording import place_words
 
 if TYPE_CHECKING:
@@ -48,6 +50,17 @@ _OF_STRIP = (
     draw_swt,
     draw_forces,
 )
+#: The variables along their axes, where these are of one.
+_VARIABLES: dict[Any, tuple[str | None, str | None]] = {
+    draw_load: ("displacement", "depth"),
+    draw_slip: (None, "r"),
+    draw_springs: ("r", None),
+    draw_tractions: ("x", "traction"),
+    draw_stress: (None, "normal_stress"),
+    draw_swt: ("x", "s_local"),
+    draw_load_plane: ("tangential_force", "normal_force"),
+    draw_force_loop: ("displacement", "tangential_force"),
+}
 #: Size of a panel on a screen, inches.
 _PANEL = (4.4, 3.8)
 #: Height of a panel in print, inches, at least: there is much in each.
@@ -78,7 +91,9 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     return draw_inspection(inspect_point(**parameters), style, width)
 
 
-def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
+def draw_inspection(
+    dataset: xr.Dataset, style: Style | None = None, width: Width | None = None, labels: Labels | None = None
+) -> Figure:
     """Draw a parameter point.
 
     Parameters
@@ -87,6 +102,8 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Widt
         The point, as from `swtstudy.inspect_point`.
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
+    labels
+        Of a real contact what the units of its variables are worth, and what its axes say.
 
     Returns
     -------
@@ -104,13 +121,14 @@ def draw_inspection(dataset: xr.Dataset, style: Style | None = None, width: Widt
         panels = sheet.panels(figure, share_x="none", share_y="none")
         for axes, draw, letter in zip(panels[0], drawn, "ABCDEFGHI", strict=False):
             draw(axes, dataset)
+            show_units(axes, _VARIABLES.get(draw, (None, None)), labels or {})
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
-        figure.suptitle(_headline(dataset))
+        figure.suptitle(_headline(dataset, labels or {}))
         wrap_texts(figure)
     return figure
 
 
-def _headline(dataset: xr.Dataset) -> str:
+def _headline(dataset: xr.Dataset, labels: Labels) -> str:
     profile = str(dataset.profile.item())
     names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
     if "load" in dataset.coords:
@@ -118,6 +136,10 @@ def _headline(dataset: xr.Dataset) -> str:
     values = [place_words(name, dataset[name].item()) for name in names if name in dataset.coords]
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
+    if "s_local" in labels:
+        scale, words = labels["s_local"]
+        found += f",  {words.replace(' (', f' = {scale * float(dataset.s):.4g} ').rstrip(')')}"
     if not math.isfinite(float(dataset.s)):
         found = "$s$ is not finite: swt grows without bound towards the edge"
-    return f"{place_words('profile', profile)},  {',  '.join(values)}\n{found}"
+    lines = [f"{place_words('profile', profile)},  {',  '.join(values)}", found, *validity_lines(dataset)]
+    return "\n".join(lines)

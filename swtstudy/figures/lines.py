@@ -96,17 +96,18 @@ def may_jump(name: str) -> bool:
 def place_jumps(curve: NDArray[Any], name: str) -> NDArray[np.intp]:
     """Indices of the points of a curve that another maximum begins at.
 
-    A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it: a
-    steep part of a curve has steps of its length on both sides.
+    A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it in
+    its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
     """
-    step = np.abs(np.diff(curve))
+    step = np.diff(curve)
     if name == "critical_angle":
-        step = np.minimum(step, _HALF_TURN - step)  # a plane has no direction
+        step = (step + _HALF_TURN / 2) % _HALF_TURN - _HALF_TURN / 2  # a plane has no direction
     known = curve[np.isfinite(curve)]
     if len(known) < 3:
         return _NONE
-    beside = np.fmax(np.append(0.0, step[:-1]), np.append(step[1:], 0.0))
-    jump = (step > _FAIR_SHARE * np.ptp(known)) & (step > _LONGER * beside)
+    before, after = np.append(0.0, step[:-1]), np.append(step[1:], 0.0)
+    beside = np.fmax(np.fmax(before * np.sign(step), after * np.sign(step)), 0.0)
+    jump = (np.abs(step) > _FAIR_SHARE * np.ptp(known)) & (np.abs(step) > _LONGER * beside)
     return np.flatnonzero(jump) + 1
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
+from contextlib import suppress
 from math import pi
+from os import PathLike
 from types import ModuleType
 from typing import Any
 
@@ -31,7 +34,9 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
 }
 #: Ratios of the frequencies to choose from.
 RATIOS = ("1/3", "1/2", "2/3", "3/4", "1", "4/3", "3/2", "2", "3")
-_WIDE = {"description_width": "11em"}
+_WIDE = {"description_width": "19em"}
+#: Seconds without a movement after which the curve is drawn with all phases that it needs.
+_IDLE = 0.4
 
 
 class Explorer:
@@ -65,7 +70,9 @@ class Explorer:
         for each in self.controls.values():
             each.observe(self._follow, names="value")
         controls, half = list(self.controls.values()), -(-len(self.controls) // 2)
-        columns = [widgets.VBox(part) for part in (controls[:half], controls[half:])]
+        wide = widgets.Layout(width="50%")
+        columns = [widgets.VBox(part, layout=wide) for part in (controls[:half], controls[half:])]
+        self._idle: asyncio.TimerHandle | None = None
         self.box = widgets.VBox([widgets.HBox(columns), self.caption, self.picture])
         self._follow(None)
 
@@ -86,15 +93,36 @@ class Explorer:
                 self.controls[name].layout.display = "" if name in parameters else "none"
         for force, displacement in PAIRS.items():
             name = force if force in parameters else displacement
-            self.controls[displacement].description = name.replace("_", " ")
+            self.controls[displacement].description = _words(name)
+        self._draw(False)
+        if self._idle is not None:
+            self._idle.cancel()
+        with suppress(RuntimeError):  # without an event loop, outside of notebooks, nothing is ever idle
+            self._idle = asyncio.get_running_loop().call_later(_IDLE, self.refine)
+
+    def refine(self) -> None:
+        """Draw the curve with all phases that it needs, as is done when no slider moves."""
+        self._draw(True)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the figure, its curve fine: see `swtstudy.figures.live.LiveFigure.save`."""
+        self.refine()
+        self.live.save(path)
+
+    def _draw(self, fine: bool) -> None:
         try:
-            self.point = self.live.redraw(**parameters)
+            self.point = self.live.redraw(fine, **self.parameters)
         except ValueError as error:
             self.caption.value = f"<b>{error}</b>"
             return
         regime = REGIMES[int(self.point.regime)].replace("_", " ")
         self.caption.value = f"<b>s = {float(self.point.s):.4f}</b>, {regime}"
         self.picture.value = self.live.png()
+
+
+def _words(name: str) -> str:
+    """The name of a parameter with its symbol."""
+    return ", ".join(filter(None, (name.replace("_", " "), PARAMETERS[name].notation)))
 
 
 def _widgets() -> ModuleType:
@@ -117,6 +145,6 @@ def _controls(widgets: ModuleType) -> dict[str, Any]:
         chosen[name] = widgets.FloatSlider(begin, min=low, max=high, step=step, readout_format=".3g")
         chosen[name].tooltip = PARAMETERS[name].meaning
     for name, each in chosen.items():
-        words = "prescribed" if name == "control" else name.replace("_", " ")
-        each.description, each.style, each.layout.width = words, _WIDE, "29em"
+        words = "prescribed" if name == "control" else _words(name)
+        each.description, each.style, each.layout.width = words, _WIDE, "98%"
     return chosen

@@ -41,6 +41,8 @@ _SIZE = 1.4
 _NARROW = 0.3
 #: Relative difference of ratios that are equal but for the digits in which a study gives values.
 _EQUAL = 1e-6
+#: Share of ratios that are equal: a study may have a few values more where curves bend.
+_MOST = 0.9
 
 
 def mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None]) -> None:
@@ -83,8 +85,9 @@ def shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]]) 
 
 
 def in_equal_ratios(x: NDArray[Any]) -> bool:
-    """Whether ascending values have equal ratios, and a long range."""
+    """Whether ascending values have equal ratios, but for a few among them, and a long range."""
     if len(x) < 3 or x[0] <= 0.0 or x[-1] < _DECADE * x[0]:
         return False
     ratio = x[1:] / x[:-1]
-    return bool(np.ptp(ratio) <= _EQUAL * ratio[0])
+    usual = float(np.median(ratio))
+    return bool(np.mean(np.abs(ratio - usual) <= _EQUAL * usual) >= _MOST)

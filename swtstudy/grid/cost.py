@@ -12,6 +12,8 @@ from swtstudy.named import CONTENT_BITS
 SECONDS_PER_WEIGHT = 4e-3
 #: The same of the nonlocal values of a point, whatever its weight and the number of distances.
 SECONDS_NONLOCAL = 0.2
+#: The same of the largest von Mises stress.
+SECONDS_YIELD = 0.05
 #: How much more counting the strain cycles of a point costs than its s.
 COUNTING = 2.5
 

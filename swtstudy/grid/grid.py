@@ -120,8 +120,20 @@ class Grid:
         return canonical_points(columns)
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
-        """Names and dimensions of what results have beside what is asked: that with units."""
-        return {}
+        """Names and dimensions of what results have beside what is asked: margins, and that with units."""
+        return dict.fromkeys(self.margins, self.dims)
+
+    @property
+    def margins(self) -> tuple[str, ...]:
+        """What results say of how far their points are from where the model ends."""
+        pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
+        shift = ("bulk_shift", "bulk_shift_ratio") * pulled
+        return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
+
+    @property
+    def curvatures(self) -> FloatArray:
+        """a_H/R of each point, NaN where no length is known; shape (size,)."""
+        return np.full(self.size, np.nan)
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """Results as users see them, with units if the grid has some."""

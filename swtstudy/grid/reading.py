@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,13 +19,16 @@ from swtstudy.grid.grid import Grid, complete
 from swtstudy.grid.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
 from swtstudy.grid.plane import check_forces
 from swtstudy.grid.shapes import check_shapes, check_shapes_given
-from swtstudy.grid.values import NOTHING, Value, as_number, read_exact, read_value
+from swtstudy.grid.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.mistakes import Mistake, Report, literal, nearest
 from swtstudy.named import Named
 from swtstudy.parameter import Parameter
 from swtstudy.parameters import PARAMETERS
 from swtstudy.prescribed import PAIRS
 from swtstudy.quantities import DISTANCE
+
+#: An angle beyond so many rad is probably meant in degrees.
+MANY_TURNS = 8.0 * math.pi
 
 #: What the user has defined, by parameter and name.
 Known = Mapping[str, Mapping[str, Named]]
@@ -130,6 +134,9 @@ def read_values(
     ):
         for name in sorted(one.keys() & other.keys()):
             report(keys(name), words, "one of the two")
+    for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
+        if name in rows and rows[name].units == "rad":
+            _warn_of_degrees(keys(name), raw)
     for name, single in fixed.items():
         value = _read(rows[name], single, keys(name), report, known) if name in rows else None
         if value is not None:
@@ -140,6 +147,22 @@ def read_values(
     for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
         report(key, found, allowed)
     return good_fixed, good_axes
+
+
+def _warn_of_degrees(key: str, raw: object) -> None:
+    """Warn of an angle that is probably meant in degrees."""
+    several = (raw.start, raw.stop) if isinstance(raw, Range) else raw
+    for each in several if isinstance(several, list | tuple) else (several,):
+        try:
+            number = float(read_angle(each))
+        except (ValueError, TypeError, OverflowError):
+            continue  # reported where it is read
+        # Who writes a unit, or a multiple of π, means it.
+        said = isinstance(each, str) and any(word in each for word in ("pi", "π", "rad", *DEGREES))
+        if abs(number) > MANY_TURNS and not said:
+            words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
+            warnings.warn(words, stacklevel=2)
+            return
 
 
 def _too_many(
@@ -207,7 +230,7 @@ def _allowed(row: Parameter, raw: object, known: Known) -> str:
 def _read_axis(
     row: Parameter, raw: Sequence[object] | Range, key: str, report: Report, known: Known
 ) -> tuple[Value, ...]:
-    elements = _expand(raw, key, report) if isinstance(raw, Range) else list(raw)
+    elements = _expand(raw, key, report, row.units) if isinstance(raw, Range) else list(raw)
     if not elements and not isinstance(raw, Range):
         report(key, "an empty axis", "at least one value")
     count, also = len(elements), raw.also if isinstance(raw, Range) else ()
@@ -234,14 +257,15 @@ def _read_axis(
     return tuple(values)
 
 
-def _expand(axis: Range, key: str, report: Report) -> list[object]:
+def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
     """The values of a range: exact where its ends are rational."""
     ends: list[Fraction | float] = []
     for part in ("start", "stop"):
         raw = getattr(axis, part)
         try:
             # The decimal number that a float is written as, not the binary one that it is.
-            ends.append(evaluate(raw if isinstance(raw, str) else str(read_exact(raw))))
+            text = raw if isinstance(raw, str) else str(read_exact(raw))
+            ends.append(read_angle(text) if units == "rad" else evaluate(text))
         except ValueError as error:
             report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
     if not 2 <= axis.num <= LONGEST_AXIS:

@@ -16,6 +16,9 @@ from swtstudy.parameters import PARAMETERS
 #: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
 Value = float | Fraction | str | Named
 
+#: Units of an angle that is not in rad.
+DEGREES = ("degrees", "deg", "°")
+
 #: No definitions.
 NOTHING: Mapping[str, Named] = {}
 
@@ -51,7 +54,7 @@ def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = N
     raw = plain(raw)
     if parameter.kind == "name":
         return _read_name(parameter.name, raw, known)
-    exact = read_exact(raw)
+    exact = read_angle(raw) if parameter.units == "rad" else read_exact(raw)
     if parameter.kind == "ratio":
         return _read_ratio(exact, int(parameter.upper))
     number = float(exact)
@@ -94,6 +97,28 @@ def read_exact(raw: object) -> Fraction | float:
     if not math.isfinite(number):
         raise ValueError("not a finite number")
     return Fraction(int(raw.numerator), int(raw.denominator)) if isinstance(raw, Rational) else number
+
+
+def read_angle(raw: object) -> Fraction | float:
+    """A finite angle in rad, from a number, an expression, or one with its unit: "90 deg", "90°", "1.5 rad".
+
+    Raises
+    ------
+    ValueError
+        With the reason only.
+
+    Examples
+    --------
+    >>> read_angle("90 deg") == read_angle("pi/2")
+    True
+    """
+    if not isinstance(raw, str):
+        return read_exact(raw)
+    words = raw.strip()
+    for unit in DEGREES:
+        if words.endswith(unit):
+            return float(evaluate(words.removesuffix(unit)) / 180) * math.pi
+    return evaluate(words.removesuffix("rad"))
 
 
 def _read_ratio(exact: Fraction | float, largest: int) -> Fraction:

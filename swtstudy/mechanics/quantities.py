@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.line.few_cycles import FewCycles
 from swtstudy.mechanics.points import FloatArray, Points, Solution
@@ -18,6 +19,7 @@ from swtstudy.quantities import (
     COUNTS,
     NAMED,
     NONLOCAL,
+    YIELD,
     Request,
     columns_in,
     columns_of,
@@ -63,7 +65,8 @@ def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str
     found: dict[str, FloatArray] = {}
     for name in names:
         row = NAMED[name]
-        made = getattr(work, row.function)(scene, unit)
+        function = getattr(von_mises if name == YIELD else work, row.function)
+        made = function(scene, unit)
         found |= zip(row.variables, made if row.has_error else (made,), strict=True)
     return found
 

@@ -11,6 +11,7 @@ from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.optimum.box import Box
 from swtstudy.optimum.least import Least
+from swtstudy.optimum.objective import worst
 from swtstudy.quantities import NAMED
 from swtstudy.records.labelled import ATTRIBUTES
 
@@ -64,7 +65,7 @@ def _neighbourhood(
     places = units[:, None, None, :] + np.eye(d)[:, None, :] * _STEPS[:, None]
     inside = ((places >= 0.0) & (places <= 1.0)).all(axis=-1)
     found = np.full(inside.shape, np.nan)
-    found[inside] = solve(box.sample(places[inside]))[quantity].values
+    found[inside] = worst(solve(box.sample(places[inside]))[quantity])
     stepped = np.moveaxis(np.diagonal(box.values(places), axis1=1, axis2=3), -1, 1)
     along = ("case", "parameter", "step")
     values = np.where(inside, stepped, np.nan)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.optimum.box import Box
+from swtstudy.units.variables import LIVES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,6 +19,12 @@ if TYPE_CHECKING:
 
 #: Values at n points of the unit cube, shape (n, d) to (n,); infinite where there is none.
 Function = Callable[[FloatArray], FloatArray]
+
+
+def worst(values: xr.DataArray) -> FloatArray:
+    """Values of the points of a sample: of both bodies, and both directions, that which is worse."""
+    others = [dim for dim in values.dims if dim != SAMPLE]
+    return np.asarray((values.min(others) if values.name in LIVES else values.max(others)).values, float)
 
 
 class Objective:
@@ -41,7 +49,7 @@ class Objective:
 
     def __call__(self, unit: FloatArray) -> FloatArray:
         """See `Function`."""
-        found = self._solve(self._box.sample(unit))[self._quantity].values.astype(float)
+        found = worst(self._solve(self._box.sample(unit))[self._quantity])
         values = np.where(np.isfinite(found), self.sign * found, np.inf)
         self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
         return values

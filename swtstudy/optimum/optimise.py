@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -10,12 +10,13 @@ import numpy as np
 
 from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.optimum.box import read_box
+from swtstudy.optimum.box import Box, read_box
 from swtstudy.optimum.labelled import MINIMISED, dataset_of
 from swtstudy.optimum.least import least
 from swtstudy.optimum.objective import Objective
 from swtstudy.quantities import NAMED, Request
 from swtstudy.solving import solve_grid
+from swtstudy.units.variables import LIVES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,28 +75,36 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    mistakes = _mistakes(minimise, rtol, seed)
+    mistakes = mistakes_in(minimise, rtol, seed)
     try:
         box = read_box(over, parameters)
     except StudyError as error:
         raise StudyError([*error.mistakes, *mistakes]) from None
     if mistakes:
         raise StudyError(mistakes)
-    asked = Request((minimise,) if minimise in NAMED else ())
-    solve = partial(solve_grid, rtol=float(rtol), asked=asked)
-    objectives = [Objective(box, solve, minimise, sign) for sign in CASES.values()]
-    found = {
-        case: least(each, len(box.names), int(seed)) for case, each in zip(CASES, objectives, strict=True)
-    }
+    return optimum_in(
+        box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
+    )
+
+
+def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
+    """The best and the worst points of a box; see `optimise`. Of a life the best is the longest."""
+    turn = -1 if minimise in LIVES else 1
+    solve = partial(solve_grid, rtol=rtol, asked=asked)
+    objectives = [Objective(box, solve, minimise, turn * sign) for sign in CASES.values()]
+    found = {case: least(each, len(box.names), seed) for case, each in zip(CASES, objectives, strict=True)}
     without = sum(int(np.isinf(objective.values).sum()) for objective in objectives)
-    words = {"minimise": minimise, "seed": int(seed), "without_value": without}
+    words = {"minimise": minimise, "seed": seed, "without_value": without}
     return dataset_of(box, found, minimise, solve).assign_attrs(words)
 
 
-def _mistakes(minimise: object, rtol: object, seed: object) -> list[Mistake]:
+def mistakes_in(
+    minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
+) -> list[Mistake]:
+    """What is wrong with how an optimum is asked for; ``known`` may be minimised."""
     found = []
-    if minimise not in MINIMISED:
-        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), MINIMISED)))
+    if minimise not in known:
+        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), known)))
     if not is_rtol(rtol):
         found.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:

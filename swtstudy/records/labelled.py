@@ -21,6 +21,7 @@ from swtstudy.prescribed import CONTROLS
 from swtstudy.quantities import DISTANCE, NOTHING, Request, attributes_of
 from swtstudy.records import requested
 from swtstudy.records.records import STATES
+from swtstudy.records.validity import validity_lines
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -58,6 +59,25 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "slip zone",
         "units": "1",
         "symbol": r"e/a_H",
+    },
+    "bulk_shift_ratio": {
+        "long_name": "shift over slip zone",
+        "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
+        "width of the slip zone, however large; NaN as the shift, without a permanent stick zone",
+        "units": "1",
+        "symbol": r"e/(a - c)",
+    },
+    "prescribed_force_ratio": {
+        "long_name": "prescribed force ratio",
+        "comment": "largest |F_x| over mu F_N that is prescribed in a cycle: above 1 there is no equilibrium",
+        "units": "1",
+        "symbol": r"\max |F_x|/(\mu F_N)",
+    },
+    "radius_ratio": {
+        "long_name": "contact radius over R",
+        "comment": "largest contact radius of a cycle, half the width in plane contacts, over the radius R",
+        "units": "1",
+        "symbol": r"a_\mathrm{max}/R",
     },
     "critical_x": {
         "long_name": "critical point x/a_H",
@@ -144,7 +164,8 @@ def label(
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":
             del variable.attrs["units"]
-    return dataset
+    lines = validity_lines(dataset) if "regime" in arrays else ()
+    return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
 def _name_criteria(dataset: xr.Dataset, grid: Grid) -> None:

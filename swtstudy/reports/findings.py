@@ -14,12 +14,17 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.axes import AXES
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.criteria import SWT
+from swtstudy.families import family_of
 from swtstudy.grid.grid import SAMPLE
+from swtstudy.parameters import PARAMETERS
 from swtstudy.reports.symbols import place_html, symbol_of, unit_of, value_text
 from swtstudy.results.extrema import extrema
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.wording import number_words
 
+#: The parameter whose values have an s of another kind each.
+CRITERION = "criterion"
 #: A parameter that changes swt by less goes unmentioned in the sentences.
 _MOVES = 1.005
 
@@ -61,12 +66,13 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 def levers(dataset: xr.Dataset) -> list[Lever]:
     """Every dimension of more than one value: the phase first, which costs nothing to choose, then by ratio.
 
-    None of a sample, whose points differ in all that is sampled.
+    None of a sample, whose points differ in all that is sampled; nor the criterion, whose values are not of
+    one kind.
     """
     swt = measured(dataset)
     found = []
     for name in map(str, swt.dims):
-        if swt.sizes[name] < 2 or SAMPLE in swt.dims:
+        if swt.sizes[name] < 2 or SAMPLE in swt.dims or name == CRITERION:
             continue
         table = extrema(dataset.assign(s=swt), name)
         ratio = table.ratio.where(np.isfinite(table.ratio))
@@ -138,6 +144,8 @@ def worst_place(dataset: xr.Dataset) -> dict[str, int]:
 
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     """The point with the least and that with the greatest swt; one only where all are equal."""
+    if CRITERION in dataset.dims:
+        dataset = dataset.isel({CRITERION: 0})  # values of several are not to be compared
     values = measured(dataset)
     flat = values.values.ravel()
     if not np.isfinite(flat).any():
@@ -158,6 +166,12 @@ def parameters_of(one: xr.Dataset) -> dict[str, Any]:
     if isinstance(grid, PhysicalGrid):
         body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
         return PhysicalContact(grid).parameters(body)
+    lacking = {name for name, row in PARAMETERS.items() if row.part == "shape"} - {"profile"}
+    lacking -= {*family_of(grid.fixed["profile"]).shape}
+    if grid.fixed.get(CRITERION, SWT) == SWT:
+        lacking.add("normal_sensitivity")
     return {
-        name: value for name, value in grid.fixed.items() if not grid.row(name).goes_without_saying(value)
+        name: each
+        for name, each in grid.fixed.items()
+        if name not in lacking and not grid.row(name).goes_without_saying(each)
     }

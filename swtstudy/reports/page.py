@@ -6,8 +6,9 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.describe import facts
+from swtstudy.records.validity import validity_lines
 from swtstudy.reports.data import about, packed, rows_of, table_of
-from swtstudy.reports.findings import sentences, worst_place
+from swtstudy.reports.findings import CRITERION, sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, figure, section, table, whole
 from swtstudy.reports.pictures import derived, study_figure
 from swtstudy.reports.sections import (
@@ -78,7 +79,7 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
 <p class="lead">{first}</p>
 <p class="also">{" ".join(filter(None, others))}</p>
 {tiles(dataset)}
-<p class="note">{_MEANING}</p>
+<p class="note">{_meaning(dataset)}</p>
 </header>
 <nav aria-label="Contents"><div>{"".join(each.link for each in known)}</div></nav>
 <main>
@@ -87,6 +88,13 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
 <footer>Made by {escape(str(dataset.attrs["source"]))} from {escape(name)}.nc.</footer>
 {values}"""
     return whole(title, body, script=True)
+
+
+def _meaning(dataset: xr.Dataset) -> str:
+    """What s is; by criteria other than SWT the results say it."""
+    if CRITERION not in dataset.coords:
+        return _MEANING
+    return f"<i>s</i> by its criterion: {escape(str(dataset.s.attrs.get('comment', '')))}."
 
 
 def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], str]:
@@ -125,8 +133,8 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
 
 
 def _validity(dataset: xr.Dataset) -> list[str]:
-    """What limits the model at these parameters, if the results say so."""
-    return str(dataset.attrs.get("validity", "")).splitlines()
+    """Where the results are outside of what the model holds for, and how far inside."""
+    return list(validity_lines(dataset, inside=True))
 
 
 def _paper(dataset: xr.Dataset, name: str) -> Section:

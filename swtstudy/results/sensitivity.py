@@ -142,7 +142,9 @@ def _mistakes(name: str, values: xr.DataArray, dataset: xr.Dataset) -> list[Mist
     place = values.isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
     varying = [*str(dataset[SAMPLE].attrs["parameters"]).split(), *(d for d in values.dims if d != SAMPLE)]
     where = ", ".join(f"{name}={value_words(str(name), place[name].item())}" for name in varying)
-    regime = dataset["regime"].isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
+    # A mean over several distances has more dimensions than the points.
+    at = dict(zip(values.dims, wrong[0].tolist(), strict=True))
+    regime = dataset["regime"].isel(at, missing_dims="ignore")
     state = dataset["regime"].attrs["flag_meanings"].split()[int(regime)].replace("_", " ")
     found = f"no number at {len(wrong)} of {values.size} points, such as {where} ({state})"
     return [Mistake(name, found, "a number at every point: other ranges, or another quantity")]

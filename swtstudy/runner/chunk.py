@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.grid.codes import Definitions
 from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
-from swtstudy.quantities import columns_of, distance_of
+from swtstudy.quantities import YIELD, columns_of, distance_of
 from swtstudy.records.result import Result
 from swtstudy.records.solutions import blank, joined, solution_at
 
@@ -19,7 +19,7 @@ from swtstudy.records.solutions import blank, joined, solution_at
 Solver = Callable[[Points, float], Solution]
 
 
-#: Points with nonlocal values in a block: about a second of work.
+#: Points with values of the body in a block: about a second of work.
 _FEW = 8
 
 
@@ -40,8 +40,9 @@ class Asked:
 
     @property
     def block(self) -> int | None:
-        """Most points of a block; None for as many as share work, of which nonlocal values share none."""
-        return _FEW if any(distance_of(item) is not None for item in self.quantities) else None
+        """Most points of a block; None for as many as share work: what is of the body shares none."""
+        of_body = (item == YIELD or distance_of(item) is not None for item in self.quantities)
+        return _FEW if any(of_body) else None
 
     def at(self, rows: IntArray | slice) -> Asked:
         """What is asked of the points at the given rows."""

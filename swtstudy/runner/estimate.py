@@ -57,13 +57,15 @@ def estimate(
         inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            spent += solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver).seconds
+            result = solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
+            spent = result.seconds
         elif spent > _BUDGET:
             break
-        share = (_BUDGET - spent) / (len(largest) - index)
-        result, seconds = _timed(points, inside, asked, rtol, solver, share)
+        if index or spent <= _BUDGET:
+            share = (_BUDGET - spent) / (len(largest) - index)
+            result, seconds = _timed(points, inside, asked, rtol, solver, share)
+            spent += seconds
         timed(result)
-        spent += seconds
         total += result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
@@ -78,7 +80,7 @@ def _timed(
     while True:
         result = solve_chunk(Chunk.of(points, [inside[:count]], asked), rtol, solver)
         spent += result.seconds
-        # Four times as many take four times as long at most.
-        if count >= len(inside) or spent + 4.0 * result.seconds > share:
+        # Four at a time take some twice as long as one.
+        if count >= len(inside) or spent + 2.0 * result.seconds > share:
             return result, spent
         count = min(4 * count, len(inside))

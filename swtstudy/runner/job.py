@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swtstudy.files import check_writable
-from swtstudy.grid.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, weights
-from swtstudy.quantities import Request
+from swtstudy.grid.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, SECONDS_YIELD, weights
+from swtstudy.quantities import YIELD, Request
 from swtstudy.records.records import Records, Run
 from swtstudy.runner.chunk import Solver
 from swtstudy.runner.collector import Collector
@@ -84,6 +84,8 @@ class Job:
         seconds *= 1.0 + COUNTING * asked.counts
         if asked.distances:
             seconds += wanted.sum() * SECONDS_NONLOCAL
+        if YIELD in asked.names:
+            seconds += wanted.sum() * SECONDS_YIELD
         return float(seconds)
 
     def compute(self, workers: AbstractContextManager[Pool | None], solver: Solver) -> None:

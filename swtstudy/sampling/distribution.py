@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.grid.values import as_number, read_exact, read_value
+from swtstudy.grid.values import as_number, read_angle, read_exact, read_value
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mistakes import Report, literal, nearest
 from swtstudy.parameter import Parameter
@@ -110,7 +110,8 @@ def _number(parameter: Parameter, name: str, raw: object, key: str, report: Repo
             raise ValueError("nothing")
         if bound and raw == parameter.lower:
             return parameter.lower  # an open end is a bound, although it is no value
-        return as_number(read_value(parameter, raw)) if bound else float(read_exact(raw))
+        read = read_angle if parameter.units == "rad" else read_exact
+        return as_number(read_value(parameter, raw)) if bound else float(read(raw))
     except ValueError as error:
         found = "nothing" if raw is None else f"{literal(raw)} ({error})"
         report(key, found, parameter.allowed if bound else "a number")

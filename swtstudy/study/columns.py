@@ -53,6 +53,35 @@ class Form:
 PLAIN = Form()
 
 
+def form_of(given: Mapping[str, Any]) -> Form:
+    """The form by what is given of ``separator``, ``decimal`` and ``columns``, the headers."""
+    separator, decimal = given.get("separator") or PLAIN.separator, given.get("decimal") or PLAIN.decimal
+    return Form(separator, decimal, dict(given.get("columns") or {}))
+
+
+def wrong_form(given: Mapping[str, Any], names: Sequence[str]) -> list[Mistake]:
+    """What is wrong with a form, of which there may be headers of columns of these names."""
+    mistakes = []
+    for key, allowed in (("separator", SEPARATORS), ("decimal", DECIMALS)):
+        if given.get(key) is not None and given[key] not in allowed:
+            words = f"one of {', '.join(map(repr, allowed))}"
+            mistakes.append(Mistake(key, literal(given[key]), words))
+    headers = given.get("columns")
+    if headers is not None and not (
+        isinstance(headers, Mapping)
+        and all(isinstance(each, str) and each.strip() for each in headers.values())
+    ):
+        allowed_headers = f'a table of headers, such as {{ {names[0]} = "Fn [N]" }}'
+        return [*mistakes, Mistake("columns", literal(headers), allowed_headers)]
+    strange = [name for name in headers or () if name not in names]
+    mistakes += [Mistake(f"columns.{name}", literal(name), nearest(str(name), names, {})) for name in strange]
+    form = PLAIN if mistakes else form_of(given)
+    if form.separator == form.decimal:
+        found = f"both {form.decimal!r}"
+        mistakes.append(Mistake("separator, decimal", found, "two different signs"))
+    return mistakes
+
+
 def read_columns(
     path: Path, names: Sequence[str], optional: Sequence[str] = (), form: Form = PLAIN
 ) -> FloatArray:

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 def read_given(
     raw: Mapping[str, Any], fixed: Mapping[str, object], folder: Path, report: Report
-) -> Given | None:
-    """Units and fatigue constants; None for a study without units, whose parameters have none."""
+) -> tuple[Given | None, float | None]:
+    """Units and materials, None for a study without units; and the critical distance of the materials."""
     if not isinstance(raw.get("units"), dict):
         if "material" in raw and "units" not in raw:
             report("material", "constants without [units]", "with [units] only: a life needs a real contact")
-        return None
+        return None, None
     from swtstudy.units.labels import Units, read_units
     from swtstudy.units.material import read_material
     from swtstudy.units.reading import Given
@@ -29,11 +29,13 @@ def read_given(
     # Wrong units are reported: meanwhile others stand for them.
     units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")
     if not isinstance(raw.get("material"), dict):
-        return Given(units)
+        return Given(units), None
     young = fixed.get("young_modulus")
     pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
     known = None if young is None else (_sound(pair[0]), _sound(pair[1]))
-    return Given(units, read_material(raw["material"], known, units, folder, report))
+    materials = read_material(raw["material"], known, units, folder, report)
+    given = Given(units, materials.constants, yield_strengths=materials.yield_strengths)
+    return given, materials.critical_distance
 
 
 def _sound(young: object) -> float:

@@ -14,7 +14,7 @@ from swtstudy.grid.grid import SAMPLE, Grid
 from swtstudy.grid.reading import Known, Range, read_distances, read_grid
 from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
 from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE, Request, read_quantities
+from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
 from swtstudy.study.blocks import read_blocks
 from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
@@ -140,10 +140,11 @@ class Study:
             raw = parse_toml(text)
         except ValueError as error:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
-        return _study_from(raw, text, source, Path(folder))
+        return study_from(raw, text, source, Path(folder))
 
 
-def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
+def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
+    """The study of the tables of a file; see `Study.from_text`."""
     from swtstudy.study.structure import read_structure
 
     table, mistakes = read_structure(raw, source)
@@ -160,7 +161,11 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
     mistakes += found
     blocks = read_blocks(raw, known.get("load", {}), report)
     fixed, axes = _with_loads(fixed, axes, blocks)
-    contacts = read_given(raw, fixed, folder, report)
+    contacts, distance = read_given(raw, fixed, folder, report)
+    if distance is not None:
+        if DISTANCE in {*fixed, *axes}:
+            report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
+        fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
     if contacts is not None:
         contacts = replace(contacts, blocks=blocks)
     rows = rows_of(contacts)
@@ -174,6 +179,8 @@ def _study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) ->
 
     distances = read_distances(fixed, axes, keys, report, {**AXES, **rows}[DISTANCE])
     names = read_quantities(raw.get("quantities", []), "quantities", report)
+    if contacts is not None and contacts.yield_strengths:
+        names = tuple(dict.fromkeys((*names, YIELD)))
     asked = Request(names, *distances, counts=contacts is not None and bool(contacts.materials))
     grid: Grid | None
     if contacts is None:

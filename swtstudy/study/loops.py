@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from swtstudy.files import parse_toml
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mistakes import Mistake, StudyError, literal
 from swtstudy.named import Named
-from swtstudy.study.signal import BULK, COLUMNS, KEYS, signal_from
+from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 #: The same for one that a real contact may be given without its mean load.
@@ -58,6 +59,12 @@ def read_loops(
         except StudyError as error:
             mistakes += [_placed(each, key, kind, source) for each in error.mistakes]
     return found, mistakes
+
+
+def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
+    """The signal that a load of a sound study is; None for one that comes from no file."""
+    table = parse_toml(text).get("loads", {}).get(name, {})
+    return signal_from(folder / table["file"], name, table) if "file" in table else None
 
 
 def _kind(table: Mapping[str, Any]) -> str | Mistake:

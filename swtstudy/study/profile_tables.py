@@ -12,8 +12,9 @@ from swtstudy.families import AXISYMMETRIC
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.named import Named
-from swtstudy.study.columns import read_columns
+from swtstudy.study.columns import form_of, read_columns, wrong_form
 from swtstudy.study.loops import place_of
+from swtstudy.study.trace import read_trace
 
 #: Columns of the file of a profile.
 COLUMNS = ("radius", "height")
@@ -22,9 +23,27 @@ _RADII = np.linspace(0.0, 1e3, 9)
 _ANY = TabulatedProfile("any", _RADII, _RADII**2)
 
 
-def table_from(path: Path) -> TabulatedProfile:
+def table_from(path: Path, smoothing: float = 0.0) -> TabulatedProfile:
     """The profile in a CSV file, of the name of the file."""
-    return TabulatedProfile(path.stem, *read_columns(path, COLUMNS).T)
+    radius, height = read_columns(path, COLUMNS).T
+    return TabulatedProfile(path.stem, radius, height, smoothing)
+
+
+def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProfile:
+    """A profile from its table."""
+    geometry, smoothing = table.get("geometry", AXISYMMETRIC), table.get("smoothing")
+    if table.get("two_sided") is True:
+        form = {key: table[key] for key in ("columns", "separator", "decimal") if key in table}
+        level = table.get("level") is not False
+        given = {"level": level, "smoothing": smoothing, "geometry": geometry, **form}
+        return read_trace(folder / str(table.get("file")), name=name, **given)
+    smoothing = 0.0 if smoothing is None else smoothing
+    if "file" not in table:
+        return TabulatedProfile(name, table["radius"], table["height"], smoothing, geometry)
+    if mistakes := wrong_form(table, COLUMNS):
+        raise StudyError(mistakes)
+    radius, height = read_columns(folder / table["file"], COLUMNS, (), form_of(table)).T
+    return TabulatedProfile(name, radius, height, smoothing, geometry)
 
 
 def read_profiles(
@@ -44,13 +63,7 @@ def read_profiles(
             mistakes.append(Mistake(key, words, "radius and height, or file", source))
             continue
         try:
-            if given == ["file"]:
-                radius, height = read_columns(folder / table["file"], COLUMNS).T
-            else:
-                radius, height = table["radius"], table["height"]
-            found[name] = TabulatedProfile(
-                name, radius, height, table.get("smoothing", 0.0), table.get("geometry", AXISYMMETRIC)
-            )
+            found[name] = _profile(name, table, folder)
         except StudyError as error:
             mistakes += [
                 Mistake(key, f"{each.found}{place_of(each)}", each.allowed, source) for each in error.mistakes

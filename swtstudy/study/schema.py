@@ -19,7 +19,7 @@ from swtstudy.study.tables import StudyTable
 from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
 from swtstudy.units.material import KEYS
-from swtstudy.units.rows import OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"
@@ -52,6 +52,11 @@ _PROFILE_DESCRIPTIONS = {
     "height": "Heights f at these radii, in a depth δ0: 0 at the axis.",
     "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
     "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
+    "columns": "Headers of the file's columns radius and height, or position and height, if they are others.",
+    "separator": 'Between the cells of the file: ",", ";", "|", a tab, or a blank for any number of blanks.',
+    "decimal": 'The decimal sign in the file: "." or ",".',
+    "two_sided": "Whether the file is a trace across the body, with the columns position and height.",
+    "level": "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.",
     "geometry": '"axisymmetric", or "plane" for a long body: its radii are then half-widths.',
 }
 _SAMPLE_DESCRIPTIONS = {
@@ -99,6 +104,7 @@ _FIGURE_DESCRIPTIONS = {
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
 }
+_NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
@@ -167,6 +173,8 @@ def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str,
         }
     similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
     keys["fixed"]["properties"][SIMILAR_KEY] = similar
+    pair = {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 2, "maxItems": 2}
+    keys["fixed"]["properties"][NAMES_KEY] = {"description": _NAMES, **pair}
 
 
 def schema_text() -> str:
@@ -192,7 +200,7 @@ def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:
     limits: dict[str, Any] = {name: _range_of(row) for name, row in given.items() if name not in CONTACT_AXES}
     several: dict[str, Any] = {name: {"items": limit} for name, limit in limits.items()}
     others = dict.fromkeys(CONTACT_AXES, False)
-    fixed = {**limits, **others, SIMILAR_KEY: False}
+    fixed = {**limits, **others, SIMILAR_KEY: False, NAMES_KEY: False}
     return {"fixed": {"properties": fixed}, "axes": {"properties": several | others}}
 
 

@@ -18,10 +18,11 @@ GROUPS: dict[str, tuple[str, ...]] = {
         *("frequencies", "other_frequencies", "friction", "poisson_ratio", "tangential_amplitude"),
     ),
     "Loads": ("contour", "force_control", "loops", "bulk_stress"),
-    "Parameters": ("sensitivity", "walker_exponent"),
+    "Plane contacts": ("plane_contacts",),
+    "Criteria and parameters": ("criteria", "walker_exponent", "sensitivity"),
     "Real contacts": ("sphere_on_flat", "fretting_map", "life", "critical_distance"),
     "Limits": ("stability", "stability_friction", "stability_small_motion", "stability_thin_annulus"),
-    "Random points, for swtstudy audit": ("parameter_box", "bulk_stress_box"),
+    "Random points, for swtstudy audit": ("parameter_box", "bulk_stress_box", "criteria_box"),
 }
 #: The group of a study that none of these is.
 OTHERS = "Others"

@@ -14,9 +14,9 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.loop import Loop, checked_mean, checked_name
 from swtstudy.mechanics.load.smooth_path import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, is_number, literal, nearest, plain_number
+from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
 from swtstudy.study import recorded
-from swtstudy.study.columns import DECIMALS, SEPARATORS, Form, read_columns
+from swtstudy.study.columns import form_of, read_columns, wrong_form
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -219,7 +219,7 @@ def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
         for key, (sound, allowed) in _SOUND.items()
         if given.get(key) is not None and not sound(given[key])
     ]
-    mistakes += _unknown_columns(given.get("columns"))
+    mistakes += wrong_form(given, (*COLUMNS, BULK))
     if given.get("recorded_cycles") is not None and given.get("period") is not None:
         mistakes.append(Mistake("recorded_cycles, period", "both", "one of the two: the other follows"))
     if mistakes:
@@ -238,13 +238,7 @@ def _is_count(value: object, most: float) -> bool:
 
 #: What is sound for each key, and in words.
 _SOUND = {
-    "columns": (
-        lambda value: isinstance(value, Mapping) and all(map(_is_text, value.values())),
-        'a table of headers, such as { normal = "Fn [N]", tangential = "Ft [N]" }',
-    ),
     "absolute": (lambda value: isinstance(value, bool), "true or false"),
-    "separator": (lambda value: value in SEPARATORS, f"one of {', '.join(map(repr, SEPARATORS))}"),
-    "decimal": (lambda value: value in DECIMALS, '"." or ","'),
     "time": (_is_text, "the header of the column of the time"),
     "recorded_cycles": (lambda value: _is_count(value, np.inf), "a whole number of cycles, 1 or more"),
     "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
@@ -252,20 +246,10 @@ _SOUND = {
 }
 
 
-def _unknown_columns(columns: object) -> list[Mistake]:
-    """Names in ``columns`` that no signal has."""
-    known = (*COLUMNS, BULK)
-    names = columns if isinstance(columns, Mapping) else ()
-    return [Mistake(f"columns.{n}", literal(n), nearest(str(n), known, {})) for n in names if n not in known]
-
-
 def _table(path: Path, given: Mapping[str, object]) -> tuple[FloatArray, FloatArray]:
     """Time and loads."""
     columns, time = dict(given.get("columns") or {}), given.get("time")  # type: ignore[call-overload]
-    separator, decimal = (str(given.get(key) or word) for key, word in (("separator", ","), ("decimal", ".")))
-    if separator == decimal:
-        raise StudyError([Mistake("separator, decimal", f"both {decimal!r}", "two different signs")])
-    form = Form(separator, decimal, columns | ({TIME: str(time)} if time else {}))
+    form = form_of({**given, "columns": columns | ({TIME: str(time)} if time else {})})
     names = (*([TIME] if time else []), *COLUMNS, *([BULK] if BULK in columns else []))
     values = read_columns(path, names, () if columns else (BULK,), form)
     if not time:

@@ -74,7 +74,7 @@ def _mistake(detail: Any, source: str) -> Mistake:
         allowed = "a table with radius and height, or file"
     elif path[0] == "blocks":
         allowed = "the name of a load" if path[-1] == "load" else "[[blocks]] with load and rounds"
-    elif path[-1] == "keep_cycles":
+    elif path[-1] in ("keep_cycles", "two_sided", "level"):
         allowed = "true or false"
     elif path[0] in ("loads", "profiles") and path[-1] == "file":
         allowed = "the path of a CSV file"

@@ -90,8 +90,14 @@ class ProfileTable(_Table):
     radius: Any = None
     height: Any = None
     file: str | None = None
-    smoothing: Any = 0.0
+    smoothing: Any = None
     geometry: Any = "axisymmetric"
+    # Checked where the file is read.
+    columns: Any = None
+    separator: Any = None
+    decimal: Any = None
+    two_sided: bool = False
+    level: bool = True
 
 
 class StudyTable(_Table):

@@ -75,10 +75,12 @@ def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
     if not isinstance(grid, PhysicalGrid):
         return [], []
     tables = ["", "[units]", *(f"{kind} = {quoted(label)}" for kind, label in vars(grid.units).items())]
-    if grid.materials:
-        pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
-        tables += ["", "[material]", *(f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs)]
+    tables += ["", "[material]"] * bool(grid.materials or grid.yield_strengths)
+    pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
+    tables += (f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs)
+    tables += [f"yield_strength = {[*grid.yield_strengths]}"] * bool(grid.yield_strengths)
     fixed = [f"{name} = {[*two]}" for name, two in grid.pairs.items()]
+    fixed += [f"bodies = [{', '.join(map(quoted, grid.body_names))}]"] * bool(grid.body_names)
     return tables, [*fixed, f"similar = {grid.similar!r}"]
 
 

@@ -12,6 +12,7 @@ from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.quantities import COUNTED
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.sizes import wrong_size
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -131,3 +132,15 @@ def _labelled(
     if not isinstance(like, xr.DataArray):
         return values
     return xr.DataArray(values, like.coords, like.dims, name, attributes)
+
+
+def strengths_of_both(strength: object, mistakes: list[Mistake]) -> tuple[float, ...]:
+    """The yield strengths of both bodies, none if none is given; what is wrong with them is added."""
+    if strength is None:
+        return ()
+    pair: Any = (strength, strength) if np.ndim(strength) == 0 else tuple(strength)  # type: ignore[arg-type]
+    wrong = [each for value in pair for each in wrong_size("yield_strength", value, "a positive stress")]
+    if len(pair) != 2:
+        wrong = [Mistake("yield_strength", literal(strength), "one, or a pair, one for each body")]
+    mistakes += dict.fromkeys(wrong)
+    return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))

@@ -59,6 +59,8 @@ class PhysicalGrid(Grid):
         The sequence of loads of which Miner's sum is made; none if it is not asked for.
     yield_strengths
         Of both bodies; none if they are not given.
+    body_names
+        What both are called; none if they are 1 and 2 alone.
     """
 
     units: Units = field(default_factory=Units)
@@ -68,6 +70,7 @@ class PhysicalGrid(Grid):
     similar: float = math.inf
     blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
+    body_names: tuple[str, ...] = ()
 
     @property
     def of_loads(self) -> str | None:
@@ -97,7 +100,10 @@ class PhysicalGrid(Grid):
     @property
     def about(self) -> dict[str, Any]:
         """What there is to know beside the values of the parameters."""
-        names = ("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks", "yield_strengths")
+        names = (
+            *("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks"),
+            *("yield_strengths", "body_names"),
+        )
         return {name: getattr(self, name) for name in names}
 
     @cached_property
@@ -220,7 +226,19 @@ class PhysicalGrid(Grid):
         """See `Grid.made`."""
         from swtstudy.units.variables import dims_of
 
-        return dims_of(self, asked)
+        return super().made(asked) | dims_of(self, asked)
+
+    @property
+    def margins(self) -> tuple[str, ...]:
+        """See `Grid.margins`."""
+        return (*super().margins, *("radius_ratio",) * bool(self.values("radius")))
+
+    @property
+    def curvatures(self) -> NDArray[np.float64]:
+        """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
+        over = self.seats.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+        shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]
+        return np.broadcast_to(over.values.reshape(shape), self.shape).ravel()
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """See `Grid.presented`."""

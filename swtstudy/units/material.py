@@ -1,9 +1,11 @@
-"""Fatigue constants of the bodies of a study, given there or by name from a file."""
+"""What is known of the materials of a study's bodies, given there or by name from a file."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import fields
+import logging
+import warnings
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -12,28 +14,52 @@ from swtstudy.grid.values import read_exact
 from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
+from swtstudy.units.sizes import wrong_size
+from swtstudy.units.threshold import LOAD_RATIO, RANGES, critical_distance
+
+_log = logging.getLogger(__name__)
 
 #: Constants of a material; Young's modulus is that of the body unless it is given.
 CONSTANTS = tuple(item.name for item in fields(FatigueConstants))
+#: Above which von Mises stress it yields.
+STRENGTH = "yield_strength"
 #: The other way: names from a file.
 BY_NAME = ("file", "name")
 #: What may stand in the table.
-KEYS = (*CONSTANTS, *BY_NAME)
-_STRESSES = ("young_modulus", "strength")
+PROPERTIES = (*CONSTANTS, STRENGTH, *RANGES, LOAD_RATIO)
+KEYS = (*PROPERTIES, *BY_NAME)
+_STRESSES = ("young_modulus", "strength", STRENGTH, "fatigue_limit_range")
 _FILE = "a TOML file with a table of constants for each material"
 #: Of each body.
 _BOTH = 2
 
 
+@dataclass(frozen=True)
+class Materials:
+    """What is known of both bodies.
+
+    Attributes
+    ----------
+    constants, yield_strengths
+        Of each body, or none.
+    critical_distance
+        From the threshold and the fatigue limit, None without them.
+    """
+
+    constants: tuple[FatigueConstants, ...] = ()
+    yield_strengths: tuple[float, ...] = ()
+    critical_distance: float | None = None
+
+
 def read_material(
     raw: Mapping[str, Any], young: tuple[object, object] | None, units: Units, folder: Path, report: Report
-) -> tuple[FatigueConstants, ...]:
-    """The constants of both bodies; none if there are mistakes, which are reported.
+) -> Materials:
+    """What is said of both bodies, as far as it has no mistakes, which are reported.
 
     Parameters
     ----------
     raw
-        The table: constants, each a value or one for each body; or the names of materials in a file.
+        The table: properties, each a value or one for each body; or the names of materials in a file.
     young
         Young's moduli of the bodies, None if they are not single values.
     units, folder
@@ -46,32 +72,70 @@ def read_material(
         report(f"material.{name}", f"unknown key {literal(name)}", nearest(str(name), KEYS))
     by_name = bool({*BY_NAME} & raw.keys())
     tables = _named(raw, folder, report) if by_name else [_of_body(raw, i) for i in range(_BOTH)]
+    tables = [{name: _number(value) for name, value in table.items()} for table in tables]
     intended = {meant(str(name), KEYS) for name in unknown}
+    mistakes: list[Mistake] = []
+    constants = _constants(tables, young, intended, mistakes)
+    strengths = _strengths(tables, mistakes)
+    distance = None if len(tables) < _BOTH else critical_distance(tables, mistakes)
+    for mistake in dict.fromkeys(mistakes):  # both bodies may have the same one
+        report(*_in_units(mistake, units))
+    if mistakes or unknown:
+        return Materials()
+    if distance is not None:
+        usual, words = distance.words(units)
+        if usual:
+            _log.info(words)
+        else:
+            warnings.warn(words, stacklevel=2)
+    return Materials(constants, strengths, None if distance is None else distance.length)
+
+
+def _constants(
+    tables: list[dict[str, Any]],
+    young: tuple[object, object] | None,
+    intended: Iterable[object],
+    mistakes: list[Mistake],
+) -> tuple[FatigueConstants, ...]:
+    """The strain–life constants of both bodies; none if there are none, or mistakes."""
+    others = {STRENGTH, *RANGES}
+    told = any({*CONSTANTS} & table.keys() for table in tables)
+    if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
+        return ()
     found: list[FatigueConstants] = []
-    said: dict[tuple[str, str, str], None] = {}
     for body, table in enumerate(tables):
-        own: dict[str, Any] = {name: _number(table.get(name)) for name in CONSTANTS}
+        own: dict[str, Any] = {name: table.get(name) for name in CONSTANTS}
         if own["young_modulus"] is None and young is not None:
             own["young_modulus"] = young[body]
         try:
             found.append(FatigueConstants(**own))
         except StudyError as error:
-            # Both bodies may have the same mistake; what is misspelt is not lacking, too.
-            wrong = (each for each in error.mistakes if own[each.key] is not None or each.key not in intended)
-            said |= {_in_units(each, own[each.key] is None, units): None for each in wrong}
-    for words in said:
-        report(*words)
-    return tuple(found) if len(found) == _BOTH and not said and not unknown else ()
+            # What is misspelt is not lacking, too.
+            for each in error.mistakes:
+                lacks = own[each.key] is None
+                if not lacks or each.key not in intended:
+                    mistakes.append(Mistake(each.key, "nothing" if lacks else each.found, each.allowed))
+    return tuple(found) if len(found) == _BOTH else ()
 
 
-def _in_units(mistake: Mistake, lacks: bool, units: Units) -> tuple[str, str, str]:
-    """Key, found and allowed of a mistake in the constants."""
+def _strengths(tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:
+    """The yield strengths of both bodies; none if there are none, or mistakes."""
+    given = [table[STRENGTH] for table in tables if STRENGTH in table]
+    for value in given:
+        mistakes += wrong_size(STRENGTH, value, "a positive number")
+    if 0 < len(given) < len(tables):
+        mistakes.append(Mistake(STRENGTH, "that of one body", "that of both bodies, or of none"))
+    return () if mistakes or not given else tuple(map(float, given))
+
+
+def _in_units(mistake: Mistake, units: Units) -> tuple[str, str, str]:
+    """Key, found and allowed of a mistake."""
     allowed = mistake.allowed
     if mistake.key in _STRESSES:
         allowed = allowed.replace("number", f"stress in {units.stress}", 1)
-    if mistake.key == "young_modulus" and lacks:
+    if mistake.key == "young_modulus" and mistake.found == "nothing":
         allowed += ", since that of the bodies is no single value"
-    return f"material.{mistake.key}", "nothing" if lacks else mistake.found, allowed
+    return f"material.{mistake.key}", mistake.found, allowed
 
 
 def _number(raw: object) -> object:
@@ -83,7 +147,7 @@ def _number(raw: object) -> object:
 
 
 def _of_body(raw: Mapping[str, Any], body: int) -> dict[str, Any]:
-    """The constants of one body."""
+    """The properties of one body."""
     return {
         name: value[body] if isinstance(value, list) and len(value) == _BOTH else value
         for name, value in raw.items()
@@ -91,8 +155,8 @@ def _of_body(raw: Mapping[str, Any], body: int) -> dict[str, Any]:
 
 
 def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[str, Any]]:
-    """The constants of both bodies by the names of their materials in a file."""
-    others = sorted(raw.keys() & {*CONSTANTS})
+    """The properties of both bodies by the names of their materials in a file."""
+    others = sorted(raw.keys() & {*PROPERTIES})
     if others:
         report("material", f"a name and {', '.join(others)}", "constants, or file and name")
     file, names = raw.get("file"), raw.get("name")

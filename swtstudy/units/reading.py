@@ -31,7 +31,15 @@ from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
-from swtstudy.units.rows import MEAN_LOADS, OF_BODIES, SIMILAR, SIMILAR_KEY, rows, wrong_mean_load
+from swtstudy.units.rows import (
+    MEAN_LOADS,
+    NAMES_KEY,
+    OF_BODIES,
+    SIMILAR,
+    SIMILAR_KEY,
+    rows,
+    wrong_mean_load,
+)
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 
 
@@ -45,6 +53,7 @@ class Given:
     bulk_stress_body: int = 0
     blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
+    body_names: tuple[str, ...] = ()
 
 
 def read_contacts(
@@ -69,10 +78,11 @@ def read_contacts(
     own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, keys, report)
     similar = single.pop(SIMILAR_KEY, given.similar)
+    body_names = _body_names(single, given.body_names, keys, report)
     if not 0.0 <= plain_number(similar) < math.inf:
         report(keys(SIMILAR_KEY), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
     good_fixed, good_axes = read_values(
-        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, *pairs), samples, known, own
+        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
     check_lengths(profiles, everything, keys, report)
@@ -85,7 +95,7 @@ def read_contacts(
     if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, mistakes
     extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
-    extra["similar"] = plain_number(similar)
+    extra |= {"similar": plain_number(similar), "body_names": body_names}
     grid = completed(good_fixed, good_axes, good_samples, extra)
     check_bodies(grid, keys, report)
     check_loops(grid, keys, report)
@@ -142,6 +152,23 @@ def completed(
     if "body" in given or not _differ(grid):
         return grid
     return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+
+
+def _body_names(
+    single: dict[str, object], given: tuple[str, ...], keys: Callable[[str], str], report: Report
+) -> tuple[str, ...]:
+    """What the bodies are called, taken from the fixed values, in which a name becomes 1 or 2."""
+    raw = single.pop(NAMES_KEY, given or None)
+    if raw is None:
+        return ()
+    names = tuple(raw) if isinstance(raw, list | tuple) else ()
+    sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
+    if len(names) != 2 or not sound or names[0] == names[1]:
+        report(keys(NAMES_KEY), literal(raw), 'two names, such as ["pad", "specimen"]')
+        return ()
+    if single.get("body") in names:
+        single["body"] = names.index(str(single["body"])) + 1
+    return names
 
 
 def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
@@ -277,9 +304,18 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
         blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
-        given = Given(units, materials, float(raw["similar"]), int(raw["bulk_stress_body"]), blocks)
+        given = Given(
+            units,
+            materials,
+            float(raw["similar"]),
+            int(raw["bulk_stress_body"]),
+            blocks,
+            tuple(map(float, raw.get("yield_strengths", ()))),
+            tuple(map(str, raw.get("body_names", ()))),
+        )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    if not pairs.keys() <= {*OF_BODIES} or len(materials) not in (0, len(LABELS)):
+    several = materials, given.yield_strengths, given.body_names
+    if not pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(raw)}")
     return given, pairs

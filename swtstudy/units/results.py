@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,7 @@ import xarray as xr
 from swtstudy.quantities import Request
 from swtstudy.records.requested import CONTACT, has_units
 from swtstudy.units.blocks import miner
+from swtstudy.units.bodies import LABELS
 from swtstudy.units.variables import LIVES, NORMALISED, variables
 
 if TYPE_CHECKING:
@@ -40,8 +41,16 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
         row = grid.row(name)
         found[name].attrs = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
     if "body" in found.coords:
-        found["body"] = found.body.astype(np.int64).assign_attrs(found.body.attrs)
+        found["body"] = found.body.astype(np.int64).assign_attrs(found.body.attrs | _named(grid))
     return found.assign_attrs({CONTACT: _text(grid)})
+
+
+def _named(grid: PhysicalGrid) -> dict[str, Any]:
+    """Attributes of the coordinate ``body`` that say what the bodies are called, as flags have it."""
+    if not grid.body_names:
+        return {}
+    meanings = " ".join("_".join(name.split()) for name in grid.body_names)
+    return {"flag_values": np.array(LABELS), "flag_meanings": meanings}
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -62,5 +71,8 @@ def _text(grid: PhysicalGrid) -> str:
             "similar": grid.similar,
             "bulk_stress_body": grid.bulk_stress_body,
             **({"blocks": [asdict(each) for each in grid.blocks]} if grid.blocks else {}),
+            # Archives of studies without stay as they were.
+            **({"yield_strengths": [*grid.yield_strengths]} if grid.yield_strengths else {}),
+            **({"body_names": [*grid.body_names]} if grid.body_names else {}),
         }
     )

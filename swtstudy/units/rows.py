@@ -19,6 +19,8 @@ WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
 OF_BODIES = ("young_modulus", "poisson_ratio")
 #: A fixed value that is no parameter: Dundurs' |β| up to which the bodies count as similar, and what that is.
 SIMILAR_KEY, SIMILAR = "similar", 0.05
+#: Another: what the two bodies are called.
+NAMES_KEY = "bodies"
 #: What is 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
 #: The kinds of what has a unit.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
-from swtstudy.quantities import COUNTED, NONLOCAL, Request, error_of
+from swtstudy.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 #: What a study without units calls so, where the same has units in one with them.
 NORMALISED = {
     name: f"normalised_{name}"
-    for name in ("dissipation", "dissipation_error", "stick_radius", "contact_radius")
+    for name in (
+        *("dissipation", "dissipation_error", "stick_radius", "contact_radius", "von_mises", "bulk_shift"),
+    )
 }
 
 
@@ -116,6 +118,15 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     if "contact_radius" in asked.names:
         of, meaning = NORMALISED["contact_radius"], f"largest contact {radius}"
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
+    if "bulk_shift" in grid.margins:
+        meaning = "shift of the stick zone by the bulk strain"
+        yield Variable("bulk_shift", "e", meaning, "length", NORMALISED["bulk_shift"], _length)
+    if YIELD in asked.names:
+        of, words = NORMALISED[YIELD], "largest von Mises stress"
+        yield Variable(YIELD, r"\sigma_\mathrm{v}", words, "stress", of, _stress)
+        if grid.yield_strengths:
+            symbol, words = r"\sigma_\mathrm{v}/\sigma_\mathrm{y}", f"{words} over the yield strength"
+            yield Variable("yield_ratio", symbol, words, "1", of, _over_strength)
 
 
 def _fatemi_socie(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
@@ -149,6 +160,7 @@ NAMES = (
     *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
+    *("von_mises", "yield_ratio", "bulk_shift"),
 )
 
 
@@ -211,6 +223,16 @@ def _stress_scale(grid: PhysicalGrid) -> xr.DataArray:
 
 def _length(grid: PhysicalGrid) -> xr.DataArray:
     return grid.seats.scale("a_H")
+
+
+def _stress(grid: PhysicalGrid) -> xr.DataArray:
+    return grid.seats.scale("E* δ0/a_H")
+
+
+def _over_strength(grid: PhysicalGrid) -> xr.DataArray:
+    """The unit of stress over the yield strength of each body."""
+    one, two = (_stress(grid) / strength for strength in grid.yield_strengths)
+    return one.where(grid.bodies == 0, two)
 
 
 def _work(grid: PhysicalGrid) -> xr.DataArray:

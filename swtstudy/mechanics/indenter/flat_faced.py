@@ -61,8 +61,7 @@ class RoundedPunch(FlatFaced):
         b, depth = self._face(depth), np.maximum(depth, 0.0)
         # Exact for small and for large b²/G; the table knows what is in between.
         scale = np.sqrt(depth) + np.cbrt(3.0 * b * depth)
-        ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(depth)), 1e-100)
-        w = scale * np.interp(1.0 / (1.0 + ratio), *_rise_table())
+        w = scale * np.interp(rise_abscissa(b, depth), *_rise_table())
         radius = np.sqrt(b * b + w * w)
         # One Newton step in w squares the table's error.
         error = radius * (w - b * np.arctan2(w, b)) - depth
@@ -154,13 +153,25 @@ class RoundedPrimitives(FacePrimitives):
         return np.stack([(2.0 / r) * one, (2.0 / r**3) * three])
 
 
+def rise_abscissa(b: FloatArray, depth: FloatArray) -> FloatArray:
+    """1/(1 + (b²/G)^⅙), over which w is tabulated."""
+    ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(depth)), 1e-100)
+    return np.asarray(1.0 / (1.0 + ratio))
+
+
+def rise_angles() -> FloatArray:
+    """π/2 − arctan(w/b) for the tables of w, falling; closer towards small faces.
+
+    Beside the edge the stress shows the square root of a radius's error.
+    """
+    rest = 0.5 * np.pi - np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
+    return np.concatenate([rest[rest > 0.02], np.geomspace(0.02, 1e-12, 8001)])
+
+
 @lru_cache(maxsize=1)
 def _rise_table() -> tuple[FloatArray, FloatArray]:
     """w/(√G + (3 b G)^⅓) over 1/(1 + (b²/G)^⅙), for `RoundedPunch.radius`."""
-    angle = np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
-    # Closer towards small faces: beside the edge the stress shows the square root of a radius's error.
-    rest = 0.5 * np.pi - angle
-    rest = np.concatenate([rest[rest > 0.02], np.geomspace(0.02, 1e-12, 8001)])
+    rest = rise_angles()
     angle = 0.5 * np.pi - rest
     # With b = 1: w = tan, G = (tan − angle)/cos; the series keeps the difference exact for small angles.
     tangent = 1.0 / np.tan(rest)

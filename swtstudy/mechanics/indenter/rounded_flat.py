@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives
-from swtstudy.mechanics.indenter.flat_faced import FlatFaced
+from swtstudy.mechanics.indenter.flat_faced import FlatFaced, rise_abscissa, rise_angles
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
@@ -47,8 +47,7 @@ class RoundedFlat(PlaneProfile, FlatFaced):
         b, goal = self._face(depth), MEAN_LOAD * np.maximum(depth, 0.0)
         # Exact for small and for large b²/N; the table knows what is in between.
         scale = np.sqrt(goal) + np.cbrt(b * goal)
-        ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(goal)), 1e-100)
-        w = scale * np.interp(1.0 / (1.0 + ratio), *_rise_table())
+        w = scale * np.interp(rise_abscissa(b, goal), *_rise_table())
         for _ in range(NEWTON_STEPS):
             angle = np.arctan2(w, b)
             slope = w * angle
@@ -121,9 +120,7 @@ def _load(w: FloatArray, b: FloatArray, angle: FloatArray) -> FloatArray:
 @lru_cache(maxsize=1)
 def _rise_table() -> tuple[FloatArray, FloatArray]:
     """w/(√N + (b N)^⅓) over 1/(1 + (b²/N)^⅙), for `RoundedFlat.radius`."""
-    angle = np.linspace(0.0, 0.5 * np.pi, 20001)[1:-1]
-    rest = 0.5 * np.pi - angle
-    rest = np.concatenate([rest[rest > 0.02], np.geomspace(0.02, 1e-12, 8001)])
+    rest = rise_angles()
     angle = 0.5 * np.pi - rest
     # With b = 1: w = tan.
     w = 1.0 / np.tan(rest)

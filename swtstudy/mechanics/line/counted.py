@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Look, lifted
+from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import Criterion
@@ -125,7 +126,7 @@ def strain_cycles(scene: Scene, position: FloatArray, double_angle: FloatArray) 
         place and plane for each of `POWERS` where the sum is larger by `GAIN`; each in descending order.
     """
     split = scene.split_at_breakpoints()
-    positions, _ = resolved(scene, Pieces.of(split))
+    positions, _ = resolved(scene, joined_pieces(scene, Pieces.of(split)))
     home = _at(split, _off_edge(scene, np.abs(position)), np.sign(position), double_angle)
     largest = home[:, :1]
     home = home / largest

@@ -185,8 +185,9 @@ def high_positions(
 
     These are the local maxima of what is seen, as far as positions, instants and planes may each leave a
     share of it unseen, and those of what may be between the instants, as far as it may be the largest; and
-    where another plane takes over, whose maximum may hide beside the flank of a higher neighbour's. With
-    ``least``, of shape (n,), those as high as that.
+    where another plane takes over, whose maximum may hide beside the flank of a higher neighbour's, or where
+    the layer beside one of them ends, behind which another one may be. With ``least``, of shape (n,), those
+    as high as that.
     """
     point = positions.point
     if least is None:
@@ -195,8 +196,11 @@ def high_positions(
         least = largest
     enough = least[point][:, None]
     chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
+    beside = np.zeros_like(chosen)
+    beside[1:], beside[:-1] = chosen[:-1], beside[:-1] | chosen[1:]
+    beside &= ~(positions.is_even | positions.is_corner)[:, None]
     chosen |= peaks(point, seen.highest) & (seen.highest >= enough)
-    chosen |= flanks(point, seen) & (seen.swt >= (1.0 - SHARE) * enough)
+    chosen |= (flanks(point, seen) | beside) & (seen.swt >= (1.0 - SHARE) * enough)
     place, side = np.nonzero(chosen)
     return place, side
 

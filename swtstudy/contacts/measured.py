@@ -1,0 +1,170 @@
+"""What is said of one contact in lengths, forces and stresses: its stress, its SWT, what happens at it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.parameters import PARAMETERS
+from swtstudy.units.contact import Contact
+from swtstudy.units.labels import Units
+from swtstudy.units.rows import rows
+from swtstudy.units.scales import SCALES
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from swtstudy.figures.sheet import Width
+    from swtstudy.figures.style import Style
+
+#: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.
+_LENGTHS = {
+    **{"x": "x", "y": "y", "z": "z", "r": "r", "contact_radius": "a", "slip_radius": "c", "shown_x": "x"},
+    **{"permanent_stick_radius": "c", "least_radius": "a", "largest_radius": "a"},
+    "critical_x": "x",
+}
+_STRESSES = {
+    **{f"sigma_{name}": rf"\sigma_{{{name}}}" for name in ("xx", "yy", "zz", "yz", "xz", "xy")},
+    **{"normal_stress": r"\sigma_n", "bulk_stress": r"\sigma_B", "pressure": "p", "traction": "q"},
+}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The scales of one body of one contact.
+
+    Attributes
+    ----------
+    contact
+        The contact at rest.
+    body
+        0 or 1.
+    units
+        Labels.
+    """
+
+    contact: Contact
+    body: int
+    units: Units
+
+    @property
+    def swt(self) -> float:
+        """SWT over s."""
+        return self.contact.swt_scale * self.contact.moduli.swt_share(self.body)
+
+    def scales(self) -> dict[str, tuple[float, str, str]]:
+        """By name of a variable the scale, the kind of its unit, and its symbol."""
+        contact = self.contact
+        found = {name: (contact.length_scale, "length", symbol) for name, symbol in _LENGTHS.items()}
+        found |= {name: (contact.stress_scale, "stress", symbol) for name, symbol in _STRESSES.items()}
+        strain = contact.depth / contact.length_scale * contact.moduli.swt_share(self.body)
+        return found | {
+            "depth": (contact.depth, "length", r"\delta"),
+            "displacement": (contact.slip_scale, "length", "u"),
+            "normal_force": (contact.normal_force, "force", "F_N"),
+            "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
+            "normal_strain": (strain, "1", r"\varepsilon_n"),
+            "s_local": (self.swt, "stress", r"\mathrm{SWT}"),
+            "dissipation": (contact.work_scale, "work", "W"),
+            "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
+        }
+
+    def labels(self) -> dict[str, tuple[float, str]]:
+        """By name of a variable its scale, and what an axis of it says."""
+        return {
+            name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
+            for name, (scale, kind, symbol) in self.scales().items()
+            if kind != "1"
+        }
+
+    def places(self, **given: Any) -> dict[str, Any]:
+        """Places in lengths as those in a_H that the mechanics is asked for."""
+        import xarray as xr
+
+        return {
+            name: value / self.contact.length_scale
+            if isinstance(value, xr.DataArray | float | int)
+            else np.asarray(value) / self.contact.length_scale
+            for name, value in given.items()
+        }
+
+    def with_units(self, dataset: xr.Dataset, names: Mapping[str, str] | None = None) -> xr.Dataset:
+        """The same in lengths, forces and stresses; some under other names."""
+        scales = self.scales()
+        for name in [str(name) for name in dataset.variables if name in scales]:
+            scale, kind, symbol = scales[name]
+            words = str(dataset[name].attrs.get("long_name", name))
+            attributes = {
+                **dataset[name].attrs,
+                "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
+                "symbol": symbol,
+                "units": "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}",
+            }
+            scaled = dataset[name].variable * scale
+            scaled.attrs = attributes
+            dataset = (
+                dataset.assign_coords({name: scaled})
+                if name in dataset.coords
+                else dataset.assign({name: scaled})
+            )
+        return self._parameters(dataset).rename(
+            {old: new for old, new in (names or {}).items() if old in dataset}
+        )
+
+    def _parameters(self, dataset: xr.Dataset) -> xr.Dataset:
+        """The same with its parameters as lengths, forces and stresses."""
+        for name, row in rows(self.units).items():
+            scale = PARAMETERS[name].scale if name in PARAMETERS else ""
+            if scale and name in dataset.coords:
+                scaled = dataset[name].variable * SCALES[scale].of(self.contact)
+                units = row.units or f"unit of {SCALES[scale].kind}"
+                scaled.attrs = {**dataset[name].attrs, "symbol": row.symbol, "units": units}
+                dataset = dataset.assign_coords({name: scaled})
+        return dataset
+
+
+class InUnits(ABC):
+    """What there is of one contact in lengths, forces and stresses."""
+
+    @abstractmethod
+    def parameters(self, body: int = 1) -> dict[str, Any]:
+        """The non-dimensional parameters of one contact."""
+
+    @abstractmethod
+    def _measured(self, body: int) -> Measured:
+        """The scales of one body of one contact."""
+
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
+        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
+        from swtstudy.fields.stress import stress_field
+
+        own = self._measured(body)
+        field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
+        return own.with_units(field)
+
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body."""
+        from swtstudy.fields.swt import swt_field
+
+        own = self._measured(body)
+        field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
+        return own.with_units(field, {"s_local": "SWT"})
+
+    def inspect_point(self, body: int = 1) -> xr.Dataset:
+        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+
+        return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+
+    def inspect(self, body: int = 1, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+        from swtstudy.figures.inspection import draw_inspection
+
+        labels = self._measured(body).labels()
+        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels)

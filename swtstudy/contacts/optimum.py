@@ -1,0 +1,78 @@
+"""The best and the worst of real contacts, in the user's units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.named import Named
+from swtstudy.optimum.box import Box, read_ranges
+from swtstudy.optimum.optimise import mistakes_in, optimum_in
+from swtstudy.prescribed import PAIRS
+from swtstudy.quantities import DISTANCE, Request
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.reading import Given, read_contacts
+from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
+from swtstudy.units.variables import variables
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+def optimum(
+    grid: PhysicalGrid, over: object, minimise: str, rtol: float, seed: int, asked: Request
+) -> xr.Dataset:
+    """The best and the worst contacts in ranges around one contact; see `PhysicalContact.optimise`.
+
+    Parameters
+    ----------
+    grid
+        The contact, of both bodies or one.
+    over, minimise, rtol, seed
+        As of `PhysicalContact.optimise`.
+    asked
+        What is asked beside s.
+    """
+    known = ["s", "s_surface", *(each.name for each in variables(grid, asked) if each.of), *grid.margins]
+    mistakes = mistakes_in(minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
+    if asked.is_axis:
+        mistakes.append(Mistake(DISTANCE, "several", "one: what is made least is one value"))
+    try:
+        box = _box(grid, over)
+    except StudyError as error:
+        raise StudyError([*error.mistakes, *mistakes]) from None
+    if mistakes:
+        raise StudyError(mistakes)
+    return optimum_in(box, minimise, rtol, int(seed), asked)
+
+
+def _box(grid: PhysicalGrid, over: object) -> Box:
+    """The box of ranges in units around one contact."""
+    numeric = [
+        name for name, row in grid.rows.items() if row.kind == "number" and name not in (DISTANCE, "body")
+    ]
+    ranges, mistakes = read_ranges(over, numeric)
+    if mistakes:
+        raise StudyError(mistakes)
+    # What takes the place of another, as a force that of a displacement.
+    pairs = [{*pair} for pair in PAIRS.items()] + [{*MEAN_LOADS}, {"bulk_stress_ratio", "bulk_stress_mean"}]
+    replaced = {*ranges}.union(*(pair for pair in pairs if pair & {*ranges}))
+    fixed: dict[str, Any] = {name: value for name, value in grid.fixed.items() if name not in replaced}
+    fixed |= {name: [*two] for name, two in grid.pairs.items() if name not in replaced}
+    bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
+    about = {name: value for name, value in grid.about.items() if name in Given.__annotations__}
+    known: dict[str, dict[str, Named]] = {}
+    for each in grid.given:
+        known.setdefault(each.parameter, {})[each.name] = each
+    corners, found = read_contacts(
+        {**fixed, SIMILAR_KEY: grid.similar},
+        {**ranges, **bodies},
+        Given(**about),
+        lambda name: f"over.{name}" if name in ranges else name,
+        known=known,
+    )
+    if corners is None:
+        raise StudyError(found)
+    assert isinstance(over, Mapping)
+    return Box.of(corners, over)

@@ -1,0 +1,172 @@
+"""A load of a study by itself: its course, its path, and how near friction comes to its end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.style import Style, styled
+from swtstudy.figures.wrap import wrap_texts
+from swtstudy.grid.values import as_number
+from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.load.loop import Loop
+from swtstudy.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.prescribed import Control
+from swtstudy.wording import as_text
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from swtstudy.mechanics.points import FloatArray
+    from swtstudy.study.definition import Study
+    from swtstudy.study.signal import Signal
+
+#: Instants of a smooth loop.
+_INSTANTS = 720
+
+
+def draw_load(
+    study: Study,
+    name: str,
+    signal: Signal | None = None,
+    *,
+    style: Style | None = None,
+    width: Width | None = None,
+) -> Figure:
+    """A picture of a loop of a study: both loads and the bulk stress over a cycle, the path, the friction.
+
+    Parameters
+    ----------
+    study
+        The study; of what varies in it besides the first value counts.
+    name
+        Name of the loop.
+    signal
+        The record that it was made of, whose cycles are drawn beneath.
+    style, width
+        As for `swtstudy.accessor.SwtAccessor.figure`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The loads as the contact has them, in the units of the study, and where both are forces the friction
+        margin |Q|/(μP), which must not exceed 1.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if the study has no such loop.
+    """
+    check_width(width)
+    loops = {str(load): load for load in study.grid.values("load") if isinstance(load, Loop)}
+    if name not in loops:
+        raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
+    loads = _loads(study, loops[name])
+    phase = np.linspace(0.0, 1.0, len(loads))
+    forces = study.grid.control == Control(True, True)
+    with styled(style, width):
+        sheet = Sheet(1, 3 if forces else 2, width)
+        figure = sheet.figure()
+        course, path, *margin = sheet.panels(figure, share_x="none", share_y="none")[0]
+        _draw_course(course, phase, loads, signal)
+        _draw_path(path, study, loads, forces)
+        for axes in margin:
+            _draw_margin(axes, phase, study, loads)
+        words = f"{name}: {signal.words}" if signal else name
+        figure.suptitle(as_text(words))
+        wrap_texts(figure)
+    return figure
+
+
+def _first(study: Study, name: str, otherwise: float) -> float:
+    values = study.grid.values(name)
+    return as_number(values[0]) if values else otherwise
+
+
+def _loads(study: Study, loop: Loop) -> FloatArray:
+    """Both loads and the bulk stress over a cycle, the first instant again at the end, shape (k, 2 or 3)."""
+    control = study.grid.control
+    normal, tangential = (
+        _first(study, control.given_for(f"{each}_amplitude"), 1.0) for each in ("normal", "tangential")
+    )
+    load = loop.loads(np.ones(1), np.full(1, tangential))
+    vertices = getattr(loop, "vertices", None)
+    count = _INSTANTS if vertices is None else len(vertices)
+    instant = np.linspace(0.0, PERIOD, count + 1)
+    if vertices is not None:
+        closed = np.concatenate([vertices, vertices[:1]])
+        columns = [closed[:, 0], tangential * closed[:, 1]]
+    else:
+        columns = [load.normal(instant[None])[0] - 1.0, load.tangential(instant[None])[0]]
+    mean = _mean(study, loop)
+    columns[0] = mean + normal * columns[0]
+    if loop.bulk is not None:
+        amplitude = _first(study, "bulk_stress_amplitude", 1.0)
+        columns.append(_first(study, "bulk_stress_mean", 0.0) + amplitude * loop.bulk.value(instant))
+    return np.stack(columns, axis=1)
+
+
+def _mean(study: Study, loop: Loop) -> float:
+    """The mean normal load that a study has with a loop; 1 where nothing has units."""
+    kind = "normal_force" if study.grid.control.normal_force else "depth"
+    values = study.grid.values(kind)
+    at = list(study.grid.values("load")).index(loop)
+    return (
+        as_number(values[at if len(values) > 1 and study.grid.dimension(kind) == "load" else 0])
+        if values
+        else 1.0
+    )
+
+
+def _draw_course(axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signal | None) -> None:
+    """Both loads and the bulk stress over the cycle, and the record as far as it is the load itself."""
+    names = ("normal", "tangential", "bulk stress")
+    if signal is not None and signal.is_absolute:
+        cycles = signal.cycles
+        share = np.arange(cycles.shape[1]) / cycles.shape[1]
+        for column in range(cycles.shape[2]):
+            axes.plot(share, cycles[..., column].T, color=f"C{column}", lw=0.5, alpha=0.25, ls="-", marker="")
+        # A polygon begins at another vertex than its record.
+        loads = _at_begin(loads, signal.mean_cycle)
+    for column, name in zip(range(loads.shape[1]), names, strict=False):
+        axes.plot(phase, loads[:, column], color=f"C{column}", label=name, ls="-", marker="")
+    axes.set(xlabel="share of a cycle", ylabel="loads")
+    axes.set_title("course", loc="left")
+    axes.legend(frameon=False)
+
+
+def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
+    """A closed course from the instant on that is nearest to the begin of a cycle; that of a smooth one."""
+    size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
+    first = int((((loads[:-1] - cycle[0]) / size) ** 2).sum(axis=1).argmin())
+    rolled = np.roll(loads[:-1], -first, axis=0)
+    return np.concatenate([rolled, rolled[:1]])
+
+
+def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool) -> None:
+    """The path in the plane of both loads, and where friction ends."""
+    axes.plot(loads[:, 0], loads[:, 1], color="C0", ls="-", marker="")
+    axes.set(xlabel="normal load", ylabel="tangential load")
+    axes.set_title("path", loc="left")
+    if forces:
+        ends = np.array([0.0, 1.05 * loads[:, 0].max()])
+        for sign in (1.0, -1.0):
+            axes.plot(ends, sign * _slope(study) * ends, color="0.5", lw=0.8, ls="--", marker="")
+
+
+def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray) -> None:
+    """|Q|/(μP) over the cycle."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        margin = np.abs(loads[:, 1]) / (_slope(study) * loads[:, 0])
+    axes.plot(phase, margin, color="C3", ls="-", marker="")
+    axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
+    axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
+    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}", loc="left")
+
+
+def _slope(study: Study) -> float:
+    """Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0."""
+    return _first(study, "friction", 1.0) if study.grid.values("young_modulus") else 1.0

@@ -1,0 +1,90 @@
+"""How far points are from where the model ends, as far as the load alone says it: no contact is solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from swtstudy.mechanics.contact.stick_zone import stick_coordinate
+from swtstudy.mechanics.control.diagram import diagram, largest_depth
+from swtstudy.mechanics.indenter import roughness
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.load.of_points import alike, load_of
+from swtstudy.mechanics.numerics.peaks import parabola
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.stress.bulk_shift import bulk_shift
+
+#: Steps between turning instants at which the largest force ratio is looked for.
+STEPS = 32
+
+
+@dataclass(frozen=True)
+class Margins:
+    """Margins of n points, each of shape (n,).
+
+    Attributes
+    ----------
+    largest_radius
+        Largest contact radius of the cycle in a_H, half the width in plane contacts.
+    slip_width
+        Its distance from the permanent stick zone in a_H; NaN where there is none.
+    bulk_shift
+        By how much the bulk strain would move the stick zone, in a_H, see `bulk_shift`; however large it is.
+    force_ratio
+        Largest |F_x|/(μ F_N) that is prescribed: there is no equilibrium where it is above 1; NaN where
+        the tangential force is not prescribed.
+    """
+
+    largest_radius: FloatArray
+    slip_width: FloatArray
+    bulk_shift: FloatArray
+    force_ratio: FloatArray
+
+    @classmethod
+    def of(cls, points: Points) -> Margins:
+        """Those of points of one profile family and control."""
+        found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
+        for index in alike(points):
+            load = load_of(points.take(index))
+            some = points.take(index)
+            deepest = largest_depth(some.control, some.profile, some.shape, load.largest_normal)
+            level = roughness(some.profile, some.shape, deepest)
+            for each in np.unique(level):
+                rows = np.flatnonzero(level == each)
+                own = _of_alike(points.take(index[rows]), load.take(rows))
+                for name, values in vars(own).items():
+                    getattr(found, name)[index[rows]] = values
+        return found
+
+
+def _of_alike(points: Points, prescribed: Load) -> Margins:
+    """Those of points whose loads are alike, of profiles of one roughness."""
+    load, coordinate = diagram(points.control, points.profile, points.shape, prescribed)
+    stick = stick_coordinate(load)
+    ends = np.maximum(np.stack([stick, load.largest_normal], axis=1), 0.0)
+    stick_radius, largest = coordinate.radius(ends).T
+    width = np.where(stick >= 0.0, largest - stick_radius, np.nan)
+    ratio = _force_ratio(load) if points.control.tangential_force else np.full(len(points), np.nan)
+    return Margins(largest, width, bulk_shift(points), ratio)
+
+
+def _force_ratio(load: Load) -> FloatArray:
+    """Largest |T|/N over the cycle, inf where T is not 0 without N, shape (n,)."""
+    turns = load.turning_instants()
+    ends = np.concatenate([turns[:, -1:] - 2.0 * np.pi, turns], axis=1)
+    steps = 1 if load.grows_in_lines else STEPS
+    share = np.arange(steps) / steps
+    instants = (ends[:, :-1, None] + np.diff(ends, axis=1)[:, :, None] * share).reshape(len(load), -1)
+    instants = np.mod(instants, 2.0 * np.pi)
+    normal, tangential = np.maximum(load.normal(instants), 0.0), np.abs(load.tangential(instants))
+    with np.errstate(divide="ignore"):
+        ratio = np.divide(tangential, normal, out=np.zeros_like(normal), where=tangential > 0.0)
+    best = ratio.argmax(axis=1)
+    rows = np.arange(len(load))
+    around = [ratio[rows, (best + step) % ratio.shape[1]] for step in (-1, 0, 1)]
+    top = ratio[rows, best]
+    # Even steps lie between turning instants; at one the load turns, and is known.
+    smooth = (best % steps > 0) & np.isfinite(around).all(axis=0)
+    rise = parabola(*(np.where(smooth, each, 0.0) for each in around))[1]
+    return np.asarray(top + np.where(smooth, rise, 0.0))

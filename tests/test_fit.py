@@ -1,0 +1,236 @@
+"""The critical distance from properties, and fitted to tests."""
+
+import logging
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from real import ALUMINIUM
+
+import swtstudy
+from swtstudy import Study, StudyError, fitting, physical
+from swtstudy.cli import main
+from swtstudy.figures.fitted import draw_fit, fit_lines
+
+STUDY = """
+title = "Tests of a rig"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[material]
+strength = 927
+strength_exponent = -0.113
+ductility = 0.409
+ductility_exponent = -0.713
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 200
+"""
+#: Three tests, and the distance with which their lives are made.
+FORCES, LOADS, MADE_WITH = (30.0, 55.0, 80.0), (150.0, 200.0, 300.0), 0.06
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory):
+    """A study, and the lives of its tests, by contacts that are solved one by one."""
+    file = tmp_path_factory.mktemp("rig") / "rig.toml"
+    file.write_text(STUDY, encoding="utf-8")
+    lives = []
+    for force, load in zip(FORCES, LOADS, strict=True):
+        contact = physical(
+            young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=load,
+            tangential_force_amplitude=force,
+        )  # fmt: skip
+        solved = contact.solve(1e-3, critical_distance=MADE_WITH, constants=ALUMINIUM)
+        lives.append(float(solved.cycles_volume[0]))
+    return file, lives
+
+
+def table(lives):
+    return {"tangential_force_amplitude": FORCES, "normal_force": LOADS, "life": lives}
+
+
+def test_a_fit_finds_the_distance_with_which_lives_are_made(rig):
+    file, lives = rig
+    found = swtstudy.fit(file, table(lives))
+    assert float(found.critical_distance) == pytest.approx(MADE_WITH, rel=5e-3)
+    assert found.critical_distance.attrs["units"] == "mm"
+    np.testing.assert_allclose(found.predicted, lives, rtol=0.02)
+    assert int(found.within_2) == 3
+    assert float(found.scatter) < 0.01
+
+
+class Law:
+    """Lives that are a power of distance and friction times the force: the fit has a closed form."""
+
+    def __init__(self, forces, friction=1.0):
+        self.forces, self.power = np.array(forces), friction
+
+    def __call__(self, grid, y, distances, friction):
+        friction = 0.5 if friction is None else friction
+        pull = np.log10(self.forces)[:, None]
+        return 6.0 + 2.0 * np.log10(distances) - self.power * pull * np.log10(friction) - pull
+
+
+def test_noise_has_the_interval_of_linear_regression(rig, monkeypatch):
+    """log N is linear in log ℓ with the slope 2: an average, with its Student interval."""
+    forces = np.linspace(30.0, 80.0, 12)
+    law = Law(forces)
+    monkeypatch.setattr(fitting, "_lives", law)
+    noise = np.random.default_rng(3).normal(scale=0.2, size=12)
+    observed = 10.0 ** (law(None, "", np.array([0.05]), None)[:, 0] + noise)
+    tests = {"tangential_force_amplitude": forces, "life": observed}
+    found = swtstudy.fit(rig[0], tests, confidence=0.9)
+    assert np.log10(found.critical_distance / 0.05) == pytest.approx(noise.mean() / 2.0, abs=1e-4)
+    half = 1.7959 * noise.std(ddof=1) / np.sqrt(12) / 2.0  # Student's t of 11 degrees of freedom
+    assert np.log10(found.critical_distance_high / found.critical_distance) == pytest.approx(half, rel=1e-3)
+    assert float(found.scatter) == pytest.approx(noise.std(ddof=1), rel=1e-6)
+
+
+def test_friction_is_fitted_beside_it(rig, monkeypatch):
+    forces = np.linspace(30.0, 80.0, 8)
+    law = Law(forces)
+    monkeypatch.setattr(fitting, "_lives", law)
+    observed = 10.0 ** law(None, "", np.array([0.05]), 0.7)[:, 0]
+    tests = {"tangential_force_amplitude": forces, "life": observed}
+    found = swtstudy.fit(rig[0], tests, friction=True)
+    assert float(found.friction) == pytest.approx(0.7, rel=1e-2)
+    assert float(found.critical_distance) == pytest.approx(0.05, rel=2e-2)
+    # Friction bears the tangential forces: 80 N at 200 N.
+    model = fitting._Model(*fitting._read(rig[0], tests, 2), "cycles_volume", True)
+    assert np.exp(model.bounds()[0][1]) == pytest.approx(0.4, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("tests", "words"),
+    [
+        (
+            {"tangential_force_amplitude": [30.0, 60.0]},
+            "tests: found the columns tangential_",
+        ),
+        ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 tests; allowed: 2 at least"),
+        ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
+        ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
+        ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life nan of test 2"),
+        ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
+        ("nowhere.csv", "tests: found 'nowhere.csv' "),
+        (3, "tests: found 3; allowed: a CSV file"),
+    ],
+)
+def test_wrong_tables_are_named(rig, tests, words):
+    with pytest.raises(StudyError, match=words):
+        swtstudy.fit(rig[0], tests)
+
+
+def test_wrong_requests_are_named(rig, tmp_path):
+    tests = {"tangential_force_amplitude": [30, 60], "life": [1e5, 1e6]}
+    with pytest.raises(StudyError, match="y: found 'cycles'"):
+        swtstudy.fit(rig[0], tests, y="cycles")
+    with pytest.raises(StudyError, match="confidence: found 2"):
+        swtstudy.fit(rig[0], tests, confidence=2)
+    plain = tmp_path / "plain.toml"
+    plain.write_text('title = "t"', encoding="utf-8")
+    with pytest.raises(StudyError, match=r"a study with \[units\] and the constants"):
+        swtstudy.fit(plain, {"phase": [0, 1], "life": [1e5, 1e6]})
+    with pytest.raises(StudyError, match="a readable study file"):
+        swtstudy.fit(tmp_path / "none.toml", tests)
+
+
+def test_a_best_distance_at_the_end_is_no_fit(rig, monkeypatch):
+    monkeypatch.setattr(fitting, "_lives", Law([30.0, 60.0]))
+    with pytest.raises(StudyError, match="the best one is at an end of those tried"):
+        swtstudy.fit(rig[0], {"tangential_force_amplitude": [30, 60], "life": [1e9, 1e9]})
+
+
+def test_the_command_writes_the_figure(rig, monkeypatch, tmp_path):
+    forces = np.linspace(30.0, 80.0, 6)
+    law = Law(forces)
+    monkeypatch.setattr(fitting, "_lives", law)
+    factors = np.array([1.0, 3.0, 0.5, 1.5, 0.9, 6.0])
+    observed = factors * 10.0 ** law(None, "", np.array([0.05]), None)[:, 0]
+    file = tmp_path / "tests.csv"
+    rows = [f"{force},{life}" for force, life in zip(forces, observed, strict=True)]
+    file.write_text("\n".join(["tangential_force_amplitude,life", *rows]), encoding="utf-8")
+    done = CliRunner().invoke(main, ["fit", str(rig[0]), str(file), "--results", str(tmp_path)])
+    assert done.exit_code == 0, done.output
+    assert done.stdout.startswith("critical_distance = 0.0")
+    assert "of 6 tests 4 within a factor of 2, 6 within a factor of 5" in done.stdout
+    assert (tmp_path / "rig_fit.nc").exists()
+    assert (tmp_path / "rig_fit.png").exists()
+    found = swtstudy.fit(rig[0], file)
+    axes = draw_fit(found).axes[0]
+    *lines, tests = axes.lines
+    np.testing.assert_array_equal(tests.get_xdata(), found.observed)
+    np.testing.assert_array_equal(tests.get_ydata(), found.predicted)
+    ratios = sorted(round(float(line.get_ydata()[0] / line.get_xdata()[0]), 3) for line in lines)
+    assert ratios == [0.2, 0.5, 1.0, 2.0, 5.0]
+    assert fit_lines(found)[0] == done.stdout.splitlines()[0]
+
+
+def with_material(*lines):
+    text = STUDY.replace("[material]", "\n".join(["[material]", *lines]))
+    return text.replace("friction = 0.5", "friction = 0.5\ntangential_force_amplitude = 60")
+
+
+RANGES = ("threshold_stress_intensity_range = 110", "fatigue_limit_range = 280")
+
+
+def test_the_critical_distance_of_a_threshold_and_a_fatigue_limit(caplog):
+    caplog.set_level(logging.INFO, "swtstudy")
+    study = Study.from_text(with_material(*RANGES, "load_ratio = -1"))
+    assert study.asked.distances == (pytest.approx((110 / 280) ** 2 / np.pi),)
+    (line,) = caplog.messages
+    assert line == (
+        "critical_distance = 0.04913 mm, (ΔK_th/Δσ_0)²/π of ranges at the load ratio -1: "
+        "110 MPa√mm and 280 MPa"
+    )
+
+
+def test_a_threshold_of_other_units_is_warned_of():
+    """3.5 MPa√m are 110.7 MPa√mm: taken for the latter ℓ is a thousandth."""
+    with pytest.warns(UserWarning, match="1 MPa√m is 31.62 MPa√mm"):
+        Study.from_text(with_material("threshold_stress_intensity_range = 3.5", RANGES[1]))
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (RANGES[:1], "material.fatigue_limit_range: found nothing; allowed: a positive stress in MPa"),
+        (RANGES[1:], "material.threshold_stress_intensity_range: found nothing"),
+        ((RANGES[0], "fatigue_limit_range = -1"), "fatigue_limit_range: found -1"),
+        ((RANGES[0], "fatigue_limit_range = [280, 300]"), "one critical distance for both bodies"),
+        ((*RANGES, "load_ratio = 1"), "material.load_ratio: found 1; allowed: a number below 1"),
+        (("yield_strength = 0",), "material.yield_strength: found 0; allowed: a positive stress in MPa"),
+        (("yield_strenght = 300",), "unknown key 'yield_strenght'; allowed: did you mean yield_strength"),
+    ],
+)
+def test_wrong_properties_are_named(lines, words):
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(with_material(*lines))
+
+
+def test_a_distance_beside_them_is_one_too_many():
+    text = with_material(*RANGES).replace("radius = 50", "radius = 50\ncritical_distance = 0.05")
+    with pytest.raises(StudyError, match="a threshold and a fatigue limit beside a critical_distance"):
+        Study.from_text(text)
+
+
+def test_properties_of_a_file_and_alone(tmp_path):
+    (tmp_path / "materials.toml").write_text(
+        "[alloy]\nyield_strength = 300\n" + "\n".join(RANGES), encoding="utf-8"
+    )
+    head, _, tail = with_material().partition("[material]")
+    text = (
+        head + '[material]\nfile = "materials.toml"\nname = "alloy"\n[fixed]' + tail.partition("[fixed]")[2]
+    )
+    study = Study.from_text(text, "s", tmp_path)
+    assert study.grid.yield_strengths == (300.0, 300.0)
+    assert study.grid.materials == ()
+    assert study.asked.names == ("von_mises",)
+    # The text that the archive keeps needs no file.
+    again = Study.from_text(study.text)
+    assert (again.grid.yield_strengths, again.asked.distances) == ((300.0, 300.0), study.asked.distances)

@@ -1,0 +1,76 @@
+"""The picture of a load of a study, and what the command says of its record."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from swtstudy import Study, StudyError, draw_load
+from swtstudy.cli import main
+
+RIG = """
+title = "A rig"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+load = "rig"
+[loads.rig]
+file = "rig.csv"
+absolute = true
+recorded_cycles = 3
+"""
+CYCLE = np.array([[200, 0, 0], [220, 60, 30], [205, 20, 10], [190, -57, -30]])
+
+
+@pytest.fixture
+def rig(tmp_path: Path) -> Path:
+    noise = np.random.default_rng(1).normal(size=(12, 3))
+    rows = [",".join(map(repr, row)) for row in (np.tile(CYCLE, (3, 1)) + 0.1 * noise).tolist()]
+    (tmp_path / "rig.csv").write_text("\n".join(["normal,tangential,bulk", *rows]))
+    (tmp_path / "rig.toml").write_text(RIG)
+    return tmp_path / "rig.toml"
+
+
+def test_the_picture_has_the_record_the_path_and_the_friction_margin(rig: Path) -> None:
+    text = RIG.replace('file = "rig.csv"\n', f"vertices = {CYCLE.tolist()}\n").replace(
+        "recorded_cycles = 3", ""
+    )
+    course, path, margin = draw_load(Study.from_text(text), "rig").axes
+    normal = course.get_lines()[0].get_ydata()
+    np.testing.assert_allclose(np.sort(normal[:-1]), np.sort(CYCLE[:, 0]))
+    assert normal[0] == normal[-1]
+    np.testing.assert_allclose(np.sort(path.get_lines()[0].get_ydata()[:-1]), np.sort(CYCLE[:, 1]))
+    # The largest of |Q|/(μP) by hand.
+    assert margin.get_lines()[0].get_ydata().max() == pytest.approx(57 / (0.5 * 190))
+    assert "at most 0.60" in margin.get_title(loc="left")
+
+
+def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig: Path) -> None:
+    picture = rig.with_name("rig.png")
+    done = CliRunner().invoke(main, ["show", "--load", "rig", str(rig), "-o", str(picture)])
+    assert done.exit_code == 0, done.output
+    assert done.output.startswith("rig: 3 cycles of 4 samples; mean normal load 203.")
+    assert "scatter by 0.1" in done.output
+    assert picture.stat().st_size > 10_000
+    done = CliRunner().invoke(main, ["show", "--load", "rg", str(rig)])
+    assert done.exit_code == 2
+    assert "did you mean rig" in done.output
+
+
+def test_a_smooth_loop_without_units_is_drawn_too() -> None:
+    rows = "normal = [[1, 0.5, 0]]\ntangential = [[1, 0.3, 1]]\n"
+    text = f'title = "t"\nfixed.load = "mine"\n[loads.mine]\n{rows}'
+    course, path = draw_load(Study.from_text(text), "mine").axes
+    assert course.get_lines()[0].get_ydata().max() == pytest.approx(1.5, rel=1e-4)
+    assert path.get_lines()[0].get_ydata().max() == pytest.approx(0.3, rel=1e-4)
+    with pytest.raises(StudyError, match="load: found 'harmonic'"):
+        draw_load(Study.from_text(text), "harmonic")

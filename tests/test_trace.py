@@ -1,0 +1,102 @@
+"""Traces of profilometers: two sides become one profile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import swtstudy
+from swtstudy import StudyError, read_trace
+from swtstudy.study.trace import folded
+
+#: A sphere of R = 50, and a flat face of half-width 0.5 with rounded edges.
+SHAPES = {
+    "sphere": lambda x: x**2 / 100.0,
+    "flat": lambda x: np.maximum(np.abs(x) - 0.5, 0.0) ** 2 / 20.0,
+}
+
+
+def trace(shape: str, noise: float, tilt: float, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and heights about 0.13, at an offset of 3."""
+    x = np.linspace(-2.0, 2.3, 861)
+    error = noise * np.random.default_rng(seed).normal(size=x.size)
+    return x, 3.0 + tilt * (x - 0.13) + SHAPES[shape](x - 0.13) + error
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("tilt", [0.0, 0.004])
+def test_tilt_offset_and_the_middle_are_found(shape: str, tilt: float) -> None:
+    """A tilted parabola is one about another middle, with the same heights about it."""
+    radius, height, noise = folded(*trace(shape, 0.0, tilt), level=True)
+    np.testing.assert_allclose(height, SHAPES[shape](radius), atol=2e-5)
+    assert noise < 1e-5
+    if tilt:
+        assert folded(*trace("flat", 0.0, tilt), level=False)[2] > 1e-4
+
+
+def test_the_noise_is_that_of_the_mean_of_both_sides() -> None:
+    radius, height, noise = folded(*trace("flat", 1e-4, 0.004), level=True)
+    assert noise == pytest.approx(1e-4 / np.sqrt(2.0), rel=0.25)
+    left = height[1:] - SHAPES["flat"](radius[1:])
+    assert np.std(left) == pytest.approx(noise, rel=0.25)
+
+
+def test_a_trace_is_a_profile_of_a_contact(tmp_path: Path) -> None:
+    x, z = trace("sphere", 2e-5, 0.004)
+    rows = "\n".join(f"{a!r};{b!r}".replace(".", ",") for a, b in zip(x.tolist(), z.tolist(), strict=True))
+    (tmp_path / "ball.csv").write_text(f"x [mm];z [mm]\n{rows}\n")
+    columns = {"position": "x [mm]", "height": "z [mm]"}
+    ball = read_trace(tmp_path / "ball.csv", columns=columns, separator=";", decimal=",")
+    same = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "normal_force": 2000.0, "friction": 0.5}
+    same["tangential_force_amplitude"] = 300.0
+    measured = swtstudy.physical(**same, profile=ball)
+    exact = swtstudy.physical(**same, radius=50.0)
+    assert measured.contact_radius == pytest.approx(exact.contact_radius, rel=0.01)
+    (tmp_path / "few.csv").write_text("position,height\n0,1\n1,2\n")
+    with pytest.raises(StudyError, match=r"few.csv: found 2 points; allowed: 32 at least"):
+        read_trace(tmp_path / "few.csv")
+
+
+def test_a_study_reads_a_trace_beside_tables_in_a_form_of_their_own(tmp_path: Path) -> None:
+    x, z = trace("sphere", 2e-5, 0.004)
+    rows = "\n".join(f"{a!r};{b!r}".replace(".", ",") for a, b in zip(x.tolist(), z.tolist(), strict=True))
+    (tmp_path / "ball.csv").write_text(f"x;height\n{rows}\n")
+    text = """
+title = "t"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[profiles.ball]
+file = "ball.csv"
+two_sided = true
+columns = { position = "x" }
+separator = ";"
+decimal = ","
+[fixed]
+profile = "ball"
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+friction = 0.5
+normal_force = 2000
+tangential_force_amplitude = 300
+"""
+    study = swtstudy.Study.from_text(text, "s", tmp_path)
+    (ball,) = study.grid.values("profile")
+    given = {"columns": {"position": "x"}, "separator": ";", "decimal": ","}
+    own = read_trace(tmp_path / "ball.csv", **given)
+    assert ball == own
+    # Between two samples there is less of it.
+    assert 0.5e-5 * np.sqrt(2.0) < own.smoothing < 1.5e-5
+    for wrong, words in (
+        (
+            ("position", "psition"),
+            "profiles.ball: found 'psition' .columns.psition.; allowed: did you mean pos",
+        ),
+        (('separator = ";"', 'separator = "ab"'), "profiles.ball: found 'ab' .separator.; allowed: one of"),
+        (("two_sided = true", "two_sided = 1"), "profiles.ball.two_sided: found 1; allowed: true or false"),
+    ):
+        with pytest.raises(StudyError, match=words):
+            swtstudy.Study.from_text(text.replace(*wrong), "s", tmp_path)

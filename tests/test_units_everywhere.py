@@ -1,0 +1,218 @@
+"""Units beyond studies: extrema, optima, the field and the inspection of a contact; names of its bodies."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from matplotlib.figure import Figure
+from real import ALUMINIUM
+
+import swtstudy
+from swtstudy import Study, StudyError, physical
+from swtstudy.archive.describe import describe
+from swtstudy.archive.recall import grid_of
+from swtstudy.cli import main
+from swtstudy.contacts.measured import InUnits
+from swtstudy.study.writing import to_toml
+
+RIG = {
+    "young_modulus": 73.1e3,
+    "poisson_ratio": 0.33,
+    "radius": 50.0,
+    "friction": 0.5,
+    "normal_force": 200.0,
+    "tangential_force_amplitude": 60.0,
+}
+
+
+@pytest.fixture(scope="module")
+def rig():
+    return physical(**RIG)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    several = {**RIG, "tangential_force_amplitude": [30.0, 60.0], "normal_force": [150.0, 200.0]}
+    return physical(**several).solve(1e-2, constants=ALUMINIUM)
+
+
+def test_extrema_of_any_quantity(solved):
+    found = solved.swt.extrema("tangential_force_amplitude", "cycles")
+    assert (found.at_maximum == 30.0).all()
+    np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
+    assert "cycles" in found.minimum.attrs["long_name"]
+    assert solved.swt.extrema("normal_force", "SWT").maximum.attrs["units"] == "unit of stress"
+    with pytest.raises(StudyError, match="whose values are flags"):
+        solved.swt.extrema("normal_force", "regime")
+    with pytest.raises(ValueError, match="not a dimension of SWT"):
+        solved.swt.extrema("phase", "SWT")
+    with pytest.raises(ValueError, match="not a quantity"):
+        solved.swt.extrema("normal_force", "SWOT")
+
+
+def test_the_stress_field_is_in_lengths_and_stresses(rig):
+    """Hertz's pressure, in MPa, at places in mm."""
+    a, p0 = rig.contact_radius, rig.peak_pressure
+    x = np.array([0.0, 0.5 * a])
+    field = rig.stress_field(x, 0.0, 0.0, time=0.0)
+    np.testing.assert_allclose(field.x, x, rtol=1e-12)
+    np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
+    assert float(field.contact_radius) == pytest.approx(a)
+    assert field.sigma_zz.attrs["units"] == "unit of stress"
+    assert "E*" not in field.sigma_zz.attrs["long_name"]
+
+
+def test_the_swt_field_has_the_largest_swt_where_it_is(rig):
+    solved = rig.solve(1e-4)
+    place = float(solved.critical_position.sel(body=2))
+    found = rig.swt_field(place, 0.0, 0.0, body=2).SWT
+    assert float(found) == pytest.approx(float(solved.SWT.sel(body=2)), rel=1e-3)
+
+
+def test_a_point_of_a_study_is_a_contact(solved):
+    point = solved.sel(tangential_force_amplitude=60.0, normal_force=200.0)
+    contact = point.swt.contact()
+    assert contact.grid.fixed["normal_force"] == 200.0
+    assert contact.parameters() == physical(**RIG).parameters()
+    with pytest.raises(StudyError, match="results without units"):
+        swtstudy.solve(rtol=1e-2).swt.contact()
+
+
+def test_an_inspected_contact_is_in_forces_and_stresses(rig):
+    point = rig.inspect_point()
+    assert float(point.tangential_force.max()) == pytest.approx(60.0, rel=1e-3)
+    np.testing.assert_allclose(point.normal_force, 200.0, rtol=1e-6)
+    assert float(point.s_local.max()) == pytest.approx(float(rig.solve(1e-4).SWT[0]), rel=0.02)
+    # SWT from the cycle on the critical plane: a strain of this body, of two equal ones.
+    swing = float(point.normal_strain.max() - point.normal_strain.min()) / 2.0
+    assert float(point.normal_stress.max()) * swing == pytest.approx(float(rig.solve(1e-4).SWT[0]), rel=1e-3)
+    assert float(point.tangential_force_amplitude) == pytest.approx(60.0)
+
+
+def test_the_best_contact_in_units(rig):
+    """SWT rises with the tangential force, and life falls: ends of the range, in newtons."""
+    over = {"tangential_force_amplitude": (40, "80")}
+    found = rig.optimise(over, rtol=1e-2)
+    assert found.tangential_force_amplitude.values.tolist() == [40.0, 80.0]
+    expected = [
+        float(physical(**{**RIG, "tangential_force_amplitude": q}).solve(1e-2).SWT[0]) for q in (40, 80)
+    ]
+    np.testing.assert_allclose(found.SWT.sel(body=1), expected, rtol=1e-2)
+    assert found.attrs["minimise"] == "SWT"
+    assert float(found.nearby_value.sel(case="best")[0].sel(step=0.05, method="nearest")) == pytest.approx(
+        42.0
+    )
+
+
+def test_the_best_life_is_the_longest(rig):
+    lives = rig.optimise({"tangential_force_amplitude": (40, 80)}, "cycles", rtol=1e-2, constants=ALUMINIUM)
+    assert lives.tangential_force_amplitude.values.tolist() == [40.0, 80.0]
+    assert (lives.cycles.sel(case="best") > lives.cycles.sel(case="worst")).all()
+
+
+def test_wrong_optima_are_named(rig):
+    with pytest.raises(StudyError, match="minimise: found 'cycles'"):
+        rig.optimise({"phase": (0, 1)}, "cycles")
+    with pytest.raises(StudyError, match=r"over.phasee: found not a parameter that is a number"):
+        rig.optimise({"phasee": (0, 1)})
+    with pytest.raises(StudyError, match=r"over.radius\[0\]: found -1"):
+        rig.optimise({"radius": (-1, 1)})
+    with pytest.raises(StudyError, match=r"over.radius: found \(60, 40\); allowed: the lower end first"):
+        rig.optimise({"radius": (60, 40)})
+    with pytest.raises(StudyError, match="critical_distance: found several"):
+        rig.optimise({"radius": (40, 60)}, critical_distance=[0.1, 0.2])
+    with pytest.raises(StudyError, match="several contacts"):
+        physical(**{**RIG, "radius": [40.0, 50.0]}).optimise({"phase": (0, 1)})
+
+
+STUDY = """
+title = "A pad on a test piece"
+rtol = 1e-2
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 200
+tangential_force_amplitude = 60
+bulk_stress_amplitude = 30
+bodies = ["test piece", "pad"]
+[axes]
+phase = ["0 deg", "90 deg"]
+[figure]
+x = "phase"
+hue = "body"
+y = "SWT"
+"""
+
+
+def test_bodies_have_names(tmp_path):
+    found = swtstudy.run(Study.from_text(STUDY), tmp_path / "pad.nc", workers=1)
+    assert found.body.values.tolist() == [1, 2]
+    assert found.body.attrs["flag_meanings"] == "test_piece pad"
+    assert "  axis           body: test piece, pad" in describe(found)
+    figure = found.swt.figure()
+    legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
+    assert [text.get_text() for text in legends[0].get_texts()] == ["test piece", "pad"]
+    assert grid_of(found).body_names == ("test piece", "pad")
+    line = found.assign(radius_ratio=found.radius_ratio + 0.2 * (found.body == 2)).swt.validity()[-1]
+    assert line.endswith("body = pad")
+    # Alone by its name; written and read again.
+    one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
+    assert one.grid.fixed["body"] == 2.0
+    again = Study.from_text(to_toml("t", 1e-2, one.grid, None))
+    assert (again.grid.body_names, again.grid.fixed["body"]) == (("test piece", "pad"), 2.0)
+
+
+@pytest.mark.parametrize("bodies", ['["pad"]', '"pad"', '["pad", "pad"]', '["pad", 2]', '["", "pad"]'])
+def test_wrong_names_are_refused(bodies):
+    with pytest.raises(StudyError, match=r"fixed.bodies: found .*; allowed: two names"):
+        Study.from_text(STUDY.replace('["test piece", "pad"]', bodies))
+    with pytest.raises(StudyError, match="unknown parameter"):
+        Study.from_text('title = "t"\n[fixed]\nbodies = ["a", "b"]')
+
+
+def test_names_in_python():
+    contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"))
+    assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
+
+
+def test_a_contact_is_drawn_in_its_units(rig):
+    axes = rig.inspect(body=2).axes
+    plane = next(each for each in axes if "load plane" in each.get_title("left"))
+    assert plane.get_xlabel() == "$F_x$ (unit of force)"
+    ticks = [float(label.get_text().replace("−", "-")) for label in plane.get_xticklabels()]
+    # Where 50 is written there are 50 of the 100 that friction bears.
+    np.testing.assert_allclose(plane.get_xticks(), np.array(ticks) / 100.0)
+    assert 50.0 in ticks
+
+
+def test_the_command_shows_a_study(tmp_path, monkeypatch):
+    file = tmp_path / "pad.toml"
+    file.write_text(STUDY, encoding="utf-8")
+    picture = tmp_path / "pad.png"
+    given = ["show", str(file), "-o", str(picture)]
+    done = CliRunner().invoke(main, given)
+    assert done.exit_code == 2
+    assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
+    shown = {}
+
+    def inspect(contact, body, style, width):
+        shown.update(contact.parameters(body), body=body)
+        return Figure()
+
+    monkeypatch.setattr(InUnits, "inspect", inspect)
+    done = CliRunner().invoke(
+        main, [*given, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2"]
+    )
+    assert done.exit_code == 0, done.stderr
+    assert picture.exists()
+    assert (shown["phase"], shown["body"]) == (np.pi / 2, 2)
+    assert "tangential_amplitude" in shown
+    plain = tmp_path / "plain.toml"
+    plain.write_text('title = "t"', encoding="utf-8")
+    done = CliRunner().invoke(main, ["show", str(plain)])
+    assert "a study without units; allowed: one with [units]" in done.stderr
