@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scenes import plane_points, points, random_plane_points, random_points, take
 
 import swtstudy
+from swtstudy.grid.grid import complete
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
@@ -363,3 +364,22 @@ def test_criteria_with_units() -> None:
         life = swtstudy.ShearConstants.estimated(constants[0], 0.3)
         np.testing.assert_allclose(fs.FS_cycles, life.cycles(fs.FS), rtol=1e-6)
         assert np.isnan(fs.cycles).all()
+
+
+def test_swt_has_no_sensitivity_to_tell_points_apart() -> None:
+    names = {"criterion": ("swt", "findley"), "normal_sensitivity": (0.1, 0.3)}
+    rows, _ = complete({}, names).canonical()
+    assert (rows[0] == rows[1]).all()
+    assert len({*map(tuple, rows)}) == 3
+
+
+def test_on_the_line_a_plane_that_does_not_hold_the_y_axis_may_be_higher() -> None:
+    own = random_points(3, 8, "paraboloid", largest_term=2)
+    one = {"friction": 0.307, "poisson_ratio": 0.06, "normal_amplitude": 0.1, "tangential_amplitude": 1.46}
+    own = replace(take(own, 1), **{name: np.full(1, value) for name, value in one.items()})
+    own = of_criterion(own, "fatemi_socie", 0.74)
+    line = solve_points(own, 1e-4)
+    _, at_line = body_maximum(scene_of(own), float(line.critical_x[0]))
+    assert at_line.swt > 1.005 * line.s[0]
+    # At the instants that make s: others may make the other plane.
+    assert line.s_surface[0] >= at_line.swt * (1.0 - 3e-3)

@@ -36,6 +36,8 @@ CLOSER = np.linspace(-1.0, 1.0, 9)[None] * ANGLES[1]
 #: radial, and the fall of swt below which no climb is tried, over sin²θ: on most circles it falls like that
 #: to the square or more.
 LOOK_ANGLES, TURNS, SLOW_FALL = ANGLES[2::3], np.array([0.0, 0.5, 1.0]), 0.4
+#: What of a criterion of shear counts as higher, relative: more than what instants leave.
+HIGHER = 1e-4
 #: Normals from which a criterion of shear is climbed to, besides.
 OBLIQUE = np.sqrt(0.5) * np.array([[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 1.0]])
 #: Where the base is less than this share of the line's maximum the two have nothing in common: rounding of no
@@ -91,11 +93,18 @@ def _surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
             rows, some, history, normal = rows[slow], some.take(slow), history.take(slow), normal[slow]
         swt = _on_circle(some, history, normal, np.broadcast_to(ANGLES, (rows.size, ANGLES.size)))
         base, best = swt[:, 0], swt.argmax(axis=1)
-        off = np.flatnonzero((best > 0) & ((base > 0.0) | scene.critical_everywhere))
+        off = np.flatnonzero(
+            ((best > 0) | (not scene.criterion.needs_tension)) & ((base > 0.0) | scene.critical_everywhere)
+        )
         if off.size:
             near = ANGLES[best[off], None] + CLOSER
             top = _on_circle(some.take(off), history.take(off), normal[off], near).max(axis=1)
-            surface[rows[off]] = _relative(found.swt[rows[off]], base[off], top)
+            line = found.swt[rows[off]]
+            if scene.criterion.needs_tension:
+                surface[rows[off]] = _relative(line, base[off], top)
+            else:
+                # Planes that do not hold the y axis may be higher on the line itself.
+                surface[rows[off]] = np.where(top > (1.0 + HIGHER) * line, top, line)
     return surface
 
 
