@@ -321,7 +321,7 @@ def test_rivals_show_which_gaps_between_instants_matter_nearby():
     x = float(solve_points(batch, 1e-6).critical_x[0])
     own = around.Around(scene_of(batch), x, np.array([[0.0, 1.0]]), np.array([distance]))
     places = own._of_lines(distance * np.array([0.1, 0.2, 0.3]))
-    found, _ = own.local.swt(places, np.zeros(3, dtype=bool))
+    found, _, _ = own.local.swt(places, np.zeros(3, dtype=bool))
     np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-4)
 
 

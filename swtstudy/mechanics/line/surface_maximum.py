@@ -65,8 +65,7 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     """
     if scene.bulk is None:
         return _surface_maximum(scene, found)
-    # What is no more than its error is no tension.
-    nowhere = (found.swt <= found.error) | (np.isnan(found.position) & np.isfinite(found.swt))
+    nowhere = (found.swt == 0.0) | (np.isnan(found.position) & np.isfinite(found.swt))
     surface = _surface_maximum(scene, _with_place(found, nowhere, scene.largest_radius))
     rows = np.flatnonzero(nowhere)
     if rows.size:
