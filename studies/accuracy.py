@@ -59,7 +59,8 @@ def random_points(profile: str, count: int, seed: int) -> Points:
 
 
 def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -> Points:
-    """Points that crowd at the ends of what `swtstudy.parameters` allows, q and p up to ``largest_term``."""
+    """Points that crowd at the ends of what `swtstudy.vocabulary.parameters` allows, q and p up to
+    ``largest_term``."""
     rng = np.random.default_rng(seed)
 
     def logarithmic(low: float, high: float) -> NDArray[np.float64]:

@@ -18,10 +18,10 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
-from swtstudy.families import FAMILIES, is_plane
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.families import FAMILIES, is_plane
+from swtstudy.vocabulary.prescribed import Control
 
 COUNTS = (25, 50, 100, 200, 500, 1000, 2000)
 NOISE = (1e-5, 1e-4, 1e-3, 1e-2)

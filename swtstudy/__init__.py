@@ -5,12 +5,11 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING
 
-from swtstudy.registration import register_with_xarray
-from swtstudy.version import __version__
+from swtstudy.results.registration import register_with_xarray
+from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
     from swtstudy.archive.open import open_results
-    from swtstudy.audit.audit import audit_study
     from swtstudy.contacts.physical import physical
     from swtstudy.fields.history import criterion_of_history, swt_of_history
     from swtstudy.fields.inspection import inspect_point
@@ -20,20 +19,21 @@ if TYPE_CHECKING:
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.load import draw_load
     from swtstudy.figures.profile import draw_profile
-    from swtstudy.fitting import fit
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
-    from swtstudy.mistakes import StudyError
-    from swtstudy.optimum.optimise import optimise
+    from swtstudy.paper.audit.audit import audit_study
+    from swtstudy.results.fitting import fit
+    from swtstudy.results.optimum.optimise import optimise
     from swtstudy.results.sensitivity import sensitivity
     from swtstudy.runner.run import run
+    from swtstudy.runner.suite import run_suite
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import read_signal
     from swtstudy.study.trace import read_trace
-    from swtstudy.suite import run_suite
     from swtstudy.units.life import FatigueConstants
     from swtstudy.units.shear_life import ShearConstants
+    from swtstudy.vocabulary.mistakes import StudyError
 
 __all__ = [
     "FatigueConstants",
@@ -71,22 +71,22 @@ _HOMES = {
     "LoadPath": "swtstudy.mechanics.load.load_path",
     "ShearConstants": "swtstudy.units.shear_life",
     "Study": "swtstudy.study.definition",
-    "StudyError": "swtstudy.mistakes",
+    "StudyError": "swtstudy.vocabulary.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
-    "audit_study": "swtstudy.audit.audit",
+    "audit_study": "swtstudy.paper.audit.audit",
     "criterion_of_history": "swtstudy.fields.history",
     "draw_load": "swtstudy.figures.load",
     "draw_profile": "swtstudy.figures.profile",
-    "fit": "swtstudy.fitting",
+    "fit": "swtstudy.results.fitting",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.open",
-    "optimise": "swtstudy.optimum.optimise",
+    "optimise": "swtstudy.results.optimum.optimise",
     "physical": "swtstudy.contacts.physical",
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
-    "run_suite": "swtstudy.suite",
+    "run_suite": "swtstudy.runner.suite",
     "sensitivity": "swtstudy.results.sensitivity",
     "slip_map": "swtstudy.fields.slip",
     "solve": "swtstudy.solving",

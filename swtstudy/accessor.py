@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from swtstudy.grid.nearest import TOLERANCE
+from swtstudy.points.nearest import TOLERANCE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -89,7 +89,7 @@ class SwtAccessor:
         tuple of str
             One line for each limit: how many of how many points are outside of it, and the worst one.
         """
-        from swtstudy.records.validity import validity_lines
+        from swtstudy.points.validity import validity_lines
 
         return validity_lines(self._dataset, inside)
 

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
-from swtstudy.grid.canonical import points_from
-from swtstudy.grid.reading import read_distances, read_grid
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.quantities import DISTANCE, NOTHING, Request, read_quantities
-from swtstudy.version import __version__
+from swtstudy.points.canonical import points_from
+from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
+from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.grid.grid import Grid
+    from swtstudy.points.grid import Grid
 
 
 def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
@@ -30,11 +30,12 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     rtol
         Relative accuracy asked of s.
     quantities
-        Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
+        Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, each a single value or a one-dimensional sequence of
-        values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1. Along
-        an axis of friction tangential_amplitude, G* uA/(μ E* δ0), stays, so that uA itself moves with μ.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, each a single value or a one-dimensional
+        sequence of values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
+        Along an axis of friction tangential_amplitude, G* uA/(μ E* δ0), stays, so that uA itself moves with
+        μ.
 
     Returns
     -------
@@ -77,15 +78,15 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
-    from swtstudy.grid.blocks import block_ends
-    from swtstudy.grid.unique import unique_points
     from swtstudy.mechanics import solve_points
     from swtstudy.mechanics.quantities import quantities_of
-    from swtstudy.quantities import columns_of
-    from swtstudy.records.columns import columns_at, wanted
-    from swtstudy.records.labelled import arrays_of, label
-    from swtstudy.records.margins import margins
-    from swtstudy.records.solutions import joined, solution_at
+    from swtstudy.points.blocks import block_ends
+    from swtstudy.points.columns import columns_at, wanted
+    from swtstudy.points.labelled import arrays_of, label
+    from swtstudy.points.margins import margins
+    from swtstudy.points.solutions import joined, solution_at
+    from swtstudy.points.unique import unique_points
+    from swtstudy.vocabulary.quantities import columns_of
 
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swtstudy import Study
-from swtstudy.quantities import NAMED, Request
+from swtstudy.vocabulary.quantities import NAMED, Request
 
 EVERY = tuple(NAMED)
 VARIABLES = tuple(Request(EVERY).variables)

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from swtstudy.audit.point import AuditedPoint
-from swtstudy.audit.table import audit_dataset
-from swtstudy.grid.canonical import COLUMNS
+from swtstudy.paper.audit.point import AuditedPoint
+from swtstudy.paper.audit.table import audit_dataset
+from swtstudy.points.canonical import COLUMNS
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)

@@ -9,10 +9,10 @@ from math import gcd
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.families import FAMILIES, family_of, is_plane
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.indenter import check_shape
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.families import FAMILIES, family_of, is_plane
+from swtstudy.vocabulary.prescribed import Control
 
 #: Those of discs, which all that is prescribed goes with, and those of strips.
 PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))

@@ -188,7 +188,7 @@ def test_results_of_solve():
         "import swtstudy.accessor",
         "from swtstudy.archive.open import open_results; import xarray",
         "from swtstudy.solving import solve",
-        "import swtstudy.records.labelled",
+        "import swtstudy.points.labelled",
         "from swtstudy import Study; import dask.array, xarray.core.dataset",
     ],
 )

@@ -14,9 +14,9 @@ import swtstudy
 from swtstudy import Study, open_results, run
 from swtstudy.archive.lock import LockedError
 from swtstudy.cli import main
-from swtstudy.files import check_writable, replacing
 from swtstudy.mechanics.points import Points, Solution
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.files import check_writable, replacing
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 def test_a_round_trip_keeps_values_and_names(small, tmp_path):

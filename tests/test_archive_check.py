@@ -11,7 +11,7 @@ from swtstudy import open_results, run
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.records.records import FAILED, MISSING
+from swtstudy.points.records import FAILED, MISSING
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy.audit.point import VERDICTS
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.paper.audit.point import VERDICTS
+from swtstudy.points.labelled import ATTRIBUTES
 
 STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}
 PLACES = {name: (f"{name}/a_H", "1") for name in "xyz"}

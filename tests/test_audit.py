@@ -8,14 +8,14 @@ from click.testing import CliRunner
 from made_up import made_up_audit, made_up_point
 
 from swtstudy.archive.write import save
-from swtstudy.audit.audit import audit_study
-from swtstudy.audit.point import VERDICTS
-from swtstudy.audit.report import report
-from swtstudy.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
 from swtstudy.cli import main
-from swtstudy.grid.canonical import COLUMNS
-from swtstudy.sampling.drawn import drawn_rows
+from swtstudy.paper.audit.audit import audit_study
+from swtstudy.paper.audit.point import VERDICTS
+from swtstudy.paper.audit.report import report
+from swtstudy.paper.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
+from swtstudy.points.canonical import COLUMNS
 from swtstudy.study.definition import Study
+from swtstudy.study.sampling.drawn import drawn_rows
 
 PARAMETER_BOX = Path(__file__).parent.parent / "studies" / "audit" / "parameter_box.toml"
 STUDY = """

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from made_up import PHASES, made_up, made_up_audit
 
-from swtstudy.statements import (
+from swtstudy.paper.statements import (
     critical_point,
     figure3,
     figure4,
@@ -17,7 +17,7 @@ from swtstudy.statements import (
     figure8,
     parameters,
 )
-from swtstudy.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
+from swtstudy.paper.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
 
 CLOSE = 1e-3
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.merge import merge
-from swtstudy.grid.reading import read_grid
-from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics.planes.all_planes import swt_of_history
+from swtstudy.points.reading import read_grid
+from swtstudy.points.unique import unique_points
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))

@@ -15,13 +15,13 @@ from test_critical_plane_3d import rotated
 from test_values import ALIGNED
 
 import swtstudy
-from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics import Points, Solution, solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.reference.textbook import textbook_s
+from swtstudy.paper.reference.textbook import textbook_s
+from swtstudy.points.reading import read_grid
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))

@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from oracles.profiles import INDENTERS
 
-from swtstudy.families import FAMILIES, Family
-from swtstudy.grid.blocks import block_ends
-from swtstudy.grid.canonical import (
+from swtstudy.mechanics.points import Points
+from swtstudy.points.blocks import block_ends
+from swtstudy.points.canonical import (
     COLUMNS,
     LOAD_COLUMNS,
     NUMBERS,
@@ -19,14 +19,14 @@ from swtstudy.grid.canonical import (
     points_from,
     select,
 )
-from swtstudy.grid.codes import NAMES, code_of, value_of
-from swtstudy.grid.cost import weights
-from swtstudy.grid.reading import read_grid
-from swtstudy.grid.unique import loads, unique_points
-from swtstudy.mechanics.points import Points
-from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import PAIRS
+from swtstudy.points.codes import NAMES, code_of, value_of
+from swtstudy.points.cost import weights
+from swtstudy.points.reading import read_grid
+from swtstudy.points.unique import loads, unique_points
 from swtstudy.runner.cutting import chunks
+from swtstudy.vocabulary.families import FAMILIES, Family
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS
 
 
 def grid_of(fixed=None, **axes):
@@ -175,7 +175,7 @@ def test_slabs_of_a_grid_are_the_grid():
 def test_a_grid_in_slabs_has_the_points_of_the_whole(monkeypatch):
     grid = grid_of(phase=PHASES[:7], profile=["paraboloid", "rounded_punch"], flat_radius=[0.1, 0.2, 0.3])
     whole = unique_points(grid)
-    monkeypatch.setattr("swtstudy.grid.unique._SLAB", 5)
+    monkeypatch.setattr("swtstudy.points.unique._SLAB", 5)
     parts = unique_points(grid)
     assert (parts.table == whole.table).all()
     assert (parts.index == whole.index).all()
@@ -204,7 +204,7 @@ def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
 
 
 def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monkeypatch):
-    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 256)
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 256)
     phases = [i / 10 for i in range(5)]
     axes = {"phase": phases, "friction": [i / 25 for i in range(1, 26)], "frequency_ratio": [1, "1/4"]}
     table = unique_points(grid_of(**axes)).table
@@ -217,7 +217,7 @@ def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monke
 
 def test_blocks_of_long_cycles_are_cut_first_and_of_these_the_largest(monkeypatch):
     # 1/4, then 2, the first block of which lacks ten points, then 1: the table has 1, 1/4, 2.
-    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 256)
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 256)
     points = unique_points(grid_of(friction=[i / 200 for i in range(1, 101)], frequency_ratio=[1, "1/4", 2]))
     wanted = np.ones(len(points.table), dtype=bool)
     wanted[np.flatnonzero(weights(points.table) == 3)[:10]] = False
@@ -226,7 +226,7 @@ def test_blocks_of_long_cycles_are_cut_first_and_of_these_the_largest(monkeypatc
 
 
 def test_a_load_that_is_larger_than_a_block_is_cut(monkeypatch):
-    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
     table = unique_points(grid_of(friction=[i / 100 for i in range(1, 601)])).table
     assert np.diff(block_ends(table), prepend=0).tolist() == [150, 150, 150, 150]
 

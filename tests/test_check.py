@@ -11,8 +11,8 @@ from made_up import made_up_audit
 from swtstudy import Study, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.statements.check import STATEMENTS, STUDIES, check
-from swtstudy.statements.report import markdown, summary, terminal_table
+from swtstudy.paper.statements.check import STATEMENTS, STUDIES, check
+from swtstudy.paper.statements.report import markdown, summary, terminal_table
 
 AUDIT = "audit_parameter_box"
 FOLDER = Path(__file__).parent.parent / "studies"

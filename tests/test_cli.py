@@ -15,11 +15,11 @@ import swtstudy
 from swtstudy import Study, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.families import FAMILIES, is_plane
-from swtstudy.parameters import PARAMETERS
-from swtstudy.records.records import MISSING
+from swtstudy.points.records import MISSING
 from swtstudy.study.schema import study_schema
 from swtstudy.study.template import template, template_with_units
+from swtstudy.vocabulary.families import FAMILIES, is_plane
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 STUDIES = sorted((Path(__file__).parent.parent / "studies").glob("*.toml"))
 

@@ -64,7 +64,7 @@ def test_a_cluster_that_loses_a_worker_gives_what_one_process_gives(client, tmp_
     ("change", "words"),
     [
         (
-            "import swtstudy.version as v; v.SOLVER_VERSION = 'other'",
+            "import swtstudy.vocabulary.version as v; v.SOLVER_VERSION = 'other'",
             "has version other of the solver",
         ),
         ("sys.modules['swtstudy.runner.chunk'] = None", "cannot solve anything .*swtstudy.runner.chunk"),

@@ -21,9 +21,9 @@ from swtstudy.mechanics.line.few_cycles import FewCycles, few
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.solver import scenes, solve_points
-from swtstudy.quantities import COUNTED_SIZES
 from swtstudy.runner.work import assess
 from swtstudy.units.life import UNCOUNTED
+from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 BRITTLE = FatigueConstants(200e3, 900.0, -0.06, 1.0, -0.5)
 CONTACT = {

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from scenes import plane_points, points, random_plane_points, random_points, take
 
 import swtstudy
-from swtstudy.grid.grid import complete
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
@@ -23,6 +22,7 @@ from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.points.grid import complete
 from swtstudy.solving import solve_grid
 
 Array = NDArray[np.float64]

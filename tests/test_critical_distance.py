@@ -18,10 +18,10 @@ from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.merge import merge
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics import quantities
 from swtstudy.mechanics.body.around import Estimate
 from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
+from swtstudy.points.unique import unique_points
 from swtstudy.runner import chunk
 from swtstudy.runner.cutting import chunks
 from swtstudy.runner.estimate import estimate

@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 from made_up import made_up, made_up_audit
 
-from swtstudy.records.labelled import ATTRIBUTES
-from swtstudy.statements import critical_point
-from swtstudy.statements.stick_zone import stick_radius
+from swtstudy.paper.statements import critical_point
+from swtstudy.paper.statements.stick_zone import stick_radius
+from swtstudy.points.labelled import ATTRIBUTES
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:

@@ -24,7 +24,7 @@ from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.mistakes import StudyError
+from swtstudy.vocabulary.mistakes import StudyError
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():

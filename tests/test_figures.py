@@ -12,7 +12,7 @@ from swtstudy.figures.save import save_figure
 from swtstudy.figures.style import STYLE
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import value_words
+from swtstudy.vocabulary.wording import value_words
 
 
 @pytest.fixture

@@ -8,9 +8,10 @@ from click.testing import CliRunner
 from real import ALUMINIUM
 
 import swtstudy
-from swtstudy import Study, StudyError, fitting, physical
+from swtstudy import Study, StudyError, physical
 from swtstudy.cli import main
 from swtstudy.figures.fitted import draw_fit, fit_lines
+from swtstudy.results import fitting
 
 STUDY = """
 title = "Tests of a rig"

@@ -28,7 +28,7 @@ from swtstudy.mechanics.stress.work import (
     largest_force_ratio,
     permanent_stick_radius,
 )
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 Array = NDArray[np.float64]
 INDENTERS = {

@@ -13,7 +13,7 @@ import stand_in
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
 from swtstudy.archive.error import ArchiveError
-from swtstudy.grid.nearest import index_of
+from swtstudy.points.nearest import index_of
 
 HUGE = 10**400
 R = np.linspace(0.0, 3.0, 9)

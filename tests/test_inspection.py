@@ -8,7 +8,7 @@ from swtstudy.fields.cycle_curves import marked_instants
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import nodes_at
-from swtstudy.reference.textbook import march_springs
+from swtstudy.paper.reference.textbook import march_springs
 
 SCENES = {
     "Table 1": {},

@@ -11,11 +11,11 @@ from matplotlib.colors import to_rgba
 from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
 
-from swtstudy.families import FAMILIES
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.scale import hue_scale
 from swtstudy.figures.style import MARKERS
-from swtstudy.wording import place_words
+from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.wording import place_words
 
 PHASE = np.linspace(0, 2, 5)
 

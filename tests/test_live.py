@@ -129,8 +129,8 @@ def test_forces_without_equilibrium_are_said_and_leave_the_picture():
 def test_every_slider_is_within_what_is_allowed():
     pytest.importorskip("ipywidgets")
     from swtstudy.figures.live_controls import SLIDERS
-    from swtstudy.parameters import PARAMETERS
-    from swtstudy.prescribed import PAIRS
+    from swtstudy.vocabulary.parameters import PARAMETERS
+    from swtstudy.vocabulary.prescribed import PAIRS
 
     numbers = {n for n, each in PARAMETERS.items() if each.kind == "number" and n not in PAIRS}
     assert set(SLIDERS) == numbers

@@ -13,10 +13,10 @@ import xarray as xr
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.merge import merge
-from swtstudy.grid.reading import read_grid
-from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
-from swtstudy.prescribed import CONTROLS, Control
+from swtstudy.points.reading import read_grid
+from swtstudy.points.unique import unique_points
+from swtstudy.vocabulary.prescribed import CONTROLS, Control
 
 PLAIN = ("normal_amplitude", "tangential_amplitude")
 FORCED = ("normal_force_amplitude", "tangential_force_amplitude")

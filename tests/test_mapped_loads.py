@@ -9,7 +9,7 @@ from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 SHAPES = {
     "paraboloid": {},

@@ -9,7 +9,7 @@ from swtstudy import Study, open_results, run
 from swtstudy.archive.merge import ConflictError, GapsError, merge
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.archive.write import save
-from swtstudy.records import records
+from swtstudy.points import records
 
 FIGURE = '[figure]\nx = "phase"\nhue = "friction"\n'
 
@@ -127,7 +127,7 @@ def test_records_come_back_from_an_archive(small, tmp_path):
     assert grid_of(dataset).axes.keys() == small.grid.axes.keys()
     found = records_of(dataset)
     assert len(found) == 8
-    from swtstudy.grid.canonical import points_from
+    from swtstudy.points.canonical import points_from
 
     alone = stand_in.smooth(points_from(found.table, {}), small.rtol)
     np.testing.assert_allclose(found.solution.s, alone.s, rtol=1e-10)

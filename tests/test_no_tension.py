@@ -8,10 +8,10 @@ from scenes import points
 from soundness import SHAPES
 
 import swtstudy
-from swtstudy.audit.point import audit_point
-from swtstudy.grid.canonical import COLUMNS
 from swtstudy.mechanics import REGIMES, solve_points
-from swtstudy.statements import critical_point
+from swtstudy.paper.audit.point import audit_point
+from swtstudy.paper.statements import critical_point
+from swtstudy.points.canonical import COLUMNS
 
 IDLE = [
     {"poisson_ratio": 0.5, "friction": 0.0},

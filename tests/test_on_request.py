@@ -24,9 +24,9 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
-from swtstudy.quantities import Request
 from swtstudy.runner import chunk
 from swtstudy.runner.run import Stopped
+from swtstudy.vocabulary.quantities import Request
 
 
 def test_a_study_without_them_neither_computes_nor_stores_any(tmp_path: Path, monkeypatch) -> None:
@@ -87,7 +87,7 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
 def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
     path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
     # Long cycles and small blocks of some thirty points.
-    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
     long = '[fixed]\nfrequency_ratio = "1/15"\n'
     # Points of two runs, so that two more are told.
     run(study(long, axes.replace(", 0.3", "")), path, workers=1, solver=stand_in.smooth)

@@ -6,11 +6,11 @@ import stand_in
 
 import swtstudy
 from swtstudy import StudyError, optimise
-from swtstudy.grid.values import NUMERIC
-from swtstudy.optimum.least import least
-from swtstudy.optimum.objective import Objective
-from swtstudy.optimum.planes import planes_from, probes
-from swtstudy.parameters import PARAMETERS
+from swtstudy.points.values import NUMERIC
+from swtstudy.results.optimum.least import least
+from swtstudy.results.optimum.objective import Objective
+from swtstudy.results.optimum.planes import planes_from, probes
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 

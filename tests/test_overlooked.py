@@ -1,6 +1,7 @@
 """Maxima that a search along the line once overlooked: small motions make narrow rings.
 
-The values are those of `swtstudy.audit.dense`: plain loops over 400 positions of each piece and 64 planes.
+The values are those of `swtstudy.paper.audit.dense`: plain loops over 400 positions of each piece and 64
+planes.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy.audit.dense import dense_look
 from swtstudy.fields.one_point import read_scene
+from swtstudy.paper.audit.dense import dense_look
 
 CASES = [
     (

@@ -12,12 +12,12 @@ import shown
 import xarray as xr
 
 from swtstudy import Study, open_results, solve
-from swtstudy.audit.point import TOLERANCE
 from swtstudy.cli.run import POINTS_FAILED
 from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
+from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.reports.data import LARGEST_TABLE
 from swtstudy.units.rows import SIMILAR
 

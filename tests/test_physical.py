@@ -16,11 +16,11 @@ from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
-from swtstudy.parameters import PARAMETERS
 from swtstudy.units.life import UNCOUNTED
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES
 from swtstudy.units.sizes import wrong_size
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})
 STEEL = FatigueConstants(

@@ -14,7 +14,6 @@ from scipy.interpolate import PPoly
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
-from swtstudy.families import FAMILIES, PLANE
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
 from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
@@ -25,7 +24,8 @@ from swtstudy.mechanics.stress.bulk_shift import bulk_shift
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, prescribed_scene, scene_of
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.families import FAMILIES, PLANE
+from swtstudy.vocabulary.prescribed import Control
 
 Array = NDArray[np.float64]
 FORCES = Control(True, True)

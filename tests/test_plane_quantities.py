@@ -9,7 +9,6 @@ from oracles.strips import STRIPS, Strip
 from scenes import PLANE_NAMES, plane_points, random_plane_points
 
 import swtstudy
-from swtstudy.families import FAMILIES
 from swtstudy.figures.profile import _height
 from swtstudy.mechanics.control.force import unit_half_load
 from swtstudy.mechanics.control.strip import StripDisplacement
@@ -17,6 +16,7 @@ from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.conjugate import Conjugate
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.vocabulary.families import FAMILIES
 
 Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
 from swtstudy.mechanics.stress.scene import prescribed_scene
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 Array = NDArray[np.float64]
 DISPLACEMENTS, FORCES = Control(), Control(True, True)

@@ -13,10 +13,10 @@ import swtstudy
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.merge import ConflictError, merge
 from swtstudy.cli import main
-from swtstudy.grid.canonical import COLUMNS, canonical_points, describe_point
-from swtstudy.grid.reading import read_grid
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.prescribed import CONTROLS, Control
+from swtstudy.points.canonical import COLUMNS, canonical_points, describe_point
+from swtstudy.points.reading import read_grid
+from swtstudy.vocabulary.prescribed import CONTROLS, Control
 
 FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
 SHAPES = {

@@ -11,8 +11,8 @@ from test_cli import call
 
 import swtstudy
 from swtstudy import Study
-from swtstudy.families import FAMILIES
 from swtstudy.figures.sheet import Sheet
+from swtstudy.vocabulary.families import FAMILIES
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}

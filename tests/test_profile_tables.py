@@ -11,11 +11,11 @@ import pytest
 import swtstudy
 from swtstudy import Study
 from swtstudy.archive.recall import grid_of
-from swtstudy.grid.unique import unique_points
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.mechanics.indenter.profile_table import MOST_LANDMARKS, SHORT_PIECE
-from swtstudy.mistakes import StudyError
+from swtstudy.points.unique import unique_points
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.mistakes import StudyError
 
 R = np.linspace(0.0, 2.0, 60)
 BLUNT = 0.3 * R**2 + 0.1 * R**4

@@ -11,7 +11,6 @@ from oracles import profiles as oracle
 from scenes import DRAWN, points
 from scipy.special import struve, y0
 
-from swtstudy.families import AXISYMMETRIC, FAMILIES, PLAIN, PLAIN_STRIP, PLANE, Family
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.indenter import (
     PROFILES,
@@ -23,7 +22,8 @@ from swtstudy.mechanics.indenter import (
     wavy_paraboloid,
 )
 from swtstudy.mechanics.indenter.struve import struve_expansions, struve_functions, struve_integrals
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.families import AXISYMMETRIC, FAMILIES, PLAIN, PLAIN_STRIP, PLANE, Family
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 Array = NDArray[np.float64]
 

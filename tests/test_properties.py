@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, take
 from soundness import RTOL, close, sound
 
-from swtstudy.families import FAMILIES
 from swtstudy.mechanics import Points, solve_points
+from swtstudy.vocabulary.families import FAMILIES
 
 Array = NDArray[np.float64]
 

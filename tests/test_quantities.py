@@ -5,7 +5,7 @@ import pytest
 from made_up import made_up
 from matplotlib.colors import to_rgba
 
-from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.quantity import quantity
 
 PHASE = np.linspace(0, np.pi, 13)

@@ -8,7 +8,7 @@ from scipy import constants
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.recall import grid_of
-from swtstudy.grid.unique import unique_points
+from swtstudy.points.unique import unique_points
 from swtstudy.units.labels import KNOWN
 
 RIG = {

@@ -10,7 +10,7 @@ import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
-from swtstudy.grid.unique import unique_points
+from swtstudy.points.unique import unique_points
 
 
 def sphere(young_modulus, poisson_ratio):

@@ -21,12 +21,12 @@ from click.testing import CliRunner
 
 import swtstudy
 from swtstudy.cli import main
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import QUANTITIES
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
 from swtstudy.reports.site import write_reports
 from swtstudy.reports.symbols import symbol_html
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import QUANTITIES
 
 RESULTS = Path(__file__).parent.parent / "results"
 VOID = {"meta", "link", "img", "br"}

@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 from xarray.plot.utils import label_from_attrs
 
 import swtstudy
-from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import PAIRS
-from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.select import slice_at
 from swtstudy.results.table import to_table
 from swtstudy.study.figure import VARIABLES
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS
 
 PHASE = np.linspace(0, np.pi, 37)
 

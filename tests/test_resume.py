@@ -20,7 +20,7 @@ from swtstudy.archive import parts as archive_parts
 from swtstudy.archive.lock import LockedError, locked
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.cli import main
-from swtstudy.records import records
+from swtstudy.points import records
 from swtstudy.runner import collector, work
 from swtstudy.runner import job as job_module
 from swtstudy.runner.run import Stopped
@@ -175,7 +175,7 @@ def test_only_what_is_too_coarse_is_computed_again(tmp_path):
 def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
-    monkeypatch.setattr("swtstudy.version.SOLVER_VERSION", "next")
+    monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
     for module in (job_module, collector, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
@@ -242,7 +242,7 @@ def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monke
 
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
     monkeypatch.setattr("swtstudy.archive.parts._JOINED", 3)
-    monkeypatch.setattr("swtstudy.grid.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
     path = tmp_path / "line.nc"
     # One block a chunk: the pace is taken for very slow.
     monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)

@@ -8,14 +8,14 @@ from importlib import import_module
 import pytest
 from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
 
-#: What may not be imported, although it is above: the planes know no contact, the contact knows no indenter,
-#: the search over the body is a check of the line's, and the package does not use its oracle.
+#: What may not be imported, although it is above: the planes know no contact, the contact knows no
+#: indenter, and the search over the body is a check of the line's.
 APART = {
     "planes": {"load", "indenter", "control", "contact"},
     "contact": {"indenter", "control"},
     "body": {"line"},
-    **{room: {"reference"} for room in WHOLE.rooms if room != "reference"},
 }
+ORACLE = "swtstudy.paper.reference"
 
 
 @pytest.mark.parametrize(
@@ -27,6 +27,13 @@ def test_a_file_imports_only_rooms_above(house: House, types: bool) -> None:
     order = house.rooms.index
     assert not [f"{own} imports {other}" for own, other, mine, its in imports if order(its) > order(mine)]
     assert not [f"{own} imports {other}" for own, other, mine, its in imports if its in APART.get(mine, ())]
+
+
+def test_nothing_uses_the_oracle() -> None:
+    users = [
+        name for name, path in MODULES.items() if any(o.startswith(ORACLE) for o in imported(path, True))
+    ]
+    assert not [name for name in users if not name.startswith(ORACLE)]
 
 
 def test_no_imports_go_in_a_circle() -> None:

@@ -17,10 +17,10 @@ import xarray as xr
 import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.archive.error import ArchiveError
-from swtstudy.grid.canonical import COLUMNS
-from swtstudy.grid.cost import SECONDS_PER_WEIGHT, duration, weights
-from swtstudy.grid.unique import unique_points
-from swtstudy.records.result import Result
+from swtstudy.points.canonical import COLUMNS
+from swtstudy.points.cost import SECONDS_PER_WEIGHT, duration, weights
+from swtstudy.points.result import Result
+from swtstudy.points.unique import unique_points
 from swtstudy.runner import engine
 from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
@@ -74,7 +74,7 @@ def test_chunks_aim_at_a_fraction_of_a_second(small):
     pace = Pace()
     table = unique_points(small.grid).table
     solution = stand_in.smooth
-    from swtstudy.grid.canonical import points_from
+    from swtstudy.points.canonical import points_from
 
     for _ in range(30):
         n = len(table)

@@ -13,7 +13,7 @@ from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import PartsWriter, kept_folder, parts_folder
 from swtstudy.cli import main
-from swtstudy.files import replacing, write_text
+from swtstudy.vocabulary.files import replacing, write_text
 
 STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
 FIGURE = '[figure]\nx = "friction"\n'
@@ -117,7 +117,7 @@ def full(*_: object, **__: object) -> None:
 
 def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr("swtstudy.files._sync", full)
+        patch.setattr("swtstudy.vocabulary.files._sync", full)
         assert "mine.toml" in refused("new", tmp_path / "mine")
     assert list(tmp_path.iterdir()) == []
     assert CliRunner().invoke(main, ["new", str(tmp_path / "mine")]).exit_code == 0
@@ -134,7 +134,7 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
 
 def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = computed(tmp_path, STUDY + FIGURE)
-    monkeypatch.setattr("swtstudy.files._sync", full)
+    monkeypatch.setattr("swtstudy.vocabulary.files._sync", full)
     assert f"No space left on device: '{tmp_path / 'mine.png'}'" in refused("plot", path)
     with pytest.raises(OSError, match="of the user's own"), replacing(tmp_path / "a"):
         raise OSError("of the user's own")

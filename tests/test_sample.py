@@ -11,12 +11,12 @@ from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import draw
-from swtstudy.grid.unique import unique_points
+from swtstudy.points.unique import unique_points
 from swtstudy.runner.run import Stopped
-from swtstudy.sampling.design import DESIGNS, Design
-from swtstudy.sampling.distribution import Distribution
-from swtstudy.sampling.drawn import drawn_rows
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.sampling.design import DESIGNS, Design
+from swtstudy.study.sampling.distribution import Distribution
+from swtstudy.study.sampling.drawn import drawn_rows
 from swtstudy.study.template import template
 from swtstudy.study.writing import to_toml
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from swtstudy import Study, StudyError
-from swtstudy.axes import CONTACT_AXES
-from swtstudy.parameters import PARAMETERS
 from swtstudy.study.schema import SCHEMA_FILE, SCHEMA_LINE, schema_text, study_schema
+from swtstudy.vocabulary.axes import CONTACT_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 jsonschema = pytest.importorskip("jsonschema")
 

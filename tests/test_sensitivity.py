@@ -10,7 +10,7 @@ from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
 from swtstudy.figures.bars import draw_sensitivity
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.statements.influence import SAYS, table
+from swtstudy.paper.statements.influence import SAYS, table
 
 STUDY = """
 title = "Ishigami"

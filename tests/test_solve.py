@@ -7,8 +7,8 @@ import xarray as xr
 
 import swtstudy
 from swtstudy import StudyError, solve
-from swtstudy.accuracy import SMALLEST_STORED_RTOL, is_rtol
-from swtstudy.mistakes import plain_number
+from swtstudy.vocabulary.accuracy import SMALLEST_STORED_RTOL, is_rtol
+from swtstudy.vocabulary.mistakes import plain_number
 
 
 def test_dimensions_in_the_order_given():

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from made_up import PHASES, made_up
 
-from swtstudy.statements import figure3, figure4, figure5, figure6, figure7, figure8, parameters
-from swtstudy.statements.select import NotInArchiveError, at
+from swtstudy.paper.statements import figure3, figure4, figure5, figure6, figure7, figure8, parameters
+from swtstudy.paper.statements.select import NotInArchiveError, at
 
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
 H = np.geomspace(0.002, 0.05, 201)

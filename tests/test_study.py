@@ -7,10 +7,10 @@ from fractions import Fraction
 import pytest
 
 from swtstudy import Study, StudyError
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.unique import unique_points
-from swtstudy.sampling.drawn import drawn_rows
+from swtstudy.points.grid import Grid
+from swtstudy.points.unique import unique_points
 from swtstudy.study.figure import VARIABLES, FigureLayout
+from swtstudy.study.sampling.drawn import drawn_rows
 from swtstudy.study.writing import to_toml
 
 MINIMAL = 'title = "t"\n'
@@ -207,7 +207,7 @@ WAVY = 'title = "t"\n[fixed]\nprofile = "wavy_paraboloid"\n[axes]\n'
 
 
 def test_every_refused_shape_is_counted(monkeypatch):
-    monkeypatch.setattr("swtstudy.grid.shapes._SLAB", 3)
+    monkeypatch.setattr("swtstudy.points.shapes._SLAB", 3)
     # Smooth waves, h = 0, are compact however short; of the others λ/√(hR) must reach 3.5.
     axes = "waviness_amplitude = [0, 0.01, 0.02]\nwavelength = [3.6, 3.4, 1.0]"
     assert mistakes_of(WAVY + axes) == {
@@ -226,7 +226,7 @@ def test_waves_too_short_for_a_float_are_refused_without_a_warning(amplitude, wa
 
 
 def test_more_shapes_than_can_be_looked_at_are_not_looked_at(monkeypatch):
-    monkeypatch.setattr("swtstudy.grid.shapes.MOST_SHAPES", 8)
+    monkeypatch.setattr("swtstudy.points.shapes.MOST_SHAPES", 8)
     monkeypatch.setattr("swtstudy.mechanics.indenter.compact_shapes", None)
     axes = "waviness_amplitude = [0.01, 0.02, 0.03]\nwavelength = [7, 8, 9]"
     assert mistakes_of(WAVY + axes) == {
@@ -504,7 +504,7 @@ def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
 
 
 def test_axes_that_are_too_long_are_named(monkeypatch):
-    monkeypatch.setattr("swtstudy.grid.reading.LONGEST_AXIS", 3)
+    monkeypatch.setattr("swtstudy.points.reading.LONGEST_AXIS", 3)
     assert mistakes_of(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]\n") == {
         "axes.friction": "4 values; at most 3 values"
     }

@@ -15,7 +15,7 @@ from swtstudy.mechanics.control.tabled_map import TabledMap
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.numerics.even_table import EvenTable
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ import pytest
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError
-from swtstudy.files import LARGEST_TEXT, read_text
+from swtstudy.vocabulary.files import LARGEST_TEXT, read_text
 
 LOOP = 'title = "t"\nfixed.load = "mine"\n[loads.mine]\nfile = "cycle.csv"\n'
 POINTS = 'title = "t"\nsample.file = "points.csv"\n'

@@ -14,7 +14,7 @@ from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mechanics.indenter.slope_fit import exact_slope, spline
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.mistakes import StudyError
+from swtstudy.vocabulary.mistakes import StudyError
 
 Array = NDArray[np.float64]
 

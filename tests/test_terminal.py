@@ -16,11 +16,11 @@ from swtstudy.cli import _SECTIONS, main
 from swtstudy.cli.list import cut
 from swtstudy.cli.solve import WHY, aligned
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S
-from swtstudy.mistakes import StudyError
-from swtstudy.parameters import PARAMETERS
 from swtstudy.runner.progress import ProgressBar, line
 from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
+from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 RESULTS = Path(__file__).parent.parent / "results"
 

@@ -11,7 +11,7 @@ import swtstudy
 from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
-from swtstudy.records.validity import outside, validity_lines
+from swtstudy.points.validity import outside, validity_lines
 
 #: Forces of a rig: constant load, so that all is in closed form.
 RIG = """

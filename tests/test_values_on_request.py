@@ -14,8 +14,8 @@ from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.stress import conjugate, work
-from swtstudy.quantities import NAMED, NONLOCAL, QUANTITIES, attributes_of
-from swtstudy.records.solutions import blank
+from swtstudy.points.solutions import blank
+from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, QUANTITIES, attributes_of
 
 
 def computed(points, names):

@@ -5,7 +5,7 @@ import pytest
 from scenes import points, random_points
 
 from swtstudy.mechanics import solve_points
-from swtstudy.version import SOLVER_VERSION
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 PSI = np.array([0.0, 0.7, 2.1])
 CASES = {

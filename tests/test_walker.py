@@ -22,7 +22,7 @@ from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swt import Swt
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.reference.textbook import textbook_s
+from swtstudy.paper.reference.textbook import textbook_s
 
 Array = NDArray[np.float64]
 SEVERAL = np.array([0.1, 0.3, 0.5, 0.7, 0.85])

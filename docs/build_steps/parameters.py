@@ -1,9 +1,9 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.families import FAMILIES, PLAIN, PLAIN_STRIP, Family
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.families import FAMILIES, PLAIN, PLAIN_STRIP, Family
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 def parameters() -> str:

@@ -20,9 +20,9 @@ _ELSEWHERE = {
 }
 #: Sections of pages that show what a table in the package holds.
 _TABLES = {
-    "swtstudy.parameters.PARAMETERS": ("study_reference", "parameters"),
-    "swtstudy.quantities.NAMED": ("study_file", "what-is-computed-beside-s"),
-    "swtstudy.quantities.QUANTITIES": ("study_file", "what-is-computed-beside-s"),
+    "swtstudy.vocabulary.parameters.PARAMETERS": ("study_reference", "parameters"),
+    "swtstudy.vocabulary.quantities.NAMED": ("study_file", "what-is-computed-beside-s"),
+    "swtstudy.vocabulary.quantities.QUANTITIES": ("study_file", "what-is-computed-beside-s"),
 }
 
 

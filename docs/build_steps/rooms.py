@@ -61,38 +61,10 @@ class House:
 
 WHOLE = House(
     "swtstudy",
+    ("vocabulary",),
     (
-        "parameter",
-        "families",
-        "criteria",
-        "parameters",
-        "prescribed",
-        "axes",
-        "mistakes",
-        "numbers",
-        "named",
-        "accuracy",
-        "version",
-        "files",
-        "wording",
-        "quantities",
-    ),
-    (
-        *(
-            "mechanics",
-            "reference",
-            "grid",
-            "records",
-            "units",
-            "sampling",
-            "study",
-            "archive",
-            "runner",
-            "results",
-        ),
-        *("solving", "fitting", "optimum", "fields", "figures", "contacts", "audit", "statements"),
-        *("reports", "suite", "accessor"),
-        *("registration", "cli", "__main__", "__init__"),
+        *("mechanics", "points", "solving", "units", "study", "archive", "results", "fields", "figures"),
+        *("contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
     ),
 )
 MECHANICS = House(

@@ -1,8 +1,8 @@
 """What a study with three mistakes is told."""
 
-from swtstudy.mistakes import StudyError
 from swtstudy.study.definition import Study
 from swtstudy.study.template import template
+from swtstudy.vocabulary.mistakes import StudyError
 
 _SLIPS = {
     "normal_amplitude = [": "normal_amplitud = [",

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 Array = NDArray[np.float64]
 

@@ -1,8 +1,8 @@
 """Values of s that the tests hold s and s_error against, at random points of the box and of the ranges' ends.
 
 ``python studies/checks/reference_values.py``, from the project's folder, writes results/reference_values.csv:
-s at the tightest tolerance, or what a dense look (`swtstudy.audit.dense`) finds, if that is more. Both share
-the stress history, but neither the choice of instants, positions and planes nor how one is improved.
+s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.dense`) finds, if that is more. Both
+share the stress history, but neither the choice of instants, positions and planes nor how one is improved.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
-from swtstudy.audit.dense import dense_look
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.paper.audit.dense import dense_look
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")

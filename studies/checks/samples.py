@@ -14,8 +14,8 @@ from swtstudy.mechanics.body import body_maximum
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.quantities import quantities_of
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.prescribed import Control
-from swtstudy.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
+from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
 
 SEED = 5
 #: Values of some points at a tolerance, and their errors as far as they are known.

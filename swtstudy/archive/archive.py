@@ -11,16 +11,16 @@ import xarray as xr
 
 from swtstudy.archive.attributes import definitions_text
 from swtstudy.archive.versions import versions
-from swtstudy.grid.canonical import describe_point
-from swtstudy.grid.codes import Definitions
-from swtstudy.grid.unique import UniquePoints
-from swtstudy.records.columns import columns_at
-from swtstudy.records.labelled import arrays_of, label
-from swtstudy.records.margins import margins
-from swtstudy.records.records import FAILED, Records
-from swtstudy.records.solutions import solution_at
+from swtstudy.points.canonical import describe_point
+from swtstudy.points.codes import Definitions
+from swtstudy.points.columns import columns_at
+from swtstudy.points.labelled import arrays_of, label
+from swtstudy.points.margins import margins
+from swtstudy.points.records import FAILED, Records
+from swtstudy.points.solutions import solution_at
+from swtstudy.points.unique import UniquePoints
 from swtstudy.study.definition import Study
-from swtstudy.version import __version__
+from swtstudy.vocabulary.version import __version__
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 

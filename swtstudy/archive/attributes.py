@@ -8,13 +8,13 @@ from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
-from swtstudy.grid.defined import kinds
-from swtstudy.mistakes import literal, plain_number
-from swtstudy.named import Named
-from swtstudy.quantities import every_variable, is_item
-from swtstudy.records.records import Run
+from swtstudy.points.defined import kinds
+from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
+from swtstudy.vocabulary.mistakes import literal, plain_number
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.quantities import every_variable, is_item
 
 
 class Failure(TypedDict):

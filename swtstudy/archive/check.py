@@ -11,18 +11,26 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.accuracy import ALLOWED_RTOL, SMALLEST_STORED_RTOL, is_rtol
 from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE, NONLOCAL, NOTHING, Request, attributes_of, every_variable, item_of
-from swtstudy.records.labelled import ATTRIBUTES
-from swtstudy.records.records import COMPUTED, STATES, made_by
-from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.points.labelled import ATTRIBUTES
+from swtstudy.points.records import COMPUTED, STATES, made_by
+from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, SMALLEST_STORED_RTOL, is_rtol
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import (
+    DISTANCE,
+    NONLOCAL,
+    NOTHING,
+    Request,
+    attributes_of,
+    every_variable,
+    item_of,
+)
 
 #: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")

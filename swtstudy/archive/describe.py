@@ -8,18 +8,18 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.axes import AXES, CONTACT_AXES
-from swtstudy.grid.grid import SAMPLE
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE
-from swtstudy.records.records import COMPUTED, STATES, made_by
-from swtstudy.records.requested import CONTACT, has_units, request_of
-from swtstudy.records.validity import validity_lines
+from swtstudy.points.grid import SAMPLE
+from swtstudy.points.records import COMPUTED, STATES, made_by
+from swtstudy.points.requested import CONTACT, has_units, request_of
+from swtstudy.points.validity import validity_lines
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
-from swtstudy.wording import number_words, value_words
+from swtstudy.vocabulary.axes import AXES, CONTACT_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.wording import number_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.parts import kept_folder, parts_folder, read_parts
-from swtstudy.records.records import Records, join
+from swtstudy.points.records import Records, join
 
 
 def known_records(path: Path) -> Records:

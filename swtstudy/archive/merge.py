@@ -15,19 +15,19 @@ from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
 from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.axes import AXES, QUANTITY_AXES
-from swtstudy.grid.canonical import canonical_number, describe_point, group_rows
-from swtstudy.grid.codes import Definitions
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.unique import unique_points
-from swtstudy.grid.values import Value, as_number
-from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE, Request
-from swtstudy.records.columns import wanted
-from swtstudy.records.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
-from swtstudy.records.requested import CONTACT, has_units, request_of
+from swtstudy.points.canonical import canonical_number, describe_point, group_rows
+from swtstudy.points.codes import Definitions
+from swtstudy.points.columns import wanted
+from swtstudy.points.grid import Grid
+from swtstudy.points.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
+from swtstudy.points.requested import CONTACT, has_units, request_of
+from swtstudy.points.unique import unique_points
+from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.axes import AXES, QUANTITY_AXES
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
 
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: Bytes to spare: the longest name made from ``name.nc`` is ``.name-12345678.png``, of an unfinished figure.
 _ADDED = 11

@@ -9,8 +9,8 @@ import xarray as xr
 from swtstudy.archive.archive import build, history_line
 from swtstudy.archive.known import known_records
 from swtstudy.archive.parts import parts_folder, read_parts
-from swtstudy.grid.unique import unique_points
-from swtstudy.records.records import matching
+from swtstudy.points.records import matching
+from swtstudy.points.unique import unique_points
 from swtstudy.study.definition import Study
 
 

@@ -23,11 +23,11 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy.archive.lock import refuse_link
-from swtstudy.files import replacing, unfinished
-from swtstudy.grid.canonical import COLUMNS, group_rows
-from swtstudy.grid.codes import NAMES
 from swtstudy.mechanics.points import Solution
-from swtstudy.records.records import Records, Run, join
+from swtstudy.points.canonical import COLUMNS, group_rows
+from swtstudy.points.codes import NAMES
+from swtstudy.points.records import Records, Run, join
+from swtstudy.vocabulary.files import replacing, unfinished
 
 _log = logging.getLogger(__name__)
 

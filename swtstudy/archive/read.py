@@ -12,7 +12,7 @@ from swtstudy.archive.check_sums import damaged, unreadable
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.lock import LockedError, is_locked
 from swtstudy.archive.recall import grid_of
-from swtstudy.records.labelled import control_coordinate
+from swtstudy.points.labelled import control_coordinate
 from swtstudy.units.life import UNCOUNTED
 from swtstudy.units.results import is_uncounted
 

@@ -10,27 +10,27 @@ import xarray as xr
 
 from swtstudy.archive.attributes import defined_in, read_failures, read_runs
 from swtstudy.archive.error import ArchiveError
-from swtstudy.grid.grid import SAMPLE, Grid, complete
-from swtstudy.grid.reading import given_twice
-from swtstudy.grid.shapes import shapes_needed
-from swtstudy.grid.unique import unique_points
-from swtstudy.grid.values import Value, read_value
 from swtstudy.mechanics.points import Solution
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import Control, replaced_by
-from swtstudy.quantities import DISTANCE, Request
-from swtstudy.records.columns import columns_back
-from swtstudy.records.labelled import arrays_of
-from swtstudy.records.records import FAILED, Records, made_by
-from swtstudy.records.requested import CONTACT, columns_from, has_units, request_of
+from swtstudy.points.columns import columns_back
+from swtstudy.points.grid import SAMPLE, Grid, complete
+from swtstudy.points.labelled import arrays_of
+from swtstudy.points.reading import given_twice
+from swtstudy.points.records import FAILED, Records, made_by
+from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of
+from swtstudy.points.shapes import shapes_needed
+from swtstudy.points.unique import unique_points
+from swtstudy.points.values import Value, read_value
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import Control, replaced_by
+from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 from importlib.metadata import PackageNotFoundError, version
 
-from swtstudy.version import __version__
+from swtstudy.vocabulary.version import __version__
 
 #: Packages whose versions can affect the numbers or the file.
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")

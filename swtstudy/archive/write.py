@@ -11,7 +11,7 @@ import netCDF4
 import xarray as xr
 
 from swtstudy.archive.check_sums import has_its_own, write_check_sums
-from swtstudy.files import replacing
+from swtstudy.vocabulary.files import replacing
 
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
@@ -24,7 +24,7 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     path
         Path of the file, which is replaced if it exists.
     beside
-        Folder for the unfinished file, as for `swtstudy.files.replacing`.
+        Folder for the unfinished file, as for `swtstudy.vocabulary.files.replacing`.
     """
     encoding: dict[Hashable, dict[str, Any]] = {
         name: {"fletcher32": True} if has_its_own(each) else {} for name, each in dataset.variables.items()

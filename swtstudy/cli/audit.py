@@ -24,17 +24,17 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     solver looks for s. Points already audited are not audited again.
     """
     from swtstudy.archive.names import archive_paths
-    from swtstudy.audit import AUDIT_PREFIX
-    from swtstudy.files import check_writable, write_text
+    from swtstudy.paper.audit import AUDIT_PREFIX
     from swtstudy.study.several import read_studies
+    from swtstudy.vocabulary.files import check_writable, write_text
 
     defined = read_studies(studies)
     targets = archive_paths(defined, results, AUDIT_PREFIX)
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.audit.audit import audit_study
-    from swtstudy.audit.report import report
+    from swtstudy.paper.audit.audit import audit_study
+    from swtstudy.paper.audit.report import report
 
     for source, study in defined.items():
         target = targets[source]

@@ -23,9 +23,9 @@ def check(results: str, output: str | None) -> None:
     is 0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing
     or have gaps.
     """
-    from swtstudy.files import check_writable, write_text
-    from swtstudy.statements.check import check as check_statements
-    from swtstudy.statements.report import markdown, summary, terminal_table
+    from swtstudy.paper.statements.check import check as check_statements
+    from swtstudy.paper.statements.report import markdown, summary, terminal_table
+    from swtstudy.vocabulary.files import check_writable, write_text
 
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)

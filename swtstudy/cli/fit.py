@@ -36,8 +36,8 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     from swtstudy.archive.write import save
     from swtstudy.figures.fitted import draw_fit, fit_lines
     from swtstudy.figures.save import save_figure
-    from swtstudy.files import check_writable
-    from swtstudy.fitting import fit as fitted_to
+    from swtstudy.results.fitting import fit as fitted_to
+    from swtstudy.vocabulary.files import check_writable
 
     targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
     for path in targets.values():

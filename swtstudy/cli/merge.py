@@ -27,8 +27,8 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.names import check_archive_path
     from swtstudy.archive.parts import parts_folder
     from swtstudy.archive.write import save
-    from swtstudy.files import check_writable
-    from swtstudy.records.records import MISSING
+    from swtstudy.points.records import MISSING
+    from swtstudy.vocabulary.files import check_writable
 
     target = Path(output)
     check_archive_path(target)

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from swtstudy.cli.examples import examples
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 
 @click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
@@ -19,9 +19,9 @@ def new(name: str, units: bool) -> None:
     Beside it goes the schema that editors use to complete and check studies. An existing study is never
     replaced.
     """
-    from swtstudy.files import check_writable, write_text
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template, template_with_units
+    from swtstudy.vocabulary.files import check_writable, write_text
 
     if Path(name).name in ("", ".toml"):
         raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])

@@ -9,8 +9,8 @@ from typing import Any
 
 import click
 
-from swtstudy.mistakes import Mistake, StudyError, meant
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, meant
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: Placeholder of an option that takes several values, separated by commas.
 SEVERAL = "VALUES"

@@ -12,7 +12,7 @@ from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
 
 if TYPE_CHECKING:
-    from swtstudy.records.result import Result
+    from swtstudy.points.result import Result
     from swtstudy.runner.work import Work
     from swtstudy.study.definition import Study
 
@@ -38,7 +38,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """What a run would do, in lines."""
-    from swtstudy.grid.unique import loads
+    from swtstudy.points.unique import loads
     from swtstudy.runner.work import assess
 
     work = assess(study, target)
@@ -62,7 +62,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
 
 
 def _quantities(study: Study) -> Iterator[str]:
-    from swtstudy.quantities import DISTANCE, distance_of
+    from swtstudy.vocabulary.quantities import DISTANCE, distance_of
 
     if study.asked.items:
         unit = study.grid.row(DISTANCE).units.replace("1", "")
@@ -82,7 +82,7 @@ def _again(work: Work) -> Iterator[str]:
 
 def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
     """How long it takes, from a few points that are solved."""
-    from swtstudy.grid.cost import duration
+    from swtstudy.points.cost import duration
     from swtstudy.runner.chunk import solve_points
     from swtstudy.runner.estimate import estimate
     from swtstudy.runner.pace import CHUNK_SECONDS

@@ -42,9 +42,9 @@ def plot(archive: str, output: str | None, style: str | None, width: Any, **own:
     from swtstudy.archive.open import open_results
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.save import save_figure
-    from swtstudy.files import check_writable
-    from swtstudy.records.records import MISSING
+    from swtstudy.points.records import MISSING
     from swtstudy.study.figure import FigureLayout
+    from swtstudy.vocabulary.files import check_writable
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)

@@ -16,7 +16,7 @@ import click
 from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import with_width
-from swtstudy.suite import run_and_draw
+from swtstudy.runner.suite import run_and_draw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,9 +86,9 @@ def run(
     continues from there.
     """
     from swtstudy.archive.names import archive_paths
-    from swtstudy.files import check_writable
     from swtstudy.study.several import read_studies
     from swtstudy.study.shipped import shipped_folder
+    from swtstudy.vocabulary.files import check_writable
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
@@ -168,7 +168,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
     from swtstudy.archive.attributes import read_failures
     from swtstudy.archive.describe import relative_errors
-    from swtstudy.records.validity import validity_lines
+    from swtstudy.points.validity import validity_lines
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"

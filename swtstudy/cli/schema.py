@@ -15,8 +15,8 @@ def schema(output: str | None) -> None:
     Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
     a study whose first line is "#:schema study.schema.json".
     """
-    from swtstudy.files import check_writable, write_text
     from swtstudy.study.schema import schema_text
+    from swtstudy.vocabulary.files import check_writable, write_text
 
     if output is None:
         click.echo(schema_text(), nl=False)

@@ -34,8 +34,8 @@ def sensitivity(
     NAME_indices.
     """
     from swtstudy.archive.names import archive_paths
-    from swtstudy.files import check_writable, write_text
     from swtstudy.study.several import read_studies
+    from swtstudy.vocabulary.files import check_writable, write_text
 
     defined = read_studies([study])
     if len(defined) > 1:
@@ -55,9 +55,9 @@ def sensitivity(
     from swtstudy.archive.write import save
     from swtstudy.figures.bars import draw_sensitivity
     from swtstudy.figures.save import save_figure
+    from swtstudy.paper.statements.influence import table
     from swtstudy.results.sensitivity import sensitivity as indices_of
     from swtstudy.runner.run import run
-    from swtstudy.statements.influence import table
     from swtstudy.study.shipped import shipped_studies
 
     indices = indices_of(run(one, target, workers=workers), y, confidence, seed)

@@ -12,7 +12,7 @@ from swtstudy.cli.completion import study_completion
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import InSections, with_width
 from swtstudy.cli.solve import with_parameters
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 @click.command(
@@ -59,8 +59,8 @@ def show(
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.profile import draw_profile
     from swtstudy.figures.save import save_figure
-    from swtstudy.files import check_writable
     from swtstudy.study.profile_tables import table_from
+    from swtstudy.vocabulary.files import check_writable
 
     if study is not None:
         if [name for name, text in texts.items() if text is not None] == ["load"]:
@@ -84,7 +84,7 @@ def _show_contact(
     """Draw the contact of a study with units."""
     from swtstudy.contacts.of_results import contact_of_study
     from swtstudy.figures.save import save_figure
-    from swtstudy.files import check_writable
+    from swtstudy.vocabulary.files import check_writable
 
     values = {name: text for name, text in texts.items() if text is not None}
     figure = contact_of_study(study, values).inspect(body, style, width)
@@ -97,10 +97,10 @@ def _show_load(source: str, name: str, output: str, style: str | None, width: An
     """Draw a load of a study, and say what its record is like."""
     from swtstudy.figures.load import draw_load
     from swtstudy.figures.save import save_figure
-    from swtstudy.files import check_writable
     from swtstudy.study.definition import Study
     from swtstudy.study.loops import read_signal_of
     from swtstudy.study.shipped import find_study
+    from swtstudy.vocabulary.files import check_writable
 
     study, path = Study.from_toml(source), find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.accuracy import DEFAULT_RTOL
-from swtstudy.axes import QUANTITY_AXES
 from swtstudy.cli.examples import examples
 from swtstudy.cli.options import SEVERAL, InSections, on_terminal
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE, NAMED
+from swtstudy.vocabulary.accuracy import DEFAULT_RTOL
+from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,20 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.contacts.measured import InUnits, Measured
 from swtstudy.contacts.overview import as_html, as_text
-from swtstudy.criteria import SWT
-from swtstudy.families import family_of, is_profile
-from swtstudy.grid.reading import read_distances, read_grid
-from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import PAIRS
-from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
+from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid, spanned
+from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import (
     bodies_of,
@@ -34,11 +27,18 @@ from swtstudy.units.bodies import (
     swt_from,
 )
 from swtstudy.units.bulk import mean_of_bulk
-from swtstudy.units.contact import Contact
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
 from swtstudy.units.scales import length_of
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.families import family_of, is_profile
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -278,7 +278,7 @@ class PhysicalContact(InUnits):
         rtol
             Relative accuracy asked of s.
         quantities
-            Names of `swtstudy.quantities.QUANTITIES`, computed beside s.
+            Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
         critical_distance
             One or several lengths, for nonlocal values.
         constants

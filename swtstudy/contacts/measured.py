@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.parameters import PARAMETERS
-from swtstudy.units.contact import Contact
+from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
 from swtstudy.units.scales import SCALES
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.files import parse_toml, read_text
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.prescribed import PAIRS
 from swtstudy.study.definition import study_from
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.prescribed import PAIRS
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.named import Named
-from swtstudy.optimum.box import Box, read_ranges
-from swtstudy.optimum.optimise import mistakes_in, optimum_in
-from swtstudy.prescribed import PAIRS
-from swtstudy.quantities import DISTANCE, Request
+from swtstudy.results.optimum.box import Box, read_ranges
+from swtstudy.results.optimum.optimise import mistakes_in, optimum_in
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import Given, read_contacts
 from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
 from swtstudy.units.variables import variables
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
     import xarray as xr

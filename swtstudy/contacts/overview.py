@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.grid.unique import unique_points
-from swtstudy.parameters import PARAMETERS
-from swtstudy.records.labelled import ATTRIBUTES
-from swtstudy.records.margins import margins
+from swtstudy.points.labelled import ATTRIBUTES
+from swtstudy.points.margins import margins
+from swtstudy.points.unique import unique_points
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.rows import rows
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from swtstudy.contacts.contact import PhysicalContact

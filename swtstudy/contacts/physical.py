@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body
 from swtstudy.units.reading import Given, read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.quantities import DISTANCE
 
 #: What is asked of contacts, not given of them.
 _ASKED = ("rtol", "quantities", DISTANCE, "constants", "yield_strength")
@@ -58,7 +58,7 @@ def physical(
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
     **parameters
-        The other names of `swtstudy.parameters.PARAMETERS`. Those with a scale are lengths:
+        The other names of `swtstudy.vocabulary.parameters.PARAMETERS`. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,

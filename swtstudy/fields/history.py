@@ -12,9 +12,9 @@ from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.planes.crossland import crossland
 from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
 from swtstudy.mechanics.planes.swt import SWT_EXPONENT, Swt
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest, plain_number
-from swtstudy.numbers import read_numbers
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.numbers import read_numbers
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: What has no plane, and the criteria of shear.
 CROSSLAND = "crossland"

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from swtstudy.criteria import SWT
 from swtstudy.fields.cycle_curves import (
     Variables,
     course_of_load,
@@ -32,9 +31,10 @@ from swtstudy.mechanics.points import REGIMES, FloatArray, Points
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.prescribed import PAIRS
 from swtstudy.solving import solve
+from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.prescribed import PAIRS
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -50,7 +50,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     Parameters
     ----------
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are those of
+        Table 1.
 
     Returns
     -------

@@ -29,7 +29,8 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     Parameters
     ----------
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each, of a point that is in equilibrium.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each, of a point that is in
+        equilibrium.
 
     Returns
     -------

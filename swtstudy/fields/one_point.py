@@ -7,14 +7,14 @@ from fractions import Fraction
 
 import numpy as np
 
-from swtstudy.families import family_of
-from swtstudy.grid.canonical import NUMBERS
-from swtstudy.grid.reading import read_grid
-from swtstudy.grid.values import as_number
 from swtstudy.mechanics.load.loop import Loop
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
-from swtstudy.mistakes import StudyError
+from swtstudy.points.canonical import NUMBERS
+from swtstudy.points.reading import read_grid
+from swtstudy.points.values import as_number
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.mistakes import StudyError
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:

@@ -12,8 +12,8 @@ from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.numbers import read_numbers
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.numbers import read_numbers
 
 _NAMES = {
     "x": "position in the direction of sliding",

@@ -9,7 +9,7 @@ import xarray as xr
 
 from swtstudy.fields.one_point import read_scene
 from swtstudy.fields.places import read_distances, read_time, turns
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 #: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.
 _INSTANTS = 64
@@ -27,7 +27,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     time
         ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
 
     Returns
     -------

@@ -12,7 +12,7 @@ from swtstudy.mechanics.body.body import Body
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.field.punch import COMPONENTS
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: Pairs of depth in a_H and number of cells: deeper than that, so many cells give the stress to 1e-8 p0.
 _CELLS = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
@@ -32,7 +32,7 @@ def stress_field(
         ω1 t in rad: a number or a one-dimensional sequence, common to all positions. By default each position
         has its own instants, those that matter there.
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
 
     Returns
     -------

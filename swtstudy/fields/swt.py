@@ -26,7 +26,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     x, y, z
         Position in a_H, as for `swtstudy.stress_field`.
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
 
     Returns
     -------

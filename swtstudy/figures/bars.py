@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.axes import AXES
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS, Style, styled
 from swtstudy.figures.wrap import wrap_texts, wrap_title
 from swtstudy.study.figure_check import wrong_formula
-from swtstudy.wording import as_text, place_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr

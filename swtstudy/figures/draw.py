@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from swtstudy.axes import AXES
 from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
@@ -17,13 +16,14 @@ from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.figures.wrap import wrap_texts
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.mistakes import Mistake, StudyError
+from swtstudy.points.grid import SAMPLE
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.figure_check import wrong_axes, wrong_layout
-from swtstudy.wording import axis_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.families import family_of
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
 from swtstudy.figures.in_units import Labels, show_units
@@ -21,9 +20,10 @@ from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import PARAMETERS
-from swtstudy.records.validity import validity_lines
-from swtstudy.wording import place_words
+from swtstudy.points.validity import validity_lines
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,7 +75,8 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     **parameters
-        Names of `swtstudy.parameters.PARAMETERS`, a single value each; the others are those of Table 1.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are those of
+        Table 1.
 
     Returns
     -------

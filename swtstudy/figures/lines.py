@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib import rcParams
 
-from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
-from swtstudy.quantities import DISTANCE, QUANTITIES
 from swtstudy.study.figure import FigureLayout
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 
 if TYPE_CHECKING:
     import xarray as xr

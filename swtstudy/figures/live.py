@@ -20,10 +20,10 @@ from swtstudy.figures.save import save_figure
 from swtstudy.figures.style import styled
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
-from swtstudy.mistakes import StudyError
-from swtstudy.parameters import PARAMETERS
 from swtstudy.solving import solve
-from swtstudy.wording import axis_words
+from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,11 +9,11 @@ from os import PathLike
 from types import ModuleType
 from typing import Any
 
-from swtstudy.families import FAMILIES
 from swtstudy.figures.live import LiveFigure
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.parameters import PARAMETERS
-from swtstudy.prescribed import CONTROLS, PAIRS
+from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import CONTROLS, PAIRS
 
 #: Lower and upper end of each slider, its step, and where it begins; ends within what is allowed.
 SLIDERS: dict[str, tuple[float, float, float, float]] = {

@@ -9,12 +9,12 @@ import numpy as np
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
-from swtstudy.grid.values import as_number
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.load.loop import Loop
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.prescribed import Control
-from swtstudy.wording import as_text
+from swtstudy.points.values import as_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.wording import as_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.families import family_of
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
-from swtstudy.grid.reading import read_grid
-from swtstudy.grid.values import as_number
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS
-from swtstudy.wording import place_words
+from swtstudy.points.reading import read_grid
+from swtstudy.points.values import as_number
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import place_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

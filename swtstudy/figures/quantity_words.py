@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.criteria import SWT, SYMBOLS
-from swtstudy.families import family_of
-from swtstudy.grid.values import as_number
-from swtstudy.quantities import QUANTITIES, attributes_of, every_variable
-from swtstudy.records.labelled import ATTRIBUTES
+from swtstudy.points.labelled import ATTRIBUTES
+from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
-from swtstudy.wording import as_text, place_words
+from swtstudy.vocabulary.criteria import SWT, SYMBOLS
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.quantities import QUANTITIES, attributes_of, every_variable
+from swtstudy.vocabulary.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr

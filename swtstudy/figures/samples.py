@@ -11,11 +11,11 @@ from swtstudy.figures.quantity_words import flag_words, part_words, quantity_wor
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.parameters import PARAMETERS
+from swtstudy.points.grid import SAMPLE
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.wording import axis_words, place_words
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import axis_words, place_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.figures.style import Style, styled
-from swtstudy.files import replacing
+from swtstudy.vocabulary.files import replacing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

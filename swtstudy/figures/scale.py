@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.axes import AXES
 from swtstudy.figures.regimes import in_equal_ratios
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.wording import axis_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from swtstudy.figures.figure import Figure
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -13,8 +13,8 @@ import matplotlib
 from cycler import cycler
 from matplotlib import rcParamsDefault
 
-from swtstudy.files import read_text
-from swtstudy.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.files import read_text
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 #: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]

@@ -10,11 +10,11 @@ import numpy as np
 from matplotlib import rcParams
 from matplotlib.path import Path
 
-from swtstudy.axes import AXES
 from swtstudy.figures.loci import jumps, lowest
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
-from swtstudy.wording import as_text, value_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.wording import as_text, value_words
 
 if TYPE_CHECKING:
     import xarray as xr

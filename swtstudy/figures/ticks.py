@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib.ticker import FuncFormatter, Locator, LogLocator, NullFormatter
 
-from swtstudy.wording import pi_words
+from swtstudy.vocabulary.wording import pi_words
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis

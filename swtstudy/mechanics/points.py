@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.prescribed import DISPLACEMENTS, Control
+from swtstudy.vocabulary.prescribed import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
@@ -42,10 +42,10 @@ class Points:
     Attributes
     ----------
     profile
-        Name of the profile, a key of `swtstudy.families.FAMILIES`, or the table of one.
+        Name of the profile, a key of `swtstudy.vocabulary.families.FAMILIES`, or the table of one.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
-        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; the phase in rad. The amplitudes are those of
-        forces where `control` says so.
+        Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; the phase in rad. The amplitudes are
+        those of forces where `control` says so.
     p, q
         Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
     shape
@@ -61,7 +61,7 @@ class Points:
     normal_sensitivity
         Shape (n,), of the criteria of shear; 0 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
-        Shape (n,), as in `swtstudy.parameters.PARAMETERS`; 0 unless given.
+        Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; 0 unless given.
     """
 
     profile: str | TabulatedProfile

@@ -14,7 +14,7 @@ from swtstudy.mechanics.solver import scenes
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.worst_means import worst_means
-from swtstudy.quantities import (
+from swtstudy.vocabulary.quantities import (
     COUNTED,
     COUNTS,
     NAMED,
@@ -36,15 +36,15 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     points
         n points of one profile family and control.
     items
-        What is asked, as in `swtstudy.quantities.Request.items`.
+        What is asked, as in `swtstudy.vocabulary.quantities.Request.items`.
     solution
         Their solution.
 
     Returns
     -------
     dict
-        By `swtstudy.quantities.columns_of`, of shape (n,); NaN where there is no cycle, and the nonlocal
-        ones where there is no critical point.
+        By `swtstudy.vocabulary.quantities.columns_of`, of shape (n,); NaN where there is no cycle, and the
+        nonlocal ones where there is no critical point.
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}

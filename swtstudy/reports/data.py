@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.axes import AXES
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.regimes import in_equal_ratios
-from swtstudy.grid.grid import SAMPLE
+from swtstudy.points.grid import SAMPLE
 from swtstudy.reports.symbols import symbol_of, unit_of, value_text
 from swtstudy.results.table import dims_beside, to_table
+from swtstudy.vocabulary.axes import AXES
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,16 +12,16 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.axes import AXES
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.criteria import SWT
-from swtstudy.families import family_of
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.parameters import PARAMETERS
+from swtstudy.points.grid import SAMPLE
 from swtstudy.reports.symbols import place_html, symbol_of, unit_of, value_text
 from swtstudy.results.extrema import extrema
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.wording import number_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import number_words
 
 #: The parameter whose values have an s of another kind each.
 CRITERION = "criterion"

@@ -6,7 +6,8 @@ from html import escape
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.describe import facts
-from swtstudy.records.validity import validity_lines
+from swtstudy.paper.statements.check import about_archive
+from swtstudy.points.validity import validity_lines
 from swtstudy.reports.data import about, packed, rows_of, table_of
 from swtstudy.reports.findings import CRITERION, sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, figure, section, table, whole
@@ -20,7 +21,6 @@ from swtstudy.reports.sections import (
     tiles,
 )
 from swtstudy.reports.symbols import symbol_of
-from swtstudy.statements.check import about_archive
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
 

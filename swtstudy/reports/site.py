@@ -12,14 +12,14 @@ from urllib.parse import quote
 
 from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.open import open_results
-from swtstudy.files import check_writable, write_text
-from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.reports.findings import sentences
 from swtstudy.reports.page import page
 from swtstudy.reports.parts import whole
 from swtstudy.reports.pictures import Picture, thumbnail
 from swtstudy.study.shipped import in_groups
-from swtstudy.version import __version__
+from swtstudy.vocabulary.files import check_writable, write_text
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr

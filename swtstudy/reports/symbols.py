@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.axes import AXES
-from swtstudy.wording import number_words, value_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.wording import number_words, value_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -91,7 +91,7 @@ def unit_of(values: xr.DataArray) -> str:
 
 
 def value_text(name: str, value: Any) -> str:
-    """A value as people say it: as `swtstudy.wording.value_words`, and every angle in π.
+    """A value as people say it: as `swtstudy.vocabulary.wording.value_words`, and every angle in π.
 
     Examples
     --------

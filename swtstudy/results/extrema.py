@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.results.quantity import quantity
 from swtstudy.results.select import require_points
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
 
 
 def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:

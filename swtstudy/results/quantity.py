@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.quantities import error_of
-from swtstudy.records.records import COMPUTED
+from swtstudy.points.records import COMPUTED
 from swtstudy.results.select import slice_at
 from swtstudy.study.figure import QUANTITY, reference
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.quantities import error_of
 
 if TYPE_CHECKING:
     import xarray as xr

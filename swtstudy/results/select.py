@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.axes import AXES
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.grid.nearest import TOLERANCE, index_of
-from swtstudy.grid.values import Value, read_exact, read_value
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.wording import value_words
+from swtstudy.points.grid import SAMPLE
+from swtstudy.points.nearest import TOLERANCE, index_of
+from swtstudy.points.values import Value, read_exact, read_value
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

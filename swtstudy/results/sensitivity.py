@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.axes import AXES
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.mistakes import Mistake, StudyError, is_number, literal
+from swtstudy.points.grid import SAMPLE
 from swtstudy.results.quantity import quantity
-from swtstudy.wording import value_words
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal
+from swtstudy.vocabulary.wording import value_words
 
 if TYPE_CHECKING:
     import xarray as xr

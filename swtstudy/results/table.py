@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.quantities import COUNTED
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.quantities import COUNTED
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.grid.codes import Definitions
-from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
-from swtstudy.quantities import YIELD, columns_of, distance_of
-from swtstudy.records.result import Result
-from swtstudy.records.solutions import blank, joined, solution_at
+from swtstudy.points.codes import Definitions
+from swtstudy.points.result import Result
+from swtstudy.points.solutions import blank, joined, solution_at
+from swtstudy.points.unique import UniquePoints
+from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
 #: Solves a batch of points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
@@ -30,7 +30,7 @@ class Asked:
     Attributes
     ----------
     quantities
-        As in `swtstudy.quantities.Request.items`.
+        As in `swtstudy.vocabulary.quantities.Request.items`.
     known
         The solution of the points, if that is known and the quantities alone are asked.
     """
@@ -105,7 +105,7 @@ class Chunk:
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     """Solve a chunk, even if single points of it fail; runs in a worker."""
-    from swtstudy.version import SOLVER_VERSION
+    from swtstudy.vocabulary.version import SOLVER_VERSION
 
     begin = time.perf_counter()
     parts = _isolated(chunk, rtol, solver)
@@ -134,7 +134,7 @@ def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution,
 
 def given_up(chunk: Chunk, message: str) -> Result:
     """The result of a chunk that could not be completed: every point failed."""
-    from swtstudy.version import SOLVER_VERSION
+    from swtstudy.vocabulary.version import SOLVER_VERSION
 
     size = len(chunk)
     messages = dict.fromkeys(range(size), message)
@@ -157,7 +157,7 @@ def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
 
 
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:
-    from swtstudy.grid.canonical import points_from
+    from swtstudy.points.canonical import points_from
 
     points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
     solution = solver(points, rtol) if asked.known is None else asked.known

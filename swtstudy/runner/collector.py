@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from swtstudy.grid.cost import weights
-from swtstudy.records.records import MISSING, Records, Run
-from swtstudy.records.result import Result
+from swtstudy.points.cost import weights
+from swtstudy.points.records import MISSING, Records, Run
+from swtstudy.points.result import Result
 from swtstudy.runner.engine import WorkerError
 from swtstudy.runner.pace import Pace
 from swtstudy.runner.progress import ProgressBar
-from swtstudy.version import SOLVER_VERSION
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     from swtstudy.archive.parts import PartsWriter

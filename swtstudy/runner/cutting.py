@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.blocks import block_ends
-from swtstudy.grid.cost import weights
-from swtstudy.grid.unique import UniquePoints
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.points.blocks import block_ends
+from swtstudy.points.cost import weights
+from swtstudy.points.unique import UniquePoints
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk
 
 

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
-from swtstudy.records.result import Result
+from swtstudy.points.result import Result
 from swtstudy.runner.chunk import Chunk, Solver, given_up, solve_chunk
 
 #: Receives every result as soon as it arrives.

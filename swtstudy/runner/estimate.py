@@ -7,11 +7,11 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.blocks import block_ends
-from swtstudy.grid.canonical import SHARED_COLUMNS, group_rows, select
-from swtstudy.grid.cost import weights
-from swtstudy.grid.unique import UniquePoints
-from swtstudy.records.result import Result
+from swtstudy.points.blocks import block_ends
+from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, select
+from swtstudy.points.cost import weights
+from swtstudy.points.result import Result
+from swtstudy.points.unique import UniquePoints
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
 #: How many kinds of points (profile and frequency ratio) are timed at most, and seconds that all of it may

@@ -10,17 +10,17 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.files import check_writable
-from swtstudy.grid.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, SECONDS_YIELD, weights
-from swtstudy.quantities import YIELD, Request
-from swtstudy.records.records import Records, Run
+from swtstudy.points.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, SECONDS_YIELD, weights
+from swtstudy.points.records import Records, Run
 from swtstudy.runner.chunk import Solver
 from swtstudy.runner.collector import Collector
 from swtstudy.runner.cutting import chunks
 from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
-from swtstudy.version import SOLVER_VERSION
+from swtstudy.vocabulary.files import check_writable
+from swtstudy.vocabulary.quantities import YIELD, Request
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     import xarray as xr

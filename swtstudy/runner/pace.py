@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from swtstudy.grid.cost import SECONDS_PER_WEIGHT
-from swtstudy.records.result import Result
+from swtstudy.points.cost import SECONDS_PER_WEIGHT
+from swtstudy.points.result import Result
 
 #: Seconds of work in a chunk: long compared with the cost of sending one, short enough to lose.
 CHUNK_SECONDS = 0.7

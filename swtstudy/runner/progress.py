@@ -9,7 +9,7 @@ from collections.abc import Callable
 from shutil import get_terminal_size
 from typing import TextIO
 
-from swtstudy.grid.cost import duration
+from swtstudy.points.cost import duration
 
 _log = logging.getLogger(__name__)
 

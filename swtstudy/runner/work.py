@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.grid.canonical import group_rows
-from swtstudy.grid.unique import UniquePoints, unique_points
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.records.columns import wanted
-from swtstudy.records.records import MISSING, Records, look_up, matching
+from swtstudy.points.canonical import group_rows
+from swtstudy.points.columns import wanted
+from swtstudy.points.records import MISSING, Records, look_up, matching
+from swtstudy.points.unique import UniquePoints, unique_points
 from swtstudy.runner.chunk import Asked
 from swtstudy.study.definition import Study
-from swtstudy.version import SOLVER_VERSION
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Work:
     records
         Records of these points, "missing" where no known one can be used; a run fills them in place.
     quantities
-        What the study asks beside s, as in `swtstudy.quantities.Request.items`.
+        What the study asks beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
     wanted
         Of which points it asks each of them, shape (n, len(quantities)).
     dropped

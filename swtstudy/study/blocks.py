@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from swtstudy.mistakes import Report, literal
-from swtstudy.named import Named
 from swtstudy.units.blocks import Block, wrong_rounds
+from swtstudy.vocabulary.mistakes import Report, literal
+from swtstudy.vocabulary.named import Named
 
 
 def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Named], report: Report) -> tuple[Block, ...]:

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.files import LARGEST_TABLE, plain_float, read_text
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.mistakes import Report
-from swtstudy.quantities import every_variable
+from swtstudy.vocabulary.mistakes import Report
+from swtstudy.vocabulary.quantities import every_variable
 
 if TYPE_CHECKING:
-    from swtstudy.parameter import Parameter
     from swtstudy.units.reading import Given
+    from swtstudy.vocabulary.parameter import Parameter
 
 
 def read_given(
@@ -40,7 +40,7 @@ def read_given(
 
 def _sound(young: object) -> float:
     """A Young's modulus; any for one that is wrong, which is reported elsewhere."""
-    from swtstudy.grid.values import read_exact
+    from swtstudy.points.values import read_exact
 
     try:
         number = float(read_exact(young))
@@ -58,7 +58,7 @@ def every_name() -> set[str]:
 
 def rows_of(contacts: Given | None) -> Mapping[str, Parameter]:
     """The parameters that a study may have."""
-    from swtstudy.parameters import PARAMETERS
+    from swtstudy.vocabulary.parameters import PARAMETERS
 
     if contacts is None:
         return PARAMETERS

@@ -8,24 +8,33 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.axes import AXES
-from swtstudy.files import parse_toml, read_text
-from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.reading import Known, Range, read_distances, read_grid
-from swtstudy.mistakes import STORABLE, Mistake, Report, StudyError, literal, meant, nearest, storable
-from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE, YIELD, Request, read_quantities
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.study.blocks import read_blocks
 from swtstudy.study.contacts import every_name, read_given, rows_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.mistakes import (
+    STORABLE,
+    Mistake,
+    Report,
+    StudyError,
+    literal,
+    meant,
+    nearest,
+    storable,
+)
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:
-    from swtstudy.parameter import Parameter
-    from swtstudy.sampling.reading import Sample
+    from swtstudy.study.sampling.reading import Sample
     from swtstudy.units.blocks import Block
+    from swtstudy.vocabulary.parameter import Parameter
 
 
 def require_study(study: object) -> None:
@@ -235,7 +244,7 @@ def _sample(
     """The sample, and the names of the parameters that are sampled."""
     if not isinstance(raw.get("sample"), dict):
         return None, []
-    from swtstudy.sampling.reading import read_sample
+    from swtstudy.study.sampling.reading import read_sample
 
     single = {name: row for name, row in rows.items() if name not in (DISTANCE, "body")}
     return read_sample(raw["sample"], folder, report, known, single)

@@ -8,9 +8,9 @@ import unicodedata
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
-from swtstudy.axes import AXES
-from swtstudy.grid.values import Value, read_exact, read_value
-from swtstudy.parameters import LETTERS
+from swtstudy.points.values import Value, read_exact, read_value
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.parameters import LETTERS
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 

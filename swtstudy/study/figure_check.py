@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 
-from swtstudy.axes import AXES, DIRECTIONS, QUANTITY_AXES
-from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.nearest import index_of
-from swtstudy.mistakes import Report, literal, nearest
-from swtstudy.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.nearest import index_of
 from swtstudy.study.figure import KINDS, QUANTITY, SAMPLE_KINDS, VARIABLES, FigureLayout, reference
+from swtstudy.vocabulary.axes import AXES, DIRECTIONS, QUANTITY_AXES
+from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
 
 
 def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:

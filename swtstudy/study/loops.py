@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from swtstudy.files import parse_toml
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.named import Named
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
+from swtstudy.vocabulary.files import parse_toml
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.named import Named
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 #: The same for one that a real contact may be given without its mean load.

@@ -5,9 +5,9 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from swtstudy.grid.grid import SAMPLE, Grid
-from swtstudy.grid.values import Value
-from swtstudy.quantities import DISTANCE, QUANTITIES, YIELD
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.values import Value
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, YIELD
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -53,7 +53,7 @@ def _size(study: Study) -> str:
 
 def _cost(study: Study) -> str:
     """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
-    from swtstudy.grid.cost import (
+    from swtstudy.points.cost import (
         COUNTING,
         SECONDS_NONLOCAL,
         SECONDS_PER_WEIGHT,

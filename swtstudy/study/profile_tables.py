@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.families import AXISYMMETRIC
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.named import Named
 from swtstudy.study.columns import form_of, read_columns, wrong_form
 from swtstudy.study.loops import place_of
 from swtstudy.study.trace import read_trace
+from swtstudy.vocabulary.families import AXISYMMETRIC
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.named import Named
 
 #: Columns of the file of a profile.
 COLUMNS = ("radius", "height")

@@ -6,20 +6,20 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
-from swtstudy.families import families_with
-from swtstudy.grid.grid import SAMPLE
-from swtstudy.grid.values import NUMERIC
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE, NAMED
-from swtstudy.sampling.distribution import KINDS
+from swtstudy.points.grid import SAMPLE
+from swtstudy.points.values import NUMERIC
 from swtstudy.study.figure import QUANTITY, VARIABLES
+from swtstudy.study.sampling.distribution import KINDS
 from swtstudy.study.tables import StudyTable
 from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
 from swtstudy.units.material import KEYS
 from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.vocabulary.axes import AXES, CONTACT_AXES, QUANTITY_AXES
+from swtstudy.vocabulary.families import families_with
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 #: Name of the schema's file beside studies; their first line points to it.
 SCHEMA_FILE = "study.schema.json"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.study.definition import Study
 from swtstudy.study.shipped import find_study
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:

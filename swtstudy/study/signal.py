@@ -14,9 +14,9 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.loop import Loop, checked_mean, checked_name
 from swtstudy.mechanics.load.smooth_path import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
 from swtstudy.study import recorded
 from swtstudy.study.columns import form_of, read_columns, wrong_form
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"

@@ -7,8 +7,6 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from swtstudy.accuracy import ALLOWED_RTOL
-from swtstudy.mistakes import Mistake, literal, nearest
 from swtstudy.study.tables import (
     BlockTable,
     FigureTable,
@@ -18,6 +16,8 @@ from swtstudy.study.tables import (
     SampleTable,
     StudyTable,
 )
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL
+from swtstudy.vocabulary.mistakes import Mistake, literal, nearest
 
 #: What is allowed at a key, where pydantic's own message would not say it.
 _ALLOWED = {

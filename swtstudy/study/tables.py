@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
-from swtstudy.accuracy import DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL
+from swtstudy.vocabulary.accuracy import DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL
 
 
 class _Table(BaseModel):

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from swtstudy.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.axes import QUANTITY_AXES
-from swtstudy.families import FAMILIES, PLANE
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import DISTANCE, NAMED
-from swtstudy.sampling.design import DESIGNS
+from swtstudy.study.sampling.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
+from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.vocabulary.families import FAMILIES, PLANE
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 _USED = ("normal_amplitude", "phase")
 

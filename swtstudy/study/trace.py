@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.families import AXISYMMETRIC
 from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError
 from swtstudy.study.columns import form_of, read_columns, wrong_form
+from swtstudy.vocabulary.families import AXISYMMETRIC
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")

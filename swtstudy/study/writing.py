@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value
-from swtstudy.named import Named
-from swtstudy.quantities import DISTANCE, NOTHING, Request
+from swtstudy.points.grid import Grid
+from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request
 
 
 def to_toml(

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.axes import AXES
-from swtstudy.families import family_of
-from swtstudy.grid.canonical import SHAPE_COLUMNS
-from swtstudy.grid.loops import check_largest
-from swtstudy.grid.shapes import largest_depths, largest_reach
-from swtstudy.grid.values import Value, as_number
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
-from swtstudy.mistakes import Report
-from swtstudy.named import Named
-from swtstudy.parameters import PARAMETERS
+from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.loops import check_largest
+from swtstudy.points.shapes import largest_depths, largest_reach
+from swtstudy.points.values import Value, as_number
 from swtstudy.units.rows import MEAN_LOADS
 from swtstudy.units.seats import MOST_SEATS, SEAT_NAMES, seat_dims
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.mistakes import Report
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

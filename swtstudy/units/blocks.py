@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.mistakes import Mistake, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain_number
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.grid.values import Value
+    from swtstudy.points.values import Value
 
 #: Beginnings of the names of what is made of each life: their ends are those of the life.
 REPETITIONS, SHARE, LIFE = "repetitions", "damage_share", "cycles"

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.quantities import COUNTED
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.sizes import wrong_size
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.quantities import COUNTED
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,10 +9,10 @@ import numpy as np
 
 from swtstudy.mechanics.indenter import TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
-from swtstudy.mistakes import Mistake, StudyError
-from swtstudy.parameters import PARAMETERS
-from swtstudy.units.contact import Contact
+from swtstudy.units.at_rest import Contact
 from swtstudy.units.scales import least_depths, length_of
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 def depth_at(contact: Contact, force: float) -> float:

@@ -11,16 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.criteria import FATEMI_SOCIE
-from swtstudy.families import is_plane
-from swtstudy.grid.canonical import COLUMNS, SHAPE_COLUMNS, rounded
-from swtstudy.grid.codes import code_of
-from swtstudy.grid.grid import Grid
-from swtstudy.grid.values import Value, as_number
-from swtstudy.named import Named
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
-from swtstudy.quantities import Request, item_of
+from swtstudy.points.canonical import COLUMNS, SHAPE_COLUMNS, rounded
+from swtstudy.points.codes import code_of
+from swtstudy.points.grid import Grid
+from swtstudy.points.values import Value, as_number
 from swtstudy.units.blocks import Block
 from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units
@@ -29,6 +23,12 @@ from swtstudy.units.loads import mean_of_loads
 from swtstudy.units.rows import rows
 from swtstudy.units.seats import Seats, seats_of
 from swtstudy.units.strips import labels_of
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE
+from swtstudy.vocabulary.families import is_plane
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import Request, item_of
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from swtstudy.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, nearest
 
 #: What has a unit of its own.
 KINDS = ("length", "force", "stress")

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, plain_number
-from swtstudy.numbers import read_numbers
-from swtstudy.quantities import COUNTED_SIZES
 from swtstudy.units.sizes import wrong_size
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, plain_number
+from swtstudy.vocabulary.numbers import read_numbers
+from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
 _STEPS = 60

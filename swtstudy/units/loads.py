@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from swtstudy.grid.values import Value
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.loop import Loop
-from swtstudy.parameters import LOOP_AMPLITUDE
+from swtstudy.points.values import Value
 from swtstudy.units.rows import MEAN_LOADS
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE
 
 #: A load that stands for one that is wrong.
 ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]], 1.0)

@@ -9,13 +9,13 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from swtstudy.files import parse_toml, read_text
-from swtstudy.grid.values import read_exact
-from swtstudy.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.points.values import read_exact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.sizes import wrong_size
 from swtstudy.units.threshold import LOAD_RATIO, RANGES, critical_distance
+from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
 _log = logging.getLogger(__name__)
 

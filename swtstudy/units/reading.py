@@ -8,21 +8,13 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
-from swtstudy.families import is_plane
-from swtstudy.grid.criteria import check_criteria
-from swtstudy.grid.loops import check_amplitudes, check_loops
-from swtstudy.grid.plane import check_forces
-from swtstudy.grid.reading import NOTHING_KNOWN, Known, Range, read_values
-from swtstudy.grid.shapes import check_shapes_given
-from swtstudy.grid.values import Value, as_number, read_value
 from swtstudy.mechanics.load.loop import Loop
-from swtstudy.mistakes import Mistake, Report, literal, meant, plain_number
-from swtstudy.named import Named
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import LOOP_AMPLITUDE, PARAMETERS
-from swtstudy.prescribed import PAIRS, replaced_by
-from swtstudy.quantities import DISTANCE
+from swtstudy.points.criteria import check_criteria
+from swtstudy.points.loops import check_amplitudes, check_loops
+from swtstudy.points.plane import check_forces
+from swtstudy.points.reading import NOTHING_KNOWN, Known, Range, read_values
+from swtstudy.points.shapes import check_shapes_given
+from swtstudy.points.values import Value, as_number, read_value
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
@@ -41,6 +33,14 @@ from swtstudy.units.rows import (
     wrong_mean_load,
 )
 from swtstudy.units.strips import check_lengths, labels_of, still_load
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.families import is_plane
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
+from swtstudy.vocabulary.quantities import DISTANCE
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def read_contacts(
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
 ) -> tuple[PhysicalGrid | None, list[Mistake]]:
-    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.grid.reading.read_grid`."""
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
     mistakes: list[Mistake] = []
 
     def report(key: str, found: str, allowed: str) -> None:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.quantities import Request
-from swtstudy.records.requested import CONTACT, has_units
+from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.units.blocks import miner
 from swtstudy.units.bodies import LABELS
 from swtstudy.units.variables import LIVES, NORMALISED, variables
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     from swtstudy.units.grid import PhysicalGrid

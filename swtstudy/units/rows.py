@@ -1,4 +1,5 @@
-"""The parameters of real contacts, with their units: rows as those of `swtstudy.parameters.PARAMETERS`."""
+"""The parameters of real contacts, with their units: rows as those of
+`swtstudy.vocabulary.parameters.PARAMETERS`."""
 
 from __future__ import annotations
 
@@ -6,12 +7,12 @@ from collections.abc import Collection
 from dataclasses import dataclass, fields
 from typing import Any
 
-from swtstudy.axes import AXES, CONTACT_AXES, QUANTITY_AXES
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
 from swtstudy.units.labels import Units
 from swtstudy.units.scales import SCALES, may_vanish
 from swtstudy.units.sizes import LARGEST, SMALLEST
+from swtstudy.vocabulary.axes import AXES, CONTACT_AXES, QUANTITY_AXES
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: What must be given of a real contact: it has no usual friction.
 WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.parameter import Parameter
-from swtstudy.parameters import PARAMETERS
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
-    from swtstudy.units.contact import Contact
+    from swtstudy.units.at_rest import Contact
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Scale:
     kind: str = "length"
 
 
-#: Scales by the name that rows of `swtstudy.parameters.PARAMETERS` have for them.
+#: Scales by the name that rows of `swtstudy.vocabulary.parameters.PARAMETERS` have for them.
 SCALES: dict[str, Scale] = {
     "a_H": Scale(lambda contact: contact.length_scale, 0.5),
     "δ0": Scale(lambda contact: contact.depth, 1.0),

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.families import family_of
-from swtstudy.grid.canonical import SHAPE_COLUMNS
-from swtstudy.grid.values import Value, as_number
-from swtstudy.mistakes import StudyError
-from swtstudy.named import Named
-from swtstudy.units.contact import Contact
+from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.values import Value, as_number
+from swtstudy.units.at_rest import Contact
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES
+from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.named import Named
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.units.life import FatigueConstants, at_cycles, life, not_negative, rounds
 from swtstudy.units.sizes import wrong_size
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swtstudy.mistakes import Mistake, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, literal, plain_number
 
 #: No unit makes a quantity smaller or larger; the product of three of them, and a square, is still a number.
 SMALLEST, LARGEST = 1e-100, 1e100

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 
-from swtstudy.families import is_plane
-from swtstudy.mistakes import Report
 from swtstudy.units.labels import Units
+from swtstudy.vocabulary.families import is_plane
+from swtstudy.vocabulary.mistakes import Report
 
 #: The length of a plane contact along its axis.
 LENGTH = "contact_length"

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from swtstudy.mistakes import Mistake, literal, plain_number
 from swtstudy.units.labels import KNOWN, Units
 from swtstudy.units.sizes import wrong_size
+from swtstudy.vocabulary.mistakes import Mistake, literal, plain_number
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
 RANGES = ("threshold_stress_intensity_range", "fatigue_limit_range")

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.criteria import FATEMI_SOCIE, FINDLEY, SWT
-from swtstudy.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
+from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import lives_in
-from swtstudy.units.contact import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
 from swtstudy.units.shear_life import ShearConstants
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -38,7 +38,7 @@ class Variable:
     Attributes
     ----------
     name, symbol, meaning
-        As of a `swtstudy.quantities.Quantity`.
+        As of a `swtstudy.vocabulary.quantities.Quantity`.
     kind
         "length", "force", "stress", "work", or "1".
     of

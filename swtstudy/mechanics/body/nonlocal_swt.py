@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.axes import DIRECTIONS
 from swtstudy.mechanics.body.around import Around
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.vocabulary.axes import DIRECTIONS
 
 #: Largest over smallest distance that share their places.
 SPAN = 12.0

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import Load
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 #: Excess that is rounding, in the largest normal load: 2e-16 at most for 20,000 sines that just reach T = N.
 ROUNDING = 1e-12

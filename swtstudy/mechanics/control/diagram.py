@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.families import is_plane
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
 from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
 from swtstudy.mechanics.control.mapped import MappedLoad
@@ -16,7 +15,8 @@ from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.families import is_plane
+from swtstudy.vocabulary.prescribed import Control
 
 
 def largest_depth(

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.families import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.named import Named, wrong_name
-from swtstudy.numbers import read_numbers
+from swtstudy.vocabulary.families import AXISYMMETRIC, GEOMETRIES, PLANE
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.named import Named, wrong_name
+from swtstudy.vocabulary.numbers import read_numbers
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly

@@ -9,7 +9,7 @@ import numpy as np
 from swtstudy.mechanics.line.counted import far_cycles, strain_cycles
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.quantities import COUNTED_SIZES
+from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Cycles whose SWT differ by less than this, relative, are equal.
 EQUAL = 1e-6

@@ -15,8 +15,8 @@ from swtstudy.mechanics.load.loop import FINITE, LARGEST, Loop, checked_mean, ch
 from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
 from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal
-from swtstudy.numbers import read_numbers
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.numbers import read_numbers
 
 #: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000

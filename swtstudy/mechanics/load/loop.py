@@ -7,9 +7,9 @@ from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.named import Named, wrong_name
-from swtstudy.prescribed import PAIRS
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.named import Named, wrong_name
+from swtstudy.vocabulary.prescribed import PAIRS
 
 #: Largest number of a loop: squares of it are numbers still, whatever its unit.
 LARGEST = 1e100

@@ -14,7 +14,7 @@ from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.loop import LARGEST, Loop, checked_mean, checked_name, mean_of
 from swtstudy.mechanics.load.smooth import SmoothLoad
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mistakes import Mistake, StudyError, is_number, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
 
 #: Highest harmonic of a loop: that of the frequency ratio of two.
 HIGHEST_ORDER = 64

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.families import PLAIN, PLAIN_STRIP
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.vocabulary.families import PLAIN, PLAIN_STRIP
 
 
 def bulk_shift(points: Points) -> FloatArray:

@@ -23,7 +23,7 @@ from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
-from swtstudy.prescribed import Control
+from swtstudy.vocabulary.prescribed import Control
 
 
 @dataclass(frozen=True)

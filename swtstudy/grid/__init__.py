@@ -1,1 +1,0 @@
-"""The grid of a study: named dimensions, their values, and the distinct points behind them."""

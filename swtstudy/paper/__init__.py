@@ -1,0 +1,1 @@
+"""What checks the paper and this package: statements, an audit, the textbook method."""

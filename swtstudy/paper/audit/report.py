@@ -1,0 +1,181 @@
+"""The report of an audit."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.archive.attributes import defined_in
+from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.paper.audit.point import TOLERANCE, VERDICTS
+from swtstudy.paper.audit.table import canonical_rows
+from swtstudy.points.canonical import describe_point
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_WORDS = {
+    "none": "on the surface line, where the solver found it",
+    "line_search": "on the surface line, elsewhere",
+    "plane_through_y": "on the surface line, on a plane that is not through y",
+    "symmetry_line": "on the surface, off the line",
+    "surface": "beneath the surface",
+    "not_finite": "not searched: s is not finite, or at the edge r = b of the truncated paraboloid",
+}
+#: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
+_POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
+#: Excesses beyond this are over an s that is rounding.
+_LARGE = 10.0
+_BULK = ("bulk_stress_mean", "bulk_stress_amplitude")
+#: How many of the points whose maximum the solver misses are listed one by one.
+_LISTED = 20
+
+
+def report(dataset: xr.Dataset) -> str:
+    """The report of an audit as Markdown.
+
+    Parameters
+    ----------
+    dataset
+        From `swtstudy.audit_study`.
+    """
+    return "\n".join(_lines(dataset)) + "\n"
+
+
+def _lines(dataset: xr.Dataset) -> Iterator[str]:
+    excess, remainder, verdict = (dataset[name].values for name in ("excess", "remainder", "verdict"))
+    finite = np.isfinite(excess)
+    exceeded = finite & (excess > TOLERANCE)
+    ν = dataset["poisson_ratio"].values
+
+    yield f"# {dataset.attrs['title']}"
+    yield ""
+    yield (
+        f"{len(excess)} points, each solved in the whole body and for all plane orientations. Excess of swt "
+        f"over s counts from {TOLERANCE:.1%}. A ring around the edge r = b of a flat face is left out: 0.002 "
+        "of the largest contact radius wide, or narrower where the line's maximum would be inside it."
+    )
+    yield ""
+    yield "| the maximum of swt is | points | exceeds s by up to | at ν from |"
+    yield "|---|---|---|---|"
+    for code, name in enumerate(VERDICTS):
+        here = verdict == code
+        if name in ("none", "not_finite") or not here.any():
+            yield f"| {_WORDS[name]} | {here.sum()} | | |"
+        else:
+            most = _percent(excess[here].max(), 1)
+            yield f"| {_WORDS[name]} | {here.sum()} | {most} | {ν[here].min():.2f} |"
+    yield ""
+    yield from _shares("ν", _ranges(ν), finite, exceeded, excess, remainder)
+    yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
+    regime = np.array(REGIMES)[dataset["regime"].values]
+    yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    # An older audit has no such columns.
+    if any(name in dataset.coords and dataset[name].values.any() for name in _BULK):
+        groups = _bulk_groups(dataset)
+        yield from _shares("bulk stress", groups, finite, exceeded, excess, remainder)
+        name, inside = groups[0]
+        enough = finite & inside
+        on_line = f"{(enough & ~exceeded).sum()} of {enough.sum()}"
+        yield f"With {name}, the surface line is enough at {on_line} points."
+        yield ""
+    yield from _of_the_solver(dataset, exceeded)
+    if "s_dense" in dataset and np.isfinite(dataset["s_dense"].values).any():
+        yield from _overlooked(dataset)
+
+
+def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator[str]:
+    """How far the solver's own s_surface finds what exceeds s."""
+    remainder, verdict = dataset["remainder"].values, dataset["verdict"].values
+    finite = np.isfinite(dataset["excess"].values)
+    flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * dataset["s"].values)
+    beyond = finite & (remainder > TOLERANCE)
+    yield "## What the solver knows"
+    yield ""
+    yield (
+        f"The solver's s_surface is more than {TOLERANCE:.1%} above s at {flagged.sum()} points: "
+        f"{(flagged & exceeded).sum()} of the {exceeded.sum()} at which the body's maximum is, and "
+        f"{(flagged & ~exceeded).sum()} others. The body's maximum exceeds s_surface at {beyond.sum()} points"
+        + (", by up to " + f"{remainder[beyond].max():.2%}:" if beyond.any() else ".")
+    )
+    yield ""
+    rows, known = canonical_rows(dataset), defined_in(dataset.attrs)
+    definitions = {each.code: each for own in known.values() for each in own.values()}
+    for i in np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_LISTED]:
+        yield f"* {remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i], definitions)}"
+    away = np.abs(dataset["s_all_planes"].values / dataset["s"].values - 1.0)[finite]
+    yield ""
+    yield (
+        "At the line's maximum the solver and the field beneath the contact, two routes to one value, differ "
+        f"by {np.median(away):.0e} (median), {np.quantile(away, 0.99):.0e} (99 %), "
+        f"{away.max():.0e} (largest)."
+    )
+
+
+def _overlooked(dataset: xr.Dataset) -> Iterator[str]:
+    """What a dense look at the surface line says of the search."""
+    short = dataset["shortfall"].values
+    low = short > 0.0
+    yield ""
+    yield "## Was a maximum overlooked?"
+    yield ""
+    yield (
+        f"A dense look at the surface line, at {np.isfinite(short).sum()} points: at {low.sum()} of them it "
+        "is higher than s by more than s_error"
+        + (f", by up to {short[low].max():.1e}." if low.any() else ".")
+    )
+
+
+def _shares(
+    title: str,
+    groups: list[tuple[str, NDArray[np.bool_]]],
+    finite: NDArray[np.bool_],
+    exceeded: NDArray[np.bool_],
+    excess: NDArray[np.float64],
+    remainder: NDArray[np.float64],
+) -> Iterator[str]:
+    """A table of how often and by how much s and s_surface are exceeded in groups of points."""
+    yield f"| {title} | points | above s | by up to | above s_surface by up to |"
+    yield "|---|---|---|---|---|"
+    for name, group in groups:
+        inside = finite & group
+        if inside.any():
+            most = " | ".join(_percent(max(values[inside].max(), 0.0), 2) for values in (excess, remainder))
+            yield f"| {name} | {inside.sum()} | {(inside & exceeded).sum()} | {most} |"
+    yield ""
+
+
+def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_]]]:
+    """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
+    mean, ν = dataset["bulk_stress_mean"].values, dataset["poisson_ratio"].values
+    edge = (dataset["profile"].values == "truncated_paraboloid") & (
+        dataset["regime"].values == REGIMES.index("gross_slip")
+    )
+    hard, presses = ν > SAFE_POISSON_RATIO, mean < 0.0
+    limit = f"{SAFE_POISSON_RATIO:g}"
+    return [
+        (f"mean ≥ 0, ν ≤ {limit}, no truncated paraboloid that slides", ~presses & ~hard & ~edge),
+        (f"mean ≥ 0, ν ≤ {limit}, a truncated paraboloid that slides", ~presses & ~hard & edge),
+        (f"mean ≥ 0, ν > {limit}", ~presses & hard),
+        (f"mean < 0, ν ≤ {limit}", presses & ~hard),
+        (f"mean < 0, ν > {limit}", presses & hard),
+    ]
+
+
+def _percent(share: float, digits: int) -> str:
+    """A share in per cent; that over next to nothing is a large one, whatever its digits."""
+    return f"{share:.{digits}%}" if share <= _LARGE else f"over {_LARGE:.0%}"
+
+
+def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:
+    pairs = itertools.pairwise(_POISSON_ENDS)
+    return [(f"{low:g}–{high:g}", ((ν > low) | (low == 0.0)) & (ν <= high)) for low, high in pairs]
+
+
+def _values(values: NDArray) -> list[tuple[str, NDArray[np.bool_]]]:
+    return [(str(value).replace("_", " "), values == value) for value in np.unique(values)]

@@ -1,0 +1,128 @@
+"""Section 4.1: where the critical point lies, how the critical plane is turned, and how contacts slip.
+
+That the point lies on the surface and at y = 0 is tested on an audit, since the archives hold maxima over
+that line only.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.paper.audit import AUDIT_PREFIX
+from swtstudy.paper.statements.statement import Finding, Statement
+from swtstudy.paper.statements.stick_zone import stick_radius
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: What "for basically all simulations" is taken to mean.
+_BASICALLY_ALL = 0.95
+#: "Well outside" the zone of permanent stick: |x| over its radius.
+_WELL_OUTSIDE = 1.1
+#: "Close to the x axis", degrees.
+_ABOUT_TEN_DEGREES = 10.0
+
+#: Every archive of the suite, in its order.
+_ALL = (
+    *(f"figure{number}" for number in range(3, 9)),
+    "other_frequencies",
+    "friction",
+    "tangential_amplitude",
+    "poisson_ratio",
+)
+
+
+def on_the_line(audit: xr.Dataset) -> Finding:
+    """Where the maximum over the whole body and all planes lies, at random points of all parameters."""
+    verdict = audit.verdict.values[np.isfinite(audit.excess.values)]
+    codes = {name: verdict == code for code, name in enumerate(audit.verdict.attrs["flag_meanings"].split())}
+    off, beneath, oblique = codes["symmetry_line"], codes["surface"], codes["plane_through_y"]
+    left = off | beneath | oblique
+    share = 1.0 - float(left.mean())
+    measured = (
+        f"at {share:.1%} of {len(verdict)} random points of all parameters the worst of all points and "
+        f"planes is on the line; beneath the surface {beneath.sum()}, on an oblique plane {oblique.sum()}, "
+        f"on the surface off the line {off.sum()}"
+    )
+    if left.any():
+        finite = audit.isel(sample=np.isfinite(audit.excess.values))
+        measured += (
+            f", with swt up to {float(finite.excess.values[left].max()):.1%} higher, for "
+            f"ν ≥ {float(finite.poisson_ratio.values[left].min()):.2f}"
+        )
+    return Finding(measured, share >= _BASICALLY_ALL)
+
+
+def outside_of_stick(*archives: xr.Dataset) -> Finding:
+    """Position of the critical point over the radius of permanent stick."""
+    stick = np.concatenate([stick_radius(archive).values.ravel() for archive in archives])
+    position = np.concatenate([abs(archive.critical_x.values).ravel() for archive in archives])
+    sticking = (stick > 0) & np.isfinite(position)
+    if not sticking.any():
+        return Finding(f"none of {len(stick)} points has a zone of permanent stick", True)
+    relation = position[sticking] / stick[sticking]
+    share = float((relation >= _WELL_OUTSIDE).mean())
+    measured = (
+        f"{sticking.sum()} of {len(stick)} points have a zone of permanent stick; |x| ≥ 1.1 times its radius "
+        f"at {share:.1%}, outside at {(relation > 1).mean():.1%}; smallest {relation.min():.3f}, "
+        f"median {np.median(relation):.2f}"
+    )
+    return Finding(measured, share >= _BASICALLY_ALL)
+
+
+def normal_along_x(*archives: xr.Dataset) -> Finding:
+    """Angle of the critical plane's normal against x."""
+    angle = np.concatenate([abs(archive.critical_angle.values).ravel() for archive in archives])
+    # Where s is 0 there is no critical plane.
+    angle = angle[np.isfinite(angle)]
+    share = float((angle <= _ABOUT_TEN_DEGREES).mean())
+    worst = max(archives, key=lambda archive: float(abs(archive.critical_angle).max()))
+    measured = (
+        f"within 10° at {share:.1%} of {len(angle)} points, median {np.median(angle):.1f}°, "
+        f"largest {angle.max():.1f}° ({worst.attrs.get('title', 'untitled')})"
+    )
+    return Finding(measured, share >= _BASICALLY_ALL)
+
+
+def slips_partially(*archives: xr.Dataset) -> Finding:
+    """Share of the points in each regime."""
+    regime = np.concatenate([archive.regime.values.ravel() for archive in archives])
+    shares = {name: float((regime == REGIMES.index(name)).mean()) for name in REGIMES}
+    words = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items() if share)
+    return Finding(f"of {len(regime)} points: {words}", shares["partial_slip"] >= _BASICALLY_ALL)
+
+
+STATEMENTS = (
+    Statement(
+        "Title",
+        "The contacts oscillate in partial slip.",
+        "at 95% of all points the regime is partial slip: part of the contact slips, no gross slip "
+        "(max(u − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off",
+        _ALL,
+        slips_partially,
+    ),
+    Statement(
+        "Section 4.1",
+        "The critical point lies on the surface, on the line y = 0.",
+        "at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%",
+        (f"{AUDIT_PREFIX}parameter_box",),
+        on_the_line,
+    ),
+    Statement(
+        "Section 4.1",
+        "For basically all simulations the critical point lies well outside the zone of permanent stick.",
+        "|x| at least 1.1 times the radius of permanent stick at 95% of the points that have such a zone",
+        _ALL,
+        outside_of_stick,
+    ),
+    Statement(
+        "Section 4.1",
+        "For basically all simulations the critical plane's normal lies close to the x axis.",
+        "within 10° at 95% of all points",
+        _ALL,
+        normal_along_x,
+    ),
+)

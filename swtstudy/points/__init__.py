@@ -1,0 +1,1 @@
+"""Points by named columns: the grid that a user spans, its distinct points, and their results."""

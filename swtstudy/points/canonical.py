@@ -1,0 +1,222 @@
+"""Canonical points: one row of numbers for everything that is physically one point.
+
+Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one
+onto the other, or if they differ only in parameters that do not matter (the shape of another profile, a
+profile whose shape is plain, the phase and the control of a load that stands still).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.points.codes import Definitions, code_of, control_code, control_of, value_of
+from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.families import FAMILIES, PLAIN_OF, family_of
+from swtstudy.vocabulary.named import Named, cost_of
+from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.points import FloatArray, IntArray, Points
+
+
+def _numbers(part: str) -> tuple[str, ...]:
+    """Those numbers of a part that have a column; one that takes another's place is in its column."""
+    rows = PARAMETERS.items()
+    return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
+
+
+#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
+RATIO_COLUMNS = ("p", "q")
+LOAD_COLUMNS = ("control", "load", *RATIO_COLUMNS, *_numbers("load"))
+#: Columns that points have in common which are solved in one call.
+SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
+#: Shape parameters, of whichever profile.
+SHAPE_COLUMNS = _numbers("shape")
+#: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
+#: which the tractions do not depend on.
+NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
+#: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
+#: control see `swtstudy.points.codes`.
+COLUMNS = (
+    *("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS),
+    *reversed(_numbers("body")),
+    *_numbers("bulk"),
+    *_numbers("criterion"),
+)
+_COLUMN = {name: index for index, name in enumerate(COLUMNS)}
+
+#: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
+DIGITS = 12
+
+
+def select(table: FloatArray, names: Sequence[str]) -> FloatArray:
+    """The columns of these names, shape (n, len(names))."""
+    return table[:, [_COLUMN[name] for name in names]]
+
+
+def canonical_number(value: float) -> float:
+    """A number rounded to `DIGITS` significant digits, without the sign of zero."""
+    return float(f"{value:.{DIGITS}g}") + 0.0
+
+
+def rounded(values: NDArray) -> FloatArray:
+    """`canonical_number` of many numbers."""
+    distinct, index = np.unique(values, return_inverse=True)
+    return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
+
+
+def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Canonical rows of points.
+
+    Parameters
+    ----------
+    columns
+        A number for every name in `COLUMNS`, each broadcastable to shape (n,).
+
+    Returns
+    -------
+    table
+        Shape (n, len(COLUMNS)); columns that do not matter for a point are 0.
+    mirrored
+        Shape (n,): True where x is mirrored with respect to the canonical point.
+    """
+    table = np.stack(np.broadcast_arrays(*(np.asarray(columns[name], float) for name in COLUMNS)), axis=-1)
+    _make_profiles_canonical(table)
+    _make_criteria_canonical(table)
+    return table, _make_loads_canonical(table)
+
+
+def _make_profiles_canonical(table: FloatArray) -> None:
+    profile = table[:, _COLUMN["profile"]]
+    for family in FAMILIES.values():
+        if family.plain is not None:
+            name, value = family.plain
+            same = (profile == code_of(family.name)) & (table[:, _COLUMN[name]] == value)
+            profile[same] = code_of(PLAIN_OF[family.geometry])
+    for code in np.unique(profile):
+        # What the user has defined has no shape parameters.
+        shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
+        unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in shape]
+        table[np.ix_(profile == code, unused)] = 0
+
+
+def _make_criteria_canonical(table: FloatArray) -> None:
+    is_swt = table[:, _COLUMN["criterion"]] == code_of(SWT, "criterion")
+    table[is_swt, _COLUMN["normal_sensitivity"]] = 0.0
+
+
+def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
+    """Returns where x is mirrored."""
+    from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
+
+    p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
+    normal, tangential, phase = (
+        table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
+    )
+    # A loop has neither phase nor frequencies.
+    is_loop = table[:, _COLUMN["load"]] != code_of(HARMONIC, "load")
+    rests = (normal == 0.0) | is_loop
+    phase, p, q = without_what_stands_still(rests, phase, p, q)
+    _make_control_canonical(table, normal == 0.0, tangential == 0.0)
+    # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
+    nudge = 2 * 10.0**-DIGITS
+    folded, mirrored = fold_phase(phase + nudge, p, q)
+    table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
+    table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
+    of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
+    moves = (table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0) & ~is_loop
+    both_ways = (q % 2 == 0) | (normal == 0.0)
+    folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
+    of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
+    return mirrored
+
+
+def _in_turns(angle: FloatArray) -> FloatArray:
+    """An angle rounded in units of π."""
+    return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
+
+
+def _make_control_canonical(
+    table: FloatArray, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
+) -> None:
+    """A component that stands still is prescribed as the other one is, both that do as displacements."""
+    control = table[:, _COLUMN["control"]]
+    force = control.astype(np.int64)
+    normal, tangential = (force & 1) == 1, (force & 2) == 2
+    moves = ~normal_rests & normal, ~tangential_rests & tangential
+    control[:] = control_code(
+        np.where(normal_rests, moves[1], normal), np.where(tangential_rests, moves[0], tangential)
+    )
+
+
+def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
+    """The distinct rows of a table, in lexicographic order.
+
+    Parameters
+    ----------
+    table
+        Shape (n, k), without NaN.
+
+    Returns
+    -------
+    first
+        Shape (m,): the index of one occurrence of every distinct row.
+    group
+        Shape (n,): the index into `first` of the row equal to each row.
+    """
+    group = np.zeros(len(table), np.int64)
+    first = np.zeros(min(len(table), 1), np.int64)
+    for column in table.T:
+        values, code = np.unique(column, return_inverse=True)
+        # Column by column on integers: sorting whole rows takes ten times as long.
+        _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)
+    return first, group
+
+
+def points_from(table: FloatArray, definitions: Definitions) -> Points:
+    """A batch for the solver from canonical rows that share one profile, control and course of the load.
+
+    Parameters
+    ----------
+    table
+        Shape (n, len(COLUMNS)).
+    definitions
+        What the user has defined, by its code.
+    """
+    from swtstudy.mechanics.load.loop import Loop
+    from swtstudy.mechanics.points import Points
+
+    profile = value_of(table[0, _COLUMN["profile"]], definitions)
+    course = value_of(table[0, _COLUMN["load"]], definitions, "load")
+    return Points(
+        profile=profile,  # type: ignore[arg-type]
+        p=table[:, _COLUMN["p"]].astype(np.int64),
+        q=table[:, _COLUMN["q"]].astype(np.int64),
+        shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
+        control=control_of(table[0, _COLUMN["control"]]),
+        path=course if isinstance(course, Loop) else None,
+        criterion=str(value_of(table[0, _COLUMN["criterion"]], definitions, "criterion")),
+        **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
+    )
+
+
+def describe_point(row: FloatArray, definitions: Definitions) -> str:
+    """A canonical row in words, for messages: what matters for its profile and load."""
+    profile, course = (value_of(row[_COLUMN[name]], definitions, name) for name in ("profile", "load"))
+    shape = family_of(profile).shape if isinstance(profile, str) else ()
+    parts = [f"profile={profile}", *(f"{name}={row[_COLUMN[name]]:.6g}" for name in shape)]
+    if isinstance(course, Named):
+        parts.append(f"load={course}")
+    else:
+        parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
+    criterion = value_of(row[_COLUMN["criterion"]], definitions, "criterion")
+    if not PARAMETERS["criterion"].goes_without_saying(criterion):
+        parts.append(f"criterion={criterion}")
+    control = control_of(row[_COLUMN["control"]])
+    values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
+    said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
+    return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

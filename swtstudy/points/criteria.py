@@ -1,0 +1,51 @@
+"""What goes with which criterion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SHARP, SWT
+from swtstudy.vocabulary.mistakes import Report
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE
+
+
+def check_criteria(
+    given: Iterable[str],
+    fixed: Mapping[str, Any],
+    along: Mapping[str, Sequence[Any]],
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Parameters that the criteria need or do not have, and profiles that they do not allow.
+
+    Parameters
+    ----------
+    given
+        Names of all parameters that are given, soundly or not.
+    fixed, along
+        Sound values.
+    """
+    defaults = {name: row.default for name, row in PARAMETERS.items()}
+
+    def values(name: str) -> Sequence[Any]:
+        return along.get(name, (fixed.get(name, defaults[name]),))
+
+    names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
+    if not others:
+        if any(values("normal_sensitivity")):
+            found = f"a value with the criterion {SWT}"
+            report(keys("normal_sensitivity"), found, f"it with {FATEMI_SOCIE} or {FINDLEY}")
+        return
+    criteria = f"with the criterion {', '.join(others)}"
+    if "normal_sensitivity" not in names:
+        report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
+    if any(value != defaults["walker_exponent"] for value in values("walker_exponent")):
+        report(keys("walker_exponent"), f"a value {criteria}", f"it with {SWT} alone")
+    if DISTANCE in names:
+        why = "means of others are not computed"
+        report(keys(DISTANCE), f"a value {criteria}", f"it with {SWT} alone: {why}")
+    if SHARP in map(str, values("profile")):
+        why = "next to its edge the stress has no bound, and where these are finite is not known"
+        report(keys("profile"), f"{SHARP} {criteria}", f"another one: {why}")

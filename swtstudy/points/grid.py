@@ -1,0 +1,205 @@
+"""The grid of named dimensions that a study or a call of `solve` spans."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.points.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
+from swtstudy.points.codes import code_of, control_code
+from swtstudy.points.values import Value, read_value
+from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
+from swtstudy.vocabulary.prescribed import Control, replaced_by
+from swtstudy.vocabulary.quantities import Request, item_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from swtstudy.mechanics.points import FloatArray, IntArray
+
+
+#: Name of the dimension along which the sampled parameters vary together.
+SAMPLE = "sample"
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A grid of parameter points: the product of a sample, if there is one, and of axes.
+
+    Attributes
+    ----------
+    fixed
+        The single-valued parameters; those that no profile of the grid has may be absent, and of two that
+        take each other's place one is.
+    axes
+        The values along each dimension, in the order of the dimensions.
+    samples
+        The values of the parameters that vary together along the first dimension, `SAMPLE`: all of one
+        length, a point of the sample at each place.
+    """
+
+    fixed: dict[str, Value]
+    axes: dict[str, tuple[Value, ...]]
+    samples: dict[str, tuple[Value, ...]] = field(default_factory=dict)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the dimensions."""
+        return (*((SAMPLE,) if self.samples else ()), *self.axes)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the dimensions."""
+        sampled = next(iter(self.samples.values()), None)
+        return (*(() if sampled is None else (len(sampled),)), *map(len, self.axes.values()))
+
+    @property
+    def size(self) -> int:
+        """Number of grid points."""
+        return math.prod(self.shape)
+
+    @property
+    def control(self) -> Control:
+        """What is prescribed."""
+        return Control.given((*self.fixed, *self.axes, *self.samples))
+
+    @property
+    def definitions(self) -> dict[float, Named]:
+        """What the user has defined, by its code in canonical rows."""
+        return {each.code: each for each in self.given}
+
+    @property
+    def given(self) -> tuple[Named, ...]:
+        """What the user has defined, as it was given: several may be the same but for their names."""
+        values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
+        return tuple(dict.fromkeys(value for value in values if isinstance(value, Named)))
+
+    @property
+    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
+        """What differs from body to body."""
+        return {}
+
+    def row(self, name: str) -> Parameter:
+        """The row of a parameter, with its unit."""
+        return AXES[name]
+
+    def values(self, name: str) -> tuple[Value, ...]:
+        """All values of a parameter on this grid, or along its sample; empty if it has none."""
+        along = self.axes.get(name) or self.samples.get(name)
+        if along is not None:
+            return along
+        return (self.fixed[name],) if name in self.fixed else ()
+
+    def dimension(self, name: str) -> str | None:
+        """The dimension along which a parameter varies; None if it has a single value or none."""
+        if name in self.samples:
+            return SAMPLE
+        return name if name in self.axes else None
+
+    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
+        stop = self.size if stop is None else stop
+        columns = self.columns(start, stop)
+        force = (self.control.normal_force, self.control.tangential_force)
+        columns["control"] = control_code(*map(np.array, force))
+        columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
+        # What does not scale a loop does not matter for it.
+        name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Named)]
+        if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
+            columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
+        return canonical_points(columns)
+
+    def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
+        """Names and dimensions of what results have beside what is asked: margins, and that with units."""
+        return dict.fromkeys(self.margins, self.dims)
+
+    @property
+    def margins(self) -> tuple[str, ...]:
+        """What results say of how far their points are from where the model ends."""
+        pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
+        shift = ("bulk_shift", "bulk_shift_ratio") * pulled
+        return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
+
+    @property
+    def curvatures(self) -> FloatArray:
+        """a_H/R of each point, NaN where no length is known; shape (size,)."""
+        return np.full(self.size, np.nan)
+
+    def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
+        """Results as users see them, with units if the grid has some."""
+        return dataset
+
+    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
+        """The critical distances that are asked, as items, and which of these each point of the grid wants.
+
+        Returns
+        -------
+        items
+        wanted
+            Shape (len(asked.distances), size): indices of items.
+        """
+        items = tuple(map(item_of, asked.distances))
+        return items, np.broadcast_to(np.arange(len(items))[:, None], (len(items), self.size))
+
+    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+        """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
+        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
+        position = dict(zip(self.dims, places, strict=True))
+        along = {name: self.dimension(self._source(name)) for name in COLUMNS}
+        return {
+            name: codes if (dim := along[name]) is None else codes[position[dim]]
+            for name, codes in self._codes.items()
+        }
+
+    @cached_property
+    def _codes(self) -> dict[str, NDArray]:
+        """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
+        return {
+            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0.0])
+            for name in COLUMNS
+        }
+
+    def _source(self, column: str) -> str:
+        """The parameter that a column of canonical rows comes from."""
+        return "frequency_ratio" if column in RATIO_COLUMNS else self.control.given_for(column)
+
+
+def _code(name: str, value: Value) -> float:
+    """The number that stands for a value in a canonical row."""
+    if isinstance(value, str | Named):
+        return code_of(value, name)
+    if isinstance(value, Fraction):
+        return float({"p": value.numerator, "q": value.denominator}.get(name, value))
+    # A phase is rounded in units of π once it is folded, not here.
+    return value if PARAMETERS[name].units == "rad" else canonical_number(value)
+
+
+def complete(
+    fixed: dict[str, Value],
+    axes: dict[str, tuple[Value, ...]],
+    samples: dict[str, tuple[Value, ...]] | None = None,
+) -> Grid:
+    """A grid with defaults for every parameter that is not given, nor one in its place.
+
+    These are those of Table 1, but for the amplitudes that scale loops, which are 1.
+    """
+    filled, samples = dict(fixed), samples or {}
+    given = {*fixed, *axes, *samples}
+    given |= replaced_by(given)
+    loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
+    scaling = {name for value in loads if isinstance(value, Named) for name in value.scaled_by}
+    for name, parameter in PARAMETERS.items():
+        if name not in given and parameter.default is not None:
+            default = LOOP_AMPLITUDE if name in scaling else parameter.default
+            filled[name] = read_value(parameter, default)
+    return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

@@ -1,0 +1,222 @@
+"""Plain arrays as the Dataset that users see, with names, units and meanings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.points import requested
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.records import STATES
+from swtstudy.points.validity import validity_lines
+from swtstudy.points.values import Value, as_number
+from swtstudy.vocabulary.criteria import BENEATH, MEANING, SWT
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.prescribed import CONTROLS
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attributes_of
+
+#: xarray breaks the labels of its own plots after 30 characters, including the unit.
+_LONGEST_NAME = 24
+
+#: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
+#: use them as labels. The unit 1 is left out of a Dataset.
+ATTRIBUTES: dict[str, dict[str, Any]] = {
+    "s": {
+        "long_name": "SWT parameter SWT/SWT0",
+        "units": "1",
+        "symbol": r"s",
+        "ancillary_variables": "s_error regime s_surface",
+        "comment": (
+            "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R; "
+            "one elastic half-space with E*, G* against a rigid indenter"
+        ),
+    },
+    "s_error": {
+        "long_name": "absolute error of s",
+        "comment": "estimated",
+        "units": "1",
+        "symbol": r"\Delta s",
+    },
+    "s_surface": {
+        "long_name": "s on the surface circle",
+        "comment": "s over the circle on the surface through the critical point and over all planes; "
+        "in plane contacts s itself",
+        "units": "1",
+        "symbol": r"s_\mathrm{surface}",
+    },
+    "bulk_shift": {
+        "long_name": "shift of the stick zone",
+        "comment": "by the strain of the bulk stress, in a_H: s leaves it out; NaN for other profiles than "
+        "the paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the "
+        "slip zone",
+        "units": "1",
+        "symbol": r"e/a_H",
+    },
+    "bulk_shift_ratio": {
+        "long_name": "shift over slip zone",
+        "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
+        "width of the slip zone, however large; NaN as the shift, without a permanent stick zone",
+        "units": "1",
+        "symbol": r"e/(a - c)",
+    },
+    "prescribed_force_ratio": {
+        "long_name": "prescribed force ratio",
+        "comment": "largest |F_x| over mu F_N that is prescribed in a cycle: above 1 there is no equilibrium",
+        "units": "1",
+        "symbol": r"\max |F_x|/(\mu F_N)",
+    },
+    "radius_ratio": {
+        "long_name": "contact radius over R",
+        "comment": "largest contact radius of a cycle, half the width in plane contacts, over the radius R",
+        "units": "1",
+        "symbol": r"a_\mathrm{max}/R",
+    },
+    "critical_x": {
+        "long_name": "critical point x/a_H",
+        "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0); NaN "
+        "where s is 0, not finite or that of the bulk stress alone: no point is critical there",
+        "units": "1",
+        "symbol": r"x/a_H",
+    },
+    "critical_angle": {
+        "long_name": "critical plane angle",
+        "comment": "angle of the normal of the critical plane against the x axis, in (-90, 90]; NaN where "
+        "s is 0 or not finite: no plane is critical there",
+        "units": "degree",
+        "symbol": r"\varphi",
+    },
+    "regime": {
+        "long_name": "regime of the contact",
+        "comment": "over the stationary cycle; in Python dataset.swt.words() gives its words",
+        "flag_values": np.arange(len(REGIMES), dtype=np.int8),
+        "flag_meanings": " ".join(REGIMES),
+    },
+    "status": {
+        "long_name": "state of the point",
+        "comment": "whether the point has been computed",
+        "flag_values": np.arange(len(STATES), dtype=np.int8),
+        "flag_meanings": " ".join(STATES),
+    },
+    "run": {
+        "long_name": "run that made the value",
+        "comment": "an index into the attribute runs; -1 if missing",
+        "units": "1",
+    },
+}
+
+
+def label(
+    grid: Grid,
+    arrays: dict[str, NDArray],
+    asked: Request = NOTHING,
+    columns: Mapping[str, NDArray] = MappingProxyType({}),
+) -> xr.Dataset:
+    """The Dataset of a grid.
+
+    Parameters
+    ----------
+    grid
+        Names and values of the dimensions.
+    arrays
+        Data variables by name, each of shape (grid.size,) in C order.
+    asked
+        What was asked beside s.
+    columns
+        Its values by `swtstudy.vocabulary.quantities.columns_of`, each of shape (grid.size,).
+
+    Returns
+    -------
+    xarray.Dataset
+        With units, if the grid is one of real contacts.
+        Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
+        optional ones at their default; those of a sample are coordinates along its dimension, which numbers
+        its points. The coordinate ``control`` says what is prescribed.
+    """
+    coordinates: dict[str, Any] = {
+        name: (grid.dimension(name), _values(values), _attributes(grid.row(name), values))
+        for name, values in (grid.samples | grid.axes).items()
+    }
+    if grid.samples:
+        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
+        coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
+    for name, value in grid.fixed.items():
+        if not grid.row(name).goes_without_saying(value):
+            coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
+    coordinates["control"] = control_coordinate(grid)
+    variables = {
+        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
+    }
+    for name, (dims, values) in requested.variables(asked, columns).items():
+        shaped = values.reshape((*grid.shape, *values.shape[1:]))
+        variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
+    dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
+    _name_criteria(dataset, grid)
+    dataset = grid.presented(dataset, asked)
+    for variable in dataset.variables.values():
+        # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
+        if variable.attrs.get("units") == "1":
+            del variable.attrs["units"]
+    lines = validity_lines(dataset) if "regime" in arrays else ()
+    return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
+
+
+def _name_criteria(dataset: xr.Dataset, grid: Grid) -> None:
+    """Say of s which criterion it is, unless it is the paper's."""
+    criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
+    if criteria == [SWT]:
+        return
+    single = len(criteria) == 1
+    words = MEANING[criteria[0]] if single else "; ".join(f"{name}: {MEANING[name]}" for name in criteria)
+    dataset.s.attrs |= {
+        "long_name": f"{criteria[0].replace('_', ' ')} parameter s" if single else "s by its criterion",
+        "comment": f"{words}; on the surface line y = 0: {BENEATH}",
+        "criterion": " ".join(criteria),
+    }
+
+
+def control_coordinate(grid: Grid) -> xr.Variable:
+    """The scalar coordinate ``control``: what is prescribed on a grid."""
+    attributes = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
+    return xr.Variable((), grid.control.name, attributes)
+
+
+def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDArray]:
+    """Data variables of points, from the solutions of their canonical points, mirrored back where needed."""
+    angle = np.where(mirrored, -solution.critical_angle, solution.critical_angle)
+    return {
+        "s": solution.s,
+        "s_error": solution.s_error,
+        # + 0.0 removes the sign of zero.
+        "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x) + 0.0,
+        "critical_angle": np.where(angle <= -90, angle + 180, angle) + 0.0,
+        "regime": solution.regime,
+        "s_surface": solution.s_surface,
+    }
+
+
+def _values(values: tuple[Value, ...]) -> NDArray:
+    if any(isinstance(value, str | Named) for value in values):
+        return np.array([str(value) for value in values], dtype=object)
+    return np.array([as_number(value) for value in values])
+
+
+def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, str]:
+    short = len(parameter.meaning) <= _LONGEST_NAME
+    attributes = {
+        "long_name": parameter.meaning if short else parameter.name.replace("_", " "),
+        "comment": parameter.meaning,
+        "symbol": parameter.symbol,
+    }
+    if parameter.kind != "name":
+        attributes["units"] = parameter.units
+    if isinstance(values[0], Fraction):
+        attributes["fractions"] = " ".join(map(str, values))
+    return attributes

@@ -1,0 +1,43 @@
+"""What is prescribed of plane contacts: forces alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from swtstudy.points.values import Value
+from swtstudy.vocabulary.families import is_plane
+from swtstudy.vocabulary.mistakes import Report
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS
+
+
+def check_forces(
+    given: Iterable[str],
+    fixed: Mapping[str, Value],
+    axes: Mapping[str, tuple[Value, ...]],
+    keys: Callable[[str], str],
+    report: Report,
+) -> None:
+    """Displacements have no meaning in the plane, and they are what is not given as a force.
+
+    Parameters
+    ----------
+    given
+        Names of all parameters that are given, soundly or not.
+    fixed, axes
+        Sound values.
+    """
+    profiles = axes.get("profile", (fixed.get("profile", PARAMETERS["profile"].default),))
+    plane = [str(profile) for profile in profiles if is_plane(profile)]
+    names = set(given)
+    wanted = [force for force in PAIRS if force not in names]
+    if not plane or not wanted:
+        return
+    instead = [PAIRS[force] for force in wanted if PAIRS[force] in names]
+    found = "a displacement" if instead else "nothing"
+    why = "depths and displacements of a plane contact have no meaning, only forces have"
+    report(
+        ", ".join(map(keys, instead or wanted)),
+        f"{found} with the profile {', '.join(plane)}",
+        f"{' and '.join(wanted)}: {why}",
+    )

@@ -1,0 +1,292 @@
+"""A grid read from what a user wrote, with every mistake reported at once; shared by studies and `solve`."""
+
+from __future__ import annotations
+
+import math
+import sys
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Literal
+
+from swtstudy.points.canonical import canonical_number
+from swtstudy.points.criteria import check_criteria
+from swtstudy.points.expression import evaluate
+from swtstudy.points.grid import Grid, complete
+from swtstudy.points.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
+from swtstudy.points.plane import check_forces
+from swtstudy.points.shapes import check_shapes, check_shapes_given
+from swtstudy.points.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
+from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest
+from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.quantities import DISTANCE
+
+#: An angle beyond so many rad is probably meant in degrees.
+MANY_TURNS = 8.0 * math.pi
+
+#: What the user has defined, by parameter and name.
+Known = Mapping[str, Mapping[str, Named]]
+NOTHING_KNOWN: Known = {}
+
+#: More points than this along one axis are taken for a slip of the pen.
+LONGEST_AXIS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Range:
+    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios.
+
+    Those of `also` are put in among them.
+    """
+
+    start: object
+    stop: object
+    num: int
+    spacing: Literal["linear", "log"] = "linear"
+    also: Sequence[object] = ()
+
+
+def read_grid(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str] = lambda name: name,
+    source: str = "",
+    others: Sequence[str] = (),
+    samples: Mapping[str, tuple[Value, ...] | None] | None = None,
+    known: Known = NOTHING_KNOWN,
+) -> tuple[Grid | None, list[Mistake]]:
+    """The grid spanned by fixed values and axes.
+
+    Parameters
+    ----------
+    fixed, axes
+        Raw values by name, as the user wrote them; None for an axis whose mistake is already reported.
+    keys
+        The key of a parameter in messages, from its name.
+    source
+        Where the input comes from, for messages.
+    others
+        Names that are known beside the parameters: they are read elsewhere, and may be meant by an unknown
+        one.
+    samples
+        Checked values of the sampled parameters; None for those whose mistake is already reported.
+    known
+        What the user has defined, by parameter and name.
+
+    Returns
+    -------
+    grid
+        None if there are mistakes.
+    mistakes
+        All that was found wrong.
+    """
+    mistakes: list[Mistake] = []
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake(key, found, allowed, source))
+
+    samples = samples or {}
+    good_fixed, good_axes = read_values(fixed, axes, keys, report, others, samples, known)
+    good_samples = {name: values for name, values in samples.items() if values is not None}
+    along = good_axes | good_samples
+    check_amplitudes(good_fixed, along, keys, report)
+    check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
+    check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
+    check_criteria((*fixed, *axes, *samples), good_fixed, along, keys, report)
+    if mistakes or len(good_samples) < len(samples):
+        return None, mistakes
+    grid = complete(good_fixed, good_axes, good_samples)
+    check_sizes(grid, (*fixed, *axes, *samples), keys, report)
+    check_loops(grid, keys, report)
+    given = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
+    largest = {name: max(map(as_number, values), default=0.0) for name, values in given.items()}
+    check_largest(grid, largest, keys, report)
+    check_shapes(grid, keys, report)
+    return (None if mistakes else grid), mistakes
+
+
+def read_values(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    others: Sequence[str] = (),
+    samples: Mapping[str, object] = MappingProxyType({}),
+    known: Known = NOTHING_KNOWN,
+    rows: Mapping[str, Parameter] = PARAMETERS,
+) -> tuple[dict[str, Value], dict[str, tuple[Value, ...]]]:
+    """Those fixed values and axes that are sound one by one; see `read_grid`, and ``rows`` says what is."""
+    good_fixed: dict[str, Value] = {}
+    good_axes: dict[str, tuple[Value, ...]] = {}
+    for name in (*fixed, *axes):
+        if name not in rows and name not in others:
+            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
+    for one, other, words in (
+        (fixed, axes, "both a fixed value and an axis"),
+        (fixed, samples, "both a fixed value and sampled"),
+        (axes, samples, "both an axis and sampled"),
+    ):
+        for name in sorted(one.keys() & other.keys()):
+            report(keys(name), words, "one of the two")
+    for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
+        if name in rows and rows[name].units == "rad":
+            _warn_of_degrees(keys(name), raw)
+    for name, single in fixed.items():
+        value = _read(rows[name], single, keys(name), report, known) if name in rows else None
+        if value is not None:
+            good_fixed[name] = value
+    for name, raw in () if _too_many(axes, keys, report, rows) else axes.items():
+        if name in rows and raw is not None:
+            good_axes[name] = _read_axis(rows[name], raw, keys(name), report, known)
+    for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
+        report(key, found, allowed)
+    return good_fixed, good_axes
+
+
+def _warn_of_degrees(key: str, raw: object) -> None:
+    """Warn of an angle that is probably meant in degrees."""
+    several = (raw.start, raw.stop) if isinstance(raw, Range) else raw
+    for each in several if isinstance(several, list | tuple) else (several,):
+        try:
+            number = float(read_angle(each))
+        except (ValueError, TypeError, OverflowError):
+            continue  # reported where it is read
+        # Who writes a unit, or a multiple of π, means it.
+        said = isinstance(each, str) and any(word in each for word in ("pi", "π", "rad", *DEGREES))
+        if abs(number) > MANY_TURNS and not said:
+            words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
+            warnings.warn(words, stacklevel=2)
+            return
+
+
+def _too_many(
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    rows: Mapping[str, Parameter],
+) -> bool:
+    """Whether axes that are not too long one by one are so together: to read them takes a minute."""
+    sizes = [
+        raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
+        for name, raw in axes.items()
+        if name in rows and raw is not None
+    ]
+    if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
+        return False
+    found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
+    report(", ".join(map(keys, axes)), found, f"at most {LONGEST_AXIS} values along all axes")
+    return True
+
+
+def read_distances(
+    fixed: Mapping[str, object],
+    axes: Mapping[str, Sequence[object] | Range | None],
+    keys: Callable[[str], str],
+    report: Report,
+    row: Parameter = QUANTITY_AXES[DISTANCE],
+) -> tuple[tuple[float, ...], bool]:
+    """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
+    key, raw = keys(DISTANCE), axes.get(DISTANCE)
+    if raw is not None:
+        return tuple(map(as_number, _read_axis(row, raw, key, report, NOTHING_KNOWN))), True
+    single = _read(row, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
+    return (() if single is None else (as_number(single),)), False
+
+
+def given_twice(
+    names: Iterable[str], keys: Callable[[str], str] = lambda name: name
+) -> Iterator[tuple[str, str, str]]:
+    """Key, what was found and what is allowed of each pair of parameters of which one is to be given."""
+    given = {*names}
+    for name, other in PAIRS.items():
+        if {name, other} <= given:
+            yield f"{keys(other)}, {keys(name)}", "both", "one of the two: it says what is prescribed"
+
+
+def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -> Value | None:
+    try:
+        return read_value(row, raw, known.get(row.name, NOTHING))
+    except ValueError as error:
+        allowed = _allowed(row, raw, known)
+        # As TOML gives what is meant for an axis.
+        if isinstance(raw, list | dict) and key == f"fixed.{row.name}":
+            allowed += "; several values under [axes]"
+        report(key, f"{literal(raw)} ({error})", allowed)
+        return None
+
+
+def _allowed(row: Parameter, raw: object, known: Known) -> str:
+    if row.kind == "name" and isinstance(raw, str):
+        return nearest(raw, [*row.names, *known.get(row.name, ())])
+    return row.allowed
+
+
+def _read_axis(
+    row: Parameter, raw: Sequence[object] | Range, key: str, report: Report, known: Known
+) -> tuple[Value, ...]:
+    elements = _expand(raw, key, report, row.units) if isinstance(raw, Range) else list(raw)
+    if not elements and not isinstance(raw, Range):
+        report(key, "an empty axis", "at least one value")
+    count, also = len(elements), raw.also if isinstance(raw, Range) else ()
+    elements.extend(also)
+    if len(elements) > LONGEST_AXIS:
+        report(key, f"{len(elements)} values", f"at most {LONGEST_AXIS} values")
+        return ()
+    values: list[Value] = []
+    seen: dict[float | str | Fraction, str] = {}
+    for index, element in enumerate(elements):
+        own_key = f"{key}[{index}]" if index < count else f"{key}.also[{index - count}]"
+        value = _read(row, element, own_key, report, known)
+        if value is None:
+            continue
+        values.append(value)
+        # Two of one name could not be told apart.
+        own = str(value) if isinstance(value, Named) else value
+        first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
+        if first != own_key:
+            report(own_key, f"{literal(element)}, the same as {first}", "distinct values")
+    if also:
+        descending = len(values) > 1 and as_number(values[0]) > as_number(values[1])
+        values.sort(key=as_number, reverse=descending)
+    return tuple(values)
+
+
+def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
+    """The values of a range: exact where its ends are rational."""
+    ends: list[Fraction | float] = []
+    for part in ("start", "stop"):
+        raw = getattr(axis, part)
+        try:
+            # The decimal number that a float is written as, not the binary one that it is.
+            text = raw if isinstance(raw, str) else str(read_exact(raw))
+            ends.append(read_angle(text) if units == "rad" else evaluate(text))
+        except ValueError as error:
+            report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
+    if not 2 <= axis.num <= LONGEST_AXIS:
+        report(f"{key}.num", literal(axis.num), f"a whole number from 2 to {LONGEST_AXIS}")
+        return []
+    if len(ends) < 2:
+        return []
+    start, stop = ends
+    step = (stop - start) / (axis.num - 1)
+    if step == 0:
+        report(key, f"start and stop are both {literal(axis.start)}", "two different ends")
+        return []
+    if axis.spacing == "linear":
+        return [start + index * step for index in range(axis.num - 1)] + [stop]
+    first, last = float(start), float(stop)
+    if first <= 0.0 or last <= 0.0:
+        ends_found = f"from {literal(axis.start)} to {literal(axis.stop)}"
+        report(key, f"equal ratios {ends_found}", "two positive ends")
+        return []
+    parts = [index / (axis.num - 1) for index in range(1, axis.num - 1)]
+    ratio = last / first
+    if sys.float_info.min < ratio < math.inf:
+        return [start, *(first * ratio**part for part in parts), stop]
+    return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]

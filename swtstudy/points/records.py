@@ -1,0 +1,276 @@
+"""Results by canonical point, with the origin of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import FloatArray, IntArray, Solution
+from swtstudy.points.canonical import COLUMNS, group_rows
+from swtstudy.points.result import Result
+from swtstudy.points.solutions import blank, joined, solution_at
+from swtstudy.vocabulary.quantities import columns_of
+
+#: States of a point, in the order of their flag values.
+STATES = ("computed", "failed", "missing")
+COMPUTED, FAILED, MISSING = range(3)
+
+
+@dataclass(frozen=True)
+class Run:
+    """The run that made some of the results.
+
+    Attributes
+    ----------
+    solver_version
+        Version of the solver; it changes when values do.
+    rtol
+        Relative accuracy asked of s.
+    study
+        Text of the study file.
+    versions
+        Versions of Python and of the packages that affect the numbers.
+    started
+        Date and time of its first result, ISO 8601.
+    seconds
+        Computing time in seconds, summed over all workers.
+    quantities
+        What its points have beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
+    """
+
+    solver_version: str
+    rtol: float
+    study: str
+    versions: str
+    started: str = field(default="", compare=False)
+    seconds: float = field(default=0.0, compare=False)
+    quantities: tuple[str, ...] = ()
+
+    def to_json(self) -> dict[str, Any]:
+        """The run as JSON has it; without quantities, if there are none."""
+        return {name: value for name, value in asdict(self).items() if value != ()}
+
+    @classmethod
+    def from_json(cls, raw: Mapping[str, Any]) -> Run:
+        """The run from `to_json`."""
+        return cls(**{**raw, "quantities": tuple(raw.get("quantities", ()))})
+
+
+@dataclass(frozen=True)
+class Records:
+    """Results of n canonical points.
+
+    Attributes
+    ----------
+    table
+        Canonical rows, shape (n, len(COLUMNS)).
+    solution
+        Their solutions, arrays of shape (n,).
+    status
+        Index into `STATES`, shape (n,).
+    run
+        Index into `runs`, -1 where missing, shape (n,).
+    runs
+        The runs that made them.
+    messages
+        Why a point failed, by its index.
+    quantities
+        What some of the points have beside s, by `swtstudy.vocabulary.quantities.columns_of`, each of shape
+        (n,); a point's run says whether it is known.
+    """
+
+    table: FloatArray
+    solution: Solution
+    status: NDArray[np.int8]
+    run: NDArray[np.int32]
+    runs: tuple[Run, ...] = ()
+    messages: dict[int, str] = field(default_factory=dict)
+    quantities: dict[str, FloatArray] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    @classmethod
+    def missing(cls, table: FloatArray) -> Records:
+        """Records of points that are all missing."""
+        n = len(table)
+        return cls(table, blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
+
+    @classmethod
+    def of(cls, result: Result, table: FloatArray, run: Run) -> Records:
+        """Records of one result, whose canonical rows are `table`."""
+        run = replace(run, seconds=result.seconds, quantities=tuple(sorted(result.items)))
+        status = np.where(result.failed, FAILED, COMPUTED).astype(np.int8)
+        number = np.zeros(len(table), np.int32)
+        return cls(table, result.solution, status, number, (run,), result.messages, result.quantities)
+
+    def extended(self, result: Result) -> Records:
+        """These records with more quantities, from a result for exactly them."""
+        share = result.seconds / len(self)
+        counts = np.bincount(self.run, minlength=len(self.runs))
+        runs = tuple(
+            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *result.items})))
+            for run, count in zip(self.runs, counts.tolist(), strict=True)
+        )
+        status = np.where(result.failed, FAILED, self.status).astype(np.int8)
+        known = self.quantities | result.quantities
+        return replace(self, status=status, runs=runs, messages=result.messages, quantities=known)
+
+    def take(self, rows: NDArray) -> Records:
+        """The records at the given indices; all runs are kept."""
+        rows = np.flatnonzero(rows) if rows.dtype == bool else rows
+        messages = {i: self.messages[j] for i, j in enumerate(rows.tolist()) if j in self.messages}
+        return Records(
+            self.table[rows],
+            solution_at(self.solution, rows),
+            self.status[rows],
+            self.run[rows],
+            self.runs,
+            messages,
+            {name: values[rows] for name, values in self.quantities.items()},
+        )
+
+    def fill(self, rows: IntArray, part: Records) -> Records:
+        """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
+        runs, index = _with_runs(self.runs, part.runs)
+        for item in fields(Solution):
+            getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
+        for name in {**self.quantities, **part.quantities}:
+            values = self.quantities.setdefault(name, np.full(len(self), np.nan))
+            values[rows] = part.quantities.get(name, np.nan)
+        self.status[rows] = part.status
+        self.run[rows] = index[part.run]
+        self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
+        return replace(self, runs=runs)
+
+    def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
+        """Which records can be used for a study with this accuracy and solver, shape (n,)."""
+        good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
+        worst = COMPUTED if retry_failed else FAILED
+        return np.array([*good, False])[self.run] & (self.status <= worst)
+
+    def quantity(self, column: str) -> FloatArray:
+        """A column of the quantities, NaN where it is not known, shape (n,)."""
+        return self.quantities.get(column, np.full(len(self), np.nan))
+
+    def lacking(self, names: Sequence[str]) -> NDArray[np.bool_]:
+        """Which quantities are not known of which computed points, shape (n, len(names))."""
+        known = [[name in run.quantities for name in names] for run in self.runs]
+        # The last row is for missing points, and for those that a run has filled in since.
+        table = np.array([*known, [True] * len(names)], bool)
+        return ~table[np.minimum(self.run, len(known))] & (self.status == COMPUTED)[:, None]
+
+    def without_others(self, names: Sequence[str]) -> Records:
+        """These records with no quantities but the named ones."""
+        if {*made_by(self.runs)} <= {*names}:
+            return self
+        kept = {name: self.quantities[name] for name in columns_of(names) if name in self.quantities}
+        runs = [
+            replace(run, quantities=tuple(name for name in run.quantities if name in names))
+            for run in self.runs
+        ]
+        return replace(self, runs=tuple(runs), quantities=kept)
+
+    def without_unknown(self) -> Records:
+        """These records without quantities of which not all is there, as in those of another version."""
+        runs = [
+            replace(
+                run,
+                quantities=tuple(
+                    item for item in run.quantities if {*columns_of([item])} <= self.quantities.keys()
+                ),
+            )
+            for run in self.runs
+        ]
+        return replace(self, runs=tuple(runs))
+
+    def trimmed(self) -> Records:
+        """These records without the runs that made none of them.
+
+        The time of one whose points have all got more quantities is time of the run that has these points.
+        """
+        used = np.unique(self.run[self.run >= 0])
+        index = np.full(len(self.runs) + 1, -1, np.int32)
+        index[used] = np.arange(len(used))
+        runs = [self.runs[i] for i in used]
+        for unused in (run for i, run in enumerate(self.runs) if i not in used):
+            for i, run in enumerate(runs):
+                more = {*run.quantities} > {*unused.quantities}
+                if more and replace(run, quantities=unused.quantities) == unused:
+                    runs[i] = replace(run, seconds=run.seconds + unused.seconds)
+                    break
+        return replace(self, run=index[self.run], runs=tuple(runs))
+
+
+def made_by(runs: Iterable[Run]) -> tuple[str, ...]:
+    """Quantities that some of the runs have computed, in alphabetical order."""
+    return tuple(sorted({name for run in runs for name in run.quantities}))
+
+
+def join(parts: Iterable[Records]) -> Records:
+    """Records concatenated; equal runs become one, with their computing times added."""
+    parts = list(parts)
+    if not parts:
+        return Records.missing(np.empty((0, len(COLUMNS))))
+    runs: tuple[Run, ...] = ()
+    run, messages, start = [], {}, 0
+    names = {name: None for part in parts for name in part.quantities}
+    for part in parts:
+        runs, index = _with_runs(runs, part.runs)
+        run.append(index[part.run])
+        messages.update({start + i: message for i, message in part.messages.items()})
+        start += len(part)
+    return Records(
+        np.concatenate([part.table for part in parts]),
+        joined([part.solution for part in parts]),
+        np.concatenate([part.status for part in parts]),
+        np.concatenate(run),
+        runs,
+        messages,
+        {name: np.concatenate([part.quantity(name) for part in parts]) for name in names},
+    )
+
+
+def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run, ...], NDArray[np.int32]]:
+    """Runs with others added, and the index of each of these others among them, with -1 at the end."""
+    every, indices = list(runs), []
+    for run in more:
+        if run in every:
+            index = every.index(run)
+            started = min(filter(None, (every[index].started, run.started)), default="")
+            total = every[index].seconds + run.seconds
+            every[index] = replace(every[index], started=started, seconds=total)
+        else:
+            index = len(every)
+            every.append(run)
+        indices.append(index)
+    return tuple(every), np.array([*indices, -1], np.int32)
+
+
+def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
+    """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
+
+    Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
+    one, then the one with most quantities, then the latest.
+    """
+    index = np.flatnonzero(candidates)
+    if not len(index):
+        return np.full(len(table), -1)
+    tolerance = np.array([*(run.rtol for run in records.runs), np.inf])[records.run[index]]
+    count = np.array([*(len(run.quantities) for run in records.runs), 0])[records.run[index]]
+    order = np.lexsort((-index, -count, tolerance, records.status[index]))
+    index = index[order]
+    # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
+    first, group = group_rows(np.concatenate([records.table[index], table]))
+    winner = first[group[len(index) :]]
+    return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
+
+
+def matching(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> Records:
+    """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
+    found = look_up(table, records, candidates)
+    return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

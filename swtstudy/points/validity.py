@@ -1,0 +1,192 @@
+"""Where results are outside of what the model holds for, in words: how many points, and the worst one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.points.requested import has_units
+from swtstudy.vocabulary.wording import flag_words
+
+#: Strain–life constants are known for lives between these.
+KNOWN_LIVES = 1e2, 1e7
+#: Rounding of a ratio that is 1.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Up to which value of a data variable the model holds.
+
+    Attributes
+    ----------
+    variable
+        Its name.
+    largest
+        The limit.
+    words
+        What is so beyond it.
+    value
+        What the variable is, in words.
+    """
+
+    variable: str
+    largest: float
+    words: str
+    value: str
+
+
+LIMITS = (
+    Limit("yield_ratio", 1.0, "beyond first yield", "largest von Mises stress over the yield strength"),
+    Limit("radius_ratio", 0.1, "with a contact too large for half-spaces", "contact radius over R"),
+    Limit(
+        "bulk_shift_ratio",
+        0.5,
+        "where the bulk strain moves the stick zone, which is left out",
+        "shift over the width of the slip zone",
+    ),
+)
+
+
+def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]:
+    """One line for each limit of the model that points are outside of.
+
+    Parameters
+    ----------
+    dataset
+        Results, or a part of them.
+    inside
+        Whether to say, too, how far all points are from the limits that they are inside of.
+    """
+    lines = [*_without_s(dataset), *_lives(dataset)]
+    within: list[str] = []
+    for limit in LIMITS:
+        if limit.variable not in dataset:
+            continue
+        values = _over_points(dataset, dataset[limit.variable])
+        out = values > limit.largest
+        if out.any():
+            worst = f"{limit.value} up to {_number(np.nanmax(values))}, at most {limit.largest:g}"
+            lines.append(f"{_count(out)} {limit.words}: {worst}{_place(dataset, values)}")
+        elif np.isfinite(values).any():
+            within.append(f"{limit.value} up to {_number(np.nanmax(values))}, within {limit.largest:g}")
+    if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
+        largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
+        words = "without a yield_strength nothing says whether that yields"
+        within.append(f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";"))
+    return (*lines, *(within if inside else ()))
+
+
+def outside(dataset: xr.Dataset) -> xr.DataArray:
+    """Which points are outside of a limit, over the dimensions of s."""
+    found = np.zeros(dataset.s.shape, bool)
+    for limit in LIMITS:
+        if limit.variable in dataset:
+            found |= _over_points(dataset, dataset[limit.variable]) > limit.largest
+    for _, values in _every_life(dataset):
+        found |= _beyond(values)
+    return xr.DataArray(found, dims=dataset.s.dims)
+
+
+def _without_s(dataset: xr.Dataset) -> Iterator[str]:
+    """Points in no equilibrium, with how much is lacking, and those at which s is not finite."""
+    state = dataset.regime.values
+    computed = dataset.status.values == 0 if "status" in dataset else np.ones(state.shape, bool)
+    lost = computed & (state == REGIMES.index("no_equilibrium"))
+    if lost.any():
+        yield f"{_count(lost)} in no equilibrium{_lacking(dataset, lost)}"
+    infinite = computed & (state == REGIMES.index("not_finite"))
+    if infinite.any():
+        yield f"{_count(infinite)} not finite: swt grows without bound towards an edge"
+
+
+def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
+    """What there is too much of at points in no equilibrium."""
+    ratio = np.zeros(lost.shape)
+    if "prescribed_force_ratio" in dataset:
+        ratio = np.where(lost, _over_points(dataset, dataset.prescribed_force_ratio), 0.0)
+    worst = ratio.max()
+    if not worst > 1.0 + _ROUNDING:
+        return ": the normal force pulls at some instant"
+    place = _place(dataset, ratio, besides=("tangential_force_amplitude", "body"))
+    if not np.isfinite(worst):
+        return f": there is a tangential force while the normal force is 0 or pulls{place}"
+    name = "tangential_force_amplitude"
+    harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
+    still = all(
+        not np.any(dataset[each].values)
+        for each in ("normal_amplitude", "normal_force_amplitude")
+        if each in dataset.coords
+    )
+    if not (harmonic and still and name in dataset.coords):
+        return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
+    index = np.unravel_index(int(ratio.argmax()), ratio.shape)
+    force = float(_over_points(dataset, dataset[name])[index])
+    unit = dataset[name].attrs.get("units", "1")
+    if unit in ("1", ""):
+        return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
+    return f": {name} {force:.4g} {unit} exceeds μ F_N = {force / worst:.4g} {unit}{place}"
+
+
+def _lives(dataset: xr.Dataset) -> Iterator[str]:
+    """Points whose lives are beyond those of which constants are known."""
+    for name, values in _every_life(dataset):
+        out = _beyond(values)
+        if out.any():
+            ends = dict.fromkeys((values[out].min(), values[out].max()))
+            found = " to ".join(f"{end:.3g}" for end in ends)
+            yield f"{_count(out)} with {name} outside of 100 to 1e7, extrapolated: {found}"
+
+
+def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
+    """Lives of the points, the shortest over what each has several of, in the shape of s."""
+    for name in map(str, dataset.data_vars):
+        if has_units(dataset) and name.partition("_")[0] == "cycles":
+            own = [dim for dim in dataset[name].dims if dim not in dataset.s.dims]
+            yield name, dataset[name].min(own).transpose(*dataset.s.dims).values
+
+
+def _beyond(lives: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which are beyond `KNOWN_LIVES`; where nothing is in tension a life is infinite."""
+    low, high = KNOWN_LIVES
+    return np.isfinite(lives) & ((lives < low) | (lives > high))
+
+
+def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> NDArray[np.float64]:
+    """Values in the shape of s."""
+    return np.asarray(values.broadcast_like(dataset.s).transpose(*dataset.s.dims).values, float)
+
+
+def _count(out: NDArray[np.bool_]) -> str:
+    """How many of how many points."""
+    if out.size == 1:
+        return "the point is"
+    words = "all" if out.all() else f"{int(out.sum())} of"
+    return f"{words} {out.size} points"
+
+
+def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str, ...] = ()) -> str:
+    """At which point values in the shape of s are largest, but for some dimensions."""
+    index = np.unravel_index(int(np.nan_to_num(values, nan=-np.inf).argmax()), values.shape)
+    words = []
+    for dim, number in zip(map(str, dataset.s.dims), index, strict=True):
+        if dim in besides:
+            continue
+        if dim not in dataset.coords:
+            words.append(f"{dim} = {int(number)}")
+            continue
+        value: Any = dataset[dim].values[number]
+        unit = dataset[dim].attrs.get("units", "1")
+        named = flag_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
+        words.append(f"{dim} = {named}" + (f" {unit}" if unit not in ("1", "rad", "") else ""))
+    return f" at {', '.join(words)}" if words else ""
+
+
+def _number(value: float) -> str:
+    return f"{float(value):.3g}"

@@ -1,1 +1,0 @@
-"""Results of canonical points: their values, state and origin."""

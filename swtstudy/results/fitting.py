@@ -1,0 +1,294 @@
+"""The critical distance, and friction, with which lives fit those of tests: least squares of log N."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.points.grid import SAMPLE
+from swtstudy.solving import solve_grid
+from swtstudy.study.definition import study_from
+from swtstudy.study.sampling.points_file import read_points
+from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.variables import LIVES
+from swtstudy.vocabulary.axes import DIRECTIONS
+from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, nearest, plain_number
+from swtstudy.vocabulary.quantities import DISTANCE, Request
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from scipy.interpolate import CubicSpline
+
+#: The column of a table of tests with the lives that were observed, in rounds of the load.
+LIFE = "life"
+#: Critical distances tried, over the smallest contact radius: lives between them are interpolated.
+DISTANCES = np.geomspace(0.004, 1.2, 17)
+#: Relative accuracy of s: means are known to 1e-3.
+RTOL = 1e-3
+#: At relative changes of parameters, and of the sum of squares, below this the fit is done.
+XTOL = 1e-4
+#: Relative step of friction in difference quotients, well above what means are off by; its upper bound.
+STEP, MOST_FRICTION = 0.02, 3.0
+#: Nonlocal lives; the strictly local one knows no distance.
+NONLOCAL_LIVES = tuple(name for name in LIVES if name != "cycles")
+
+
+def fit(
+    study: str | PathLike[str],
+    tests: str | PathLike[str] | Mapping[str, Sequence[object]],
+    *,
+    y: str = "cycles_volume",
+    friction: bool = False,
+    confidence: float = 0.95,
+) -> xr.Dataset:
+    """The critical distance with which predicted lives are nearest to those of tests.
+
+    Least squares of log10 of predicted over observed life, by `scipy.optimize.least_squares`.
+
+    Parameters
+    ----------
+    study
+        A study file with units and constants: what all tests have in common. Its axes, sample and figure do
+        not count, nor what the table of tests gives.
+    tests
+        A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the rounds
+        of the load to a crack; a row for each test. Tests without a crack have no life: leave them out.
+    y
+        "cycles_volume", "cycles_point" or "cycles_line": of which mean. The latter two straight down.
+    friction
+        Whether friction is fitted, too; the study's is where that begins.
+    confidence
+        Level of the intervals, which hold for small residuals: from the slopes at the fit, and Student's t.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``critical_distance`` and, if asked, ``friction``, with the ends of their intervals, ``_low`` and
+        ``_high``; ``observed`` and ``predicted`` lives over ``test``; ``scatter``, the standard deviation of
+        log10 N; ``within_2`` and ``within_5``, how many tests are within these factors.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake; also if the best distance is at an end of those that were tried.
+    """
+    from scipy.optimize import least_squares
+
+    if y not in NONLOCAL_LIVES:
+        raise StudyError([Mistake("y", literal(y), nearest(str(y), NONLOCAL_LIVES))])
+    if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
+        raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
+    grid, observed = _read(study, tests, 2 if friction else 1)
+    model = _Model(grid, np.log10(observed), y, friction)
+    start = model.start()
+    low, high = model.bounds()
+    found = least_squares(
+        model.residuals, np.clip(start, low, high), jac=model.slopes, bounds=(low, high), xtol=XTOL, ftol=XTOL
+    )
+    names = [DISTANCE, "friction"][: len(found.x)]
+    if not low[0] + STEP < found.x[0] < high[0] - STEP:
+        ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
+        words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
+        raise StudyError([Mistake(DISTANCE, words, "tests whose lives depend on it within that range")])
+    spread = _intervals(found.jac, found.fun, float(confidence))
+    return _labelled(model, names, found.x, spread, found.fun, float(confidence))
+
+
+@dataclass(frozen=True)
+class _Model:
+    """Predicted lives of n tests.
+
+    Attributes
+    ----------
+    grid
+        The tests, as a sample.
+    observed
+        Shape (n,): log10 of their lives.
+    y
+        The data variable.
+    with_friction
+        Whether friction is a parameter besides.
+    known
+        log10 of the lives at all distances, by friction.
+    """
+
+    grid: PhysicalGrid
+    observed: FloatArray
+    y: str
+    with_friction: bool
+    known: dict[float | None, FloatArray] = field(default_factory=dict)
+
+    @property
+    def distances(self) -> FloatArray:
+        """Critical distances at which lives are computed."""
+        return DISTANCES * float(self.grid.seats.each(lambda contact: contact.contact_radius).min())
+
+    def start(self) -> FloatArray:
+        """Logarithms of the parameters at the best distance that is computed."""
+        own = np.log([float(self.grid.values("friction")[0])] if self.with_friction else [])  # type: ignore[arg-type]
+        tried = [np.append(logarithm, own) for logarithm in np.log(self.distances)]
+        return min(tried, key=lambda each: float((self.residuals(each) ** 2).sum()))
+
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Least and greatest logarithms: friction must bear the tangential forces."""
+        low, high = [self.distances[0]], [self.distances[-1]]
+        if self.with_friction:
+            from swtstudy.points.margins import margins
+            from swtstudy.points.unique import unique_points
+
+            ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
+            own = float(self.grid.values("friction")[0])  # type: ignore[arg-type]
+            low.append(max(1.001 * float(np.max(ratios)) * own, 1e-3))
+            high.append(MOST_FRICTION)
+        return np.log(np.array(low)), np.log(np.array(high))
+
+    def lives(self, logarithms: FloatArray) -> CubicSpline:
+        """log10 of the lives over the logarithm of the distance, at that of friction."""
+        from scipy.interpolate import CubicSpline
+
+        friction = float(np.exp(logarithms[1])) if self.with_friction else None
+        if friction not in self.known:
+            self.known[friction] = _lives(self.grid, self.y, self.distances, friction)
+        return CubicSpline(np.log(self.distances), self.known[friction], axis=1)
+
+    def residuals(self, logarithms: FloatArray) -> FloatArray:
+        """log10 of predicted over observed lives, shape (n,), at logarithms of the parameters."""
+        return np.asarray(self.lives(logarithms)(logarithms[0])) - self.observed
+
+    def slopes(self, logarithms: FloatArray) -> FloatArray:
+        """Their derivatives, shape (n, number of parameters)."""
+        columns = [self.lives(logarithms)(logarithms[0], 1)]
+        if self.with_friction:
+            columns.append(
+                (self.residuals(logarithms + np.array([0.0, STEP])) - self.residuals(logarithms)) / STEP
+            )
+        return np.stack(columns, axis=1)
+
+
+def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | None) -> FloatArray:
+    """log10 of the lives of n tests at k critical distances, shape (n, k): of both bodies the shorter one."""
+    if friction is not None:
+        grid = replace(grid, fixed={**grid.fixed, "friction": friction})
+    asked = Request((), tuple(distances.tolist()), is_axis=True, counts=True)
+    found = solve_grid(grid, RTOL, asked)[y]
+    if "direction" in found.dims:
+        found = found.sel(direction=DIRECTIONS[0])
+    others = [dim for dim in found.dims if dim not in (SAMPLE, DISTANCE)]
+    lives = found.min(others).transpose(SAMPLE, DISTANCE).values
+    wrong = ~np.isfinite(lives).all(axis=1)
+    if wrong.any():
+        numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
+        raise StudyError(
+            [Mistake("tests", f"no finite life of test {numbers}", "tests with equilibrium and tension")]
+        )
+    return np.asarray(np.log10(lives))
+
+
+def _intervals(slopes: FloatArray, residuals: FloatArray, confidence: float) -> FloatArray:
+    """Half widths of the intervals of the logarithms, shape (number of parameters,)."""
+    from scipy.stats import t
+
+    freedom = len(residuals) - slopes.shape[1]
+    variance = float(residuals @ residuals) / freedom
+    covariance = variance * np.linalg.pinv(slopes.T @ slopes)
+    return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(np.diag(covariance)))
+
+
+def _labelled(
+    model: _Model,
+    names: Sequence[str],
+    logarithms: FloatArray,
+    spread: FloatArray,
+    residuals: FloatArray,
+    confidence: float,
+) -> xr.Dataset:
+    """The fit as a Dataset."""
+    import xarray as xr
+
+    found: dict[str, Any] = {}
+    for name, value, half in zip(names, logarithms, spread, strict=True):
+        row = model.grid.row(name)
+        words = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
+        for end, number in (("", value), ("_low", value - half), ("_high", value + half)):
+            with np.errstate(over="ignore"):
+                found[f"{name}{end}"] = (), float(np.exp(number)), words
+    freedom = len(residuals) - len(names)
+    lives = {"observed": 10.0**model.observed, "predicted": 10.0 ** (model.observed + residuals)}
+    found |= {
+        name: ("test", values, {"long_name": f"{name} rounds to a crack", "symbol": "N"})
+        for name, values in lives.items()
+    }
+    scatter = math.sqrt(float(residuals @ residuals) / freedom)
+    found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N"}
+    for factor in (2, 5):
+        within = int((np.abs(residuals) <= math.log10(factor)).sum())
+        found[f"within_{factor}"] = (), within, {"long_name": f"tests within a factor of {factor}"}
+    samples = {
+        name: ("test", np.array(list(map(float, values))), {"units": model.grid.row(name).units})  # type: ignore[arg-type]
+        for name, values in model.grid.samples.items()
+        if model.grid.row(name).kind != "name"
+    }
+    numbers = {"test": np.arange(1, len(residuals) + 1)}
+    return xr.Dataset(found, numbers | samples, {"y": model.y, "confidence": confidence})
+
+
+def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[PhysicalGrid, FloatArray]:
+    """The tests as a sample of the study's contacts, and the lives that were observed, shape (n,)."""
+    columns = _columns(tests)
+    lives = [plain_number(value) for value in columns.pop(LIFE, ())]
+    mistakes = []
+    if not lives:
+        found = f"the columns {', '.join(columns)}"
+        mistakes.append(Mistake("tests", found, f"a column {LIFE}, the rounds to a crack"))
+    if not all(0.0 < life < math.inf for life in lives):
+        wrong = next(k for k, life in enumerate(lives) if not 0.0 < life < math.inf)
+        mistakes.append(Mistake("tests", f"{LIFE} {lives[wrong]:g} of test {wrong + 1}", "positive numbers"))
+    if 0 < len(lives) <= parameters:
+        mistakes.append(Mistake("tests", f"{len(lives)} tests", f"{parameters + 1} at least"))
+    if not columns:
+        mistakes.append(Mistake("tests", f"the column {LIFE} alone", "parameters that vary, besides"))
+    if mistakes:
+        raise StudyError(mistakes)
+    path = Path(study)
+    try:
+        raw = parse_toml(read_text(path))
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise StudyError([Mistake("", reason, "a readable study file (TOML)", str(study))]) from None
+    kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
+    own = columns.keys() | {DISTANCE}
+    kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}
+    kept["sample"] = {"points": columns}
+    found_study = study_from(kept, "", str(study), path.parent)
+    grid = found_study.grid
+    if not isinstance(grid, PhysicalGrid) or not grid.materials:
+        allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
+        raise StudyError([Mistake("", "neither", allowed, str(study))])
+    if grid.dimension("friction") and parameters > 1:
+        raise StudyError([Mistake("friction", "a column of the tests", "one value to fit, from the study")])
+    return grid, np.array(lives)
+
+
+def _columns(tests: object) -> dict[str, list[Any]]:
+    """The columns of a table of tests by name."""
+    if isinstance(tests, Mapping):
+        return {str(name): list(values) for name, values in tests.items()}
+    if not isinstance(tests, str | PathLike):
+        raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])
+    mistakes: list[Mistake] = []
+
+    def report(key: str, found: str, allowed: str) -> None:
+        mistakes.append(Mistake("tests", found, allowed))
+
+    found = read_points(Path(tests), report)
+    if found is None:
+        raise StudyError(mistakes)
+    return found

@@ -1,0 +1,89 @@
+"""The box of parameters that is searched, read from what a user wrote."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.points.grid import Grid
+from swtstudy.points.reading import read_grid
+from swtstudy.points.values import NUMERIC
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+
+
+@dataclass(frozen=True)
+class Box:
+    """Ranges of d parameters; the others are fixed. A point of it is a point of the unit cube.
+
+    Attributes
+    ----------
+    corners
+        The grid of the ends of all ranges; of real contacts of both bodies, too.
+    names
+        The parameters that are searched over.
+    low, high
+        Shape (d,): the ends of the ranges, in the order of the names.
+    """
+
+    corners: Grid
+    names: tuple[str, ...]
+    low: FloatArray
+    high: FloatArray
+
+    @classmethod
+    def of(cls, corners: Grid, over: Mapping[str, object]) -> Box:
+        """That of a grid of the ends of ranges; a StudyError if one of them is the wrong way round."""
+        low, high = np.array([corners.axes[name] for name in over], float).T
+        names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
+        if names:
+            raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
+        return cls(corners, tuple(over), low, high)
+
+    def values(self, unit: FloatArray) -> FloatArray:
+        """Values of the parameters at points of the unit cube, shape (n, d)."""
+        # Not low + unit (high - low): rounding must not leave the range.
+        return self.low * (1.0 - unit) + self.high * unit
+
+    def sample(self, unit: FloatArray) -> Grid:
+        """The grid whose sample is n points of the unit cube, shape (n, d)."""
+        columns = zip(self.names, self.values(unit).T, strict=True)
+        axes = {name: values for name, values in self.corners.axes.items() if name not in self.names}
+        samples = {name: tuple(column.tolist()) for name, column in columns}
+        return replace(self.corners, axes=axes, samples=samples)
+
+
+def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], list[Mistake]]:
+    """The ranges by name, ``(low, high)`` each, of parameters of some names, None for one that is none."""
+    if not isinstance(over, Mapping) or not over:
+        raise StudyError([Mistake("over", literal(over), 'ranges by name, such as {"phase": (0, "2*pi")}')])
+    mistakes: list[Mistake] = []
+    axes: dict[str, list[object] | None] = {}
+    for name, ends in over.items():
+        key = f"over.{name}"
+        if name not in names:
+            mistakes.append(Mistake(key, "not a parameter that is a number", nearest(str(name), names)))
+            continue
+        axes[name] = None
+        if not isinstance(ends, list | tuple | np.ndarray) or np.shape(ends) != (2,):
+            mistakes.append(Mistake(key, literal(ends), "both ends of a range, (low, high)"))
+        else:
+            axes[name] = list(ends)
+    return axes, mistakes
+
+
+def read_box(over: object, fixed: Mapping[str, object]) -> Box:
+    """The box of ranges by name, ``(low, high)`` each, and of fixed values.
+
+    Raises
+    ------
+    StudyError
+        With every mistake.
+    """
+    axes, mistakes = read_ranges(over, NUMERIC)
+    corners, found = read_grid(fixed, axes, lambda name: f"over.{name}" if name in axes else name)
+    if corners is None or mistakes:
+        raise StudyError([*mistakes, *found])
+    return Box.of(corners, over)  # type: ignore[arg-type]

@@ -1,0 +1,112 @@
+"""`swtstudy.optimise`: the parameters for which a quantity is least, and those for which it is greatest."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.results.optimum.box import Box, read_box
+from swtstudy.results.optimum.labelled import MINIMISED, dataset_of
+from swtstudy.results.optimum.least import least
+from swtstudy.results.optimum.objective import Objective
+from swtstudy.solving import solve_grid
+from swtstudy.units.variables import LIVES
+from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.quantities import NAMED, Request
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: What is looked for, and the sign that makes it the least of something.
+CASES = {"best": 1, "worst": -1}
+
+
+def optimise(
+    *,
+    over: Mapping[str, tuple[object, object]],
+    minimise: str = "s",
+    rtol: float = DEFAULT_RTOL,
+    seed: int = 0,
+    **parameters: object,
+) -> xr.Dataset:
+    """The parameters in given ranges for which a quantity is least, and those for which it is greatest.
+
+    Differential evolution (`scipy.optimize.differential_evolution`) searches the ranges, a generation solved
+    in one batch; a bundle method follows its best points into the kinks that s has where two local maxima
+    over the body change places. The same call gives the same result.
+
+    Parameters
+    ----------
+    over
+        Ranges by name, ``(low, high)``, of parameters that are numbers. Ends may be texts such as "2*pi".
+    minimise
+        The data variable that is made least, "s" by default; or a quantity of
+        `swtstudy.vocabulary.quantities.NAMED`.
+    rtol
+        Relative accuracy asked of s.
+    seed
+        Seed of the random numbers, 0 or more.
+    **parameters
+        The other parameters, each a single value, as for `swtstudy.solve`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the least and at the
+        greatest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
+        found: ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress``
+        over ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through
+        the point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
+        Points where the quantity is not finite are left out; ``without_value`` counts them.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake, or if the quantity is finite nowhere.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> found = swtstudy.optimise(over={"phase": (0, "pi")}, normal_amplitude=0.75)
+    >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
+    (2.662, 0.1053)
+    """
+    mistakes = mistakes_in(minimise, rtol, seed)
+    try:
+        box = read_box(over, parameters)
+    except StudyError as error:
+        raise StudyError([*error.mistakes, *mistakes]) from None
+    if mistakes:
+        raise StudyError(mistakes)
+    return optimum_in(
+        box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
+    )
+
+
+def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
+    """The best and the worst points of a box; see `optimise`. Of a life the best is the longest."""
+    turn = -1 if minimise in LIVES else 1
+    solve = partial(solve_grid, rtol=rtol, asked=asked)
+    objectives = [Objective(box, solve, minimise, turn * sign) for sign in CASES.values()]
+    found = {case: least(each, len(box.names), seed) for case, each in zip(CASES, objectives, strict=True)}
+    without = sum(int(np.isinf(objective.values).sum()) for objective in objectives)
+    words = {"minimise": minimise, "seed": seed, "without_value": without}
+    return dataset_of(box, found, minimise, solve).assign_attrs(words)
+
+
+def mistakes_in(
+    minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
+) -> list[Mistake]:
+    """What is wrong with how an optimum is asked for; ``known`` may be minimised."""
+    found = []
+    if minimise not in known:
+        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), known)))
+    if not is_rtol(rtol):
+        found.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
+    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:
+        found.append(Mistake("seed", literal(seed), "a whole number from 0 to 2**32 - 1"))
+    return found

@@ -1,0 +1,141 @@
+"""Mistakes in what a user gave, collected so that all of them are reported at once."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from numbers import Real
+from typing import TypeGuard
+
+from swtstudy.vocabulary.axes import SYMBOLS
+from swtstudy.vocabulary.parameter import spelled
+
+#: Called with key, found and allowed of a mistake; knows the source of the input.
+Report = Callable[[str, str, str], None]
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake: where it is, what was found and what is allowed.
+
+    Attributes
+    ----------
+    key
+        Dotted path of the offending entry, e.g. ``axes.friction[2]``; empty for the input as a whole.
+    found
+        What was found, in words or as a literal.
+    allowed
+        What is allowed there.
+    source
+        File that holds the entry; empty for a call from Python.
+    """
+
+    key: str
+    found: str
+    allowed: str
+    source: str = ""
+
+    def __str__(self) -> str:
+        place = ": ".join(part for part in (self.source, self.key) if part)
+        message = f"found {self.found}; allowed: {self.allowed}"
+        line = f"{place}: {message}" if place else message
+        # One line, whatever characters a name or a value contains.
+        return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+class StudyError(ValueError):
+    """Input that is not a valid study.
+
+    Attributes
+    ----------
+    mistakes
+        Every mistake found, in the order of the input; the message has one line for each.
+    """
+
+    def __init__(self, mistakes: Iterable[Mistake]) -> None:
+        self.mistakes = tuple(mistakes)
+        super().__init__("\n".join(map(str, self.mistakes)))
+
+    def __reduce__(self) -> tuple[type[StudyError], tuple[tuple[Mistake, ...]]]:
+        return StudyError, (self.mistakes,)
+
+
+def literal(value: object, longest: int = 60) -> str:
+    """A value as shown in a message: its Python literal on one line, shortened if long."""
+    try:
+        text = re.sub(r"\s*\n\s*", " ", repr(value))
+    except ValueError:  # Python refuses to write integers of more than 4,300 digits
+        text = f"{type(value).__name__} with too many digits to be shown"
+    except Exception:  # a failing repr of foreign code must not hide the mistake
+        text = f"{type(value).__name__} that cannot be shown"
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
+#: What is allowed where a text is none that can be stored.
+STORABLE = "a text that an archive can hold, without a null character"
+
+
+def storable(text: str) -> bool:
+    """Whether an archive gives a text back: netCDF ends it at a null character, and holds UTF-8 alone."""
+    return "\0" not in text and not any("\ud800" <= c <= "\udfff" for c in text)
+
+
+def plain(value: object) -> object:
+    """The value in a NumPy scalar or zero-dimensional array; anything else, or a masked value, unchanged."""
+    array = getattr(value, "ndim", None) == 0 and hasattr(value, "item")
+    # The item of a masked value or of a time would be a plain number.
+    if not array or getattr(value, "mask", False) or getattr(value, "dtype", None).kind in "mM":  # type: ignore[union-attr]
+        return value
+    return value.item()  # type: ignore[attr-defined]
+
+
+def is_number(value: object) -> TypeGuard[Real | Decimal]:
+    """Whether a value is a real number, and not a truth value or a time."""
+    # Python's bool and NumPy's timedelta64 are registered as Real; the latter is detected without importing
+    # NumPy.
+    is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
+    return isinstance(value, Real | Decimal) and not isinstance(value, bool) and not is_time
+
+
+def plain_number(value: object) -> float:
+    """A number as a float; NaN, which is in no range, for anything else."""
+    value = plain(value)
+    if not is_number(value):
+        return math.nan
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+    except ValueError:  # a signalling NaN
+        return math.nan
+
+
+def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
+    """What is allowed in place of an unknown name, beginning with the one that was probably meant.
+
+    Examples
+    --------
+    >>> nearest("frictoin", ["friction", "phase"])
+    'did you mean friction? known: friction, phase'
+    >>> nearest("mu", ["friction", "phase"])
+    'did you mean friction (μ)? known: friction, phase'
+    """
+    known = list(known)
+    close = meant(name, known, symbols)
+    named, letter = symbols.get(spelled(name), ("", ""))
+    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? " if close else ""
+    return f"{hint}known: {', '.join(known)}"
+
+
+def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
+    """The known name whose symbol or misspelling an unknown name is, if there is one."""
+    known = list(known)
+    named, _ = symbols.get(spelled(name), ("", ""))
+    if named in known:
+        return named
+    close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
+    return close[0] if close else None

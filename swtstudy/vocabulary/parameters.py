@@ -1,0 +1,227 @@
+"""The table of the study's non-dimensional parameters (eq. 20, Table 1 of the paper).
+
+Validation, coordinate attributes, axis labels, the command line's help and the documentation all read
+it; none of them repeats a name, a symbol, a default or a range.
+"""
+
+from __future__ import annotations
+
+from swtstudy.vocabulary.criteria import NAMES, SWT
+from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.parameter import Parameter
+
+#: The load of the paper.
+HARMONIC = "harmonic"
+#: Amplitudes of a loop that are not given: its vertices are the loads themselves.
+LOOP_AMPLITUDE = 1.0
+
+#: Largest numerator and denominator of a frequency ratio: the common period grows with them.
+LARGEST_FREQUENCY_TERM = 64
+
+PARAMETERS: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5, part="body"),
+        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0, part="body"),
+        Parameter(
+            "normal_amplitude",
+            r"\delta_A/\delta_0",
+            "δA",
+            "amplitude of the normal oscillation",
+            0.75,
+            0.0,
+            10.0,
+            scale="δ0",
+        ),
+        Parameter(
+            "normal_force_amplitude",
+            r"F_A/F_0",
+            "FA",
+            "amplitude of the normal force",
+            None,
+            0.0,
+            10.0,
+            scale="F0",
+            instead_of="normal_amplitude",
+        ),
+        Parameter(
+            "frequency_ratio",
+            r"\omega_2/\omega_1",
+            "ω2",
+            "frequency of the tangential over that of the normal oscillation",
+            1.0,
+            0.0,
+            LARGEST_FREQUENCY_TERM,
+            open_lower=True,
+            kind="ratio",
+        ),
+        Parameter(
+            "tangential_amplitude",
+            r"G^* u_A/(\mu E^* \delta_0)",
+            "uA",
+            "amplitude of the tangential oscillation",
+            5 / 6,
+            0.0,
+            100.0,
+            scale="μ E* δ0/G*",
+            note="along an axis of friction it stays, so that uA itself moves with μ",
+        ),
+        Parameter(
+            "tangential_force_amplitude",
+            r"Q_A/(\mu F_0)",
+            "QA",
+            "amplitude of the tangential force",
+            None,
+            0.0,
+            100.0,
+            scale="μ F0",
+            instead_of="tangential_amplitude",
+            note="along an axis of friction it stays, so that QA itself moves with μ",
+        ),
+        Parameter(
+            "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
+        ),
+        Parameter(
+            "load",
+            r"\mathrm{load}",
+            "load",
+            "course of the load: two harmonic oscillations, or the name of a loop",
+            HARMONIC,
+            kind="name",
+            names=(HARMONIC,),
+            optional=True,
+        ),
+        Parameter(
+            "profile",
+            "f",
+            "f",
+            "profile of the indenter",
+            "paraboloid",
+            kind="name",
+            names=tuple(FAMILIES),
+            part="shape",
+        ),
+        Parameter(
+            "flat_radius",
+            r"b/a_H",
+            "b",
+            "radius of the punch face",
+            None,
+            0.0,
+            20.0,
+            part="shape",
+            scale="a_H",
+        ),
+        Parameter(
+            "flat_half_width",
+            r"b/a_H",
+            "b",
+            "half-width of the flat face",
+            None,
+            0.0,
+            20.0,
+            part="shape",
+            scale="a_H",
+        ),
+        Parameter(
+            "waviness_amplitude",
+            r"h/\delta_0",
+            "h",
+            "amplitude of the waviness",
+            None,
+            0.0,
+            10.0,
+            part="shape",
+            scale="δ0",
+        ),
+        Parameter(
+            "wavelength",
+            r"\lambda/\sqrt{hR}",
+            "λ",
+            "wavelength of the waviness",
+            None,
+            0.0,
+            1000.0,
+            open_lower=True,
+            part="shape",
+            scale="√(hR)",
+        ),
+        Parameter(
+            "exponent", "n", "n", "exponent of the power law", None, 1.0, 20.0, open_lower=True, part="shape"
+        ),
+        Parameter(
+            "bulk_stress_amplitude",
+            r"\sigma_{B,A}/(E^* \delta_0/a_H)",
+            "BA",
+            "amplitude of the bulk stress, with the tangential frequency",
+            0.0,
+            0.0,
+            10.0,
+            part="bulk",
+            optional=True,
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_mean",
+            r"\sigma_{B,m}/(E^* \delta_0/a_H)",
+            "Bm",
+            "mean of the bulk stress",
+            0.0,
+            -10.0,
+            10.0,
+            part="bulk",
+            optional=True,
+            scale="E* δ0/a_H",
+        ),
+        Parameter(
+            "bulk_stress_phase",
+            r"\psi_B",
+            "ψB",
+            "phase of the bulk stress against the tangential oscillation",
+            0.0,
+            -1000.0,
+            1000.0,
+            part="bulk",
+            optional=True,
+            units="rad",
+        ),
+        Parameter(
+            "criterion",
+            r"\mathrm{criterion}",
+            "criterion",
+            "criterion of which s is the largest value",
+            SWT,
+            kind="name",
+            names=NAMES,
+            part="criterion",
+            optional=True,
+        ),
+        Parameter(
+            "walker_exponent",
+            r"\gamma",
+            "γ",
+            "Walker exponent",
+            0.5,
+            0.0,
+            0.9,
+            open_lower=True,
+            part="criterion",
+            optional=True,
+        ),
+        Parameter(
+            "normal_sensitivity",
+            r"k",
+            "k",
+            "sensitivity of a criterion of shear to the normal stress",
+            0.0,
+            0.0,
+            100.0,
+            part="criterion",
+            optional=True,
+            note="of fatemi_socie in a_H/(E* δ0), k E* δ0/(a_H σ_y); of findley a number",
+        ),
+    )
+}
+
+#: Names by letter, the first one of those that share it.
+LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}

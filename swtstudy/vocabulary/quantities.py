@@ -1,0 +1,337 @@
+"""The table of quantities that may be asked of every point beside s.
+
+Reading, validation, the schema, attributes, figures and the command line read it; none of them repeats a
+name, a symbol or a meaning. A quantity is the same at a point and at its mirror image.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from swtstudy.vocabulary.axes import DIRECTIONS
+from swtstudy.vocabulary.mistakes import Report, literal, nearest
+
+#: The parameter that asks for the nonlocal quantities.
+DISTANCE = "critical_distance"
+#: What studies with a yield strength ask for.
+YIELD = "von_mises"
+#: What studies with fatigue constants ask for: the strain cycles in a round, at so many places at most and so
+#: many of them at each.
+COUNTS = "strain_cycles"
+COUNTED_SIZES = {"counted_place": 5, "counted_cycle": 8}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One quantity.
+
+    Attributes
+    ----------
+    name
+        Name of the data variable, and what a study asks for.
+    symbol
+        LaTeX without dollar signs.
+    meaning
+        A few words, used as ``long_name`` and in help texts.
+    comment
+        What it is exactly, in one line.
+    function
+        Name of the function in `swtstudy.mechanics.stress.work` or `swtstudy.mechanics.body.von_mises`, or of
+        the attribute of `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or
+        `swtstudy.mechanics.line.few_cycles.FewCycles`, that has it.
+    has_error
+        Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
+    units
+        CF units.
+    dims
+        Dimensions of its own beside those of the points: of `swtstudy.vocabulary.axes.QUANTITY_AXES`, with
+        `DISTANCE` among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`, if with
+        fatigue constants; none, if by its name.
+    is_place
+        Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
+    """
+
+    name: str
+    symbol: str
+    meaning: str
+    comment: str
+    function: str
+    has_error: bool = False
+    units: str = "1"
+    dims: tuple[str, ...] = ()
+    is_place: bool = False
+
+    @property
+    def variables(self) -> tuple[str, ...]:
+        """Names of its data variables."""
+        return (self.name, error_of(self.name)) if self.has_error else (self.name,)
+
+
+QUANTITIES: dict[str, Quantity] = {
+    row.name: row
+    for row in (
+        Quantity(
+            "dissipation",
+            r"W/(\mu F_0\, \mu E^* \delta_0/G^*)",
+            "dissipated work",
+            "work by friction in a cycle over mu F0 mu E* delta0 / G*, F0 the normal force at depth delta0; "
+            "of plane contacts per length, over mu P0 mu delta0",
+            "dissipated_work",
+            has_error=True,
+        ),
+        Quantity(
+            "stick_radius",
+            r"c/a_H",
+            "radius that always sticks",
+            "radius of the permanent stick zone in units of a_H, half its width in plane contacts; "
+            "NaN if the whole contact slides or is lost",
+            "permanent_stick_radius",
+        ),
+        Quantity(
+            "contact_radius",
+            r"a_\mathrm{max}/a_H",
+            "largest contact radius",
+            "largest contact radius over the cycle, in units of a_H; half the width in plane contacts",
+            "largest_contact_radius",
+        ),
+        Quantity(
+            "force_ratio",
+            r"\max |F_x|/(\mu F_N)",
+            "largest force ratio",
+            "largest |F_x| over mu F_N while there is contact; 1 if the whole contact slides",
+            "largest_force_ratio",
+        ),
+        Quantity(
+            "von_mises",
+            r"\sigma_\mathrm{v}/(E^* \delta_0/a_H)",
+            "largest von Mises stress",
+            "largest von Mises stress over the cycle and the body, in E* delta0/a_H, to about 1 %; infinite "
+            "at the edge of a truncated paraboloid",
+            "largest_von_mises",
+        ),
+        Quantity(
+            "s_volume",
+            r"s_\mathrm{volume}",
+            "mean of swt over a volume",
+            "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of "
+            "plane contacts half discs, about local maxima of swt, which is that about volume_x",
+            "volume",
+            has_error=True,
+            dims=(DISTANCE,),
+        ),
+        Quantity(
+            "s_point",
+            r"s_\mathrm{point}",
+            "swt at a distance",
+            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from "
+            "point_x (point method)",
+            "point",
+            has_error=True,
+            dims=(DISTANCE, "direction"),
+        ),
+        Quantity(
+            "s_line",
+            r"s_\mathrm{line}",
+            "mean of swt along a line",
+            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is "
+            "that from line_x",
+            "line",
+            has_error=True,
+            dims=(DISTANCE, "direction"),
+        ),
+        *(
+            Quantity(
+                f"{kind}_x",
+                rf"x_\mathrm{{{kind}}}/a_H",
+                f"place of s_{kind}",
+                f"signed x of the local maximum of swt that s_{kind} is about, in units of a_H",
+                f"{kind}_x",
+                dims=dims,
+                is_place=True,
+            )
+            for kind, dims in (
+                ("volume", (DISTANCE,)),
+                ("point", (DISTANCE, "direction")),
+                ("line", (DISTANCE, "direction")),
+            )
+        ),
+        Quantity(
+            "counted",
+            r"\mathrm{SWT}_i/\mathrm{SWT}",
+            "SWT of strain cycles over SWT",
+            "SWT of the strain cycles in a round over the largest SWT, at the worst places and planes, the "
+            "critical one first; NaN where there are no more",
+            "share",
+            dims=(*COUNTED_SIZES,),
+        ),
+        Quantity(
+            "counted_number",
+            "n_i",
+            "number of such strain cycles",
+            "how many strain cycles of a round have this SWT, or about it; NaN where there are no more",
+            "number",
+            dims=(*COUNTED_SIZES,),
+        ),
+    )
+}
+
+#: Those that are asked by name, by giving critical distances, and with fatigue constants.
+NAMED = {name: row for name, row in QUANTITIES.items() if not row.dims}
+NONLOCAL = {name: row for name, row in QUANTITIES.items() if DISTANCE in row.dims}
+COUNTED = {name: row for name, row in QUANTITIES.items() if row.dims == (*COUNTED_SIZES,)}
+ALLOWED = f"a list of {', '.join(NAMED)}"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of every point beside s.
+
+    Attributes
+    ----------
+    names
+        Of `NAMED`.
+    distances
+        Critical distances ℓ/a_H, for which all of `NONLOCAL` are asked.
+    is_axis
+        Whether these distances are a dimension.
+    counts
+        Whether all of `COUNTED` are asked.
+    """
+
+    names: tuple[str, ...] = ()
+    distances: tuple[float, ...] = ()
+    is_axis: bool = False
+    counts: bool = False
+
+    @classmethod
+    def of(cls, items: Iterable[str], is_axis: bool = False) -> Request:
+        """From its items, in ascending order; several distances are an axis always."""
+        items = sorted(items)
+        distances = sorted(distance for item in items if (distance := distance_of(item)) is not None)
+        names = tuple(item for item in items if item in NAMED)
+        return cls(names, tuple(distances), is_axis or len(distances) > 1, COUNTS in items)
+
+    @property
+    def items(self) -> tuple[str, ...]:
+        """What is computed, each by itself, and which runs say they have: the same ones, single distances."""
+        return (*self.same, *map(item_of, self.distances))
+
+    @property
+    def same(self) -> tuple[str, ...]:
+        """The items that are the same for all points."""
+        return (*self.names, COUNTS) if self.counts else self.names
+
+    @property
+    def variables(self) -> dict[str, tuple[str, ...]]:
+        """Data variables, with their dimensions beside those of the points."""
+        rows = [row for item in (*self.same, *self.items[len(self.same) :][:1]) for row in rows_of(item)]
+        return {
+            variable: tuple(dim for dim in row.dims if dim != DISTANCE or self.is_axis)
+            for row in rows
+            for variable in row.variables
+        }
+
+
+#: Nothing but s.
+NOTHING = Request()
+
+
+def item_of(distance: float) -> str:
+    """A critical distance as an item: to 12 digits, as canonical points."""
+    return f"{DISTANCE}={distance:.12g}"
+
+
+def distance_of(item: str) -> float | None:
+    """The critical distance that an item is; None for others.
+
+    Examples
+    --------
+    >>> distance_of("critical_distance=0.05"), distance_of("dissipation")
+    (0.05, None)
+    """
+    name, _, number = item.partition("=")
+    try:
+        return float(number) if name == DISTANCE else None
+    except ValueError:
+        return None
+
+
+def is_item(raw: object) -> bool:
+    """Whether something is an item of a request."""
+    return isinstance(raw, str) and (raw in NAMED or raw == COUNTS or distance_of(raw) is not None)
+
+
+def rows_of(item: str) -> tuple[Quantity, ...]:
+    """The quantities that an item of a request asks for."""
+    if item in NAMED:
+        return (NAMED[item],)
+    return (*(COUNTED if item == COUNTS else NONLOCAL).values(),)
+
+
+def columns_of(items: Iterable[str]) -> tuple[str, ...]:
+    """Names of the numbers that every point has for items of a request.
+
+    Examples
+    --------
+    >>> columns_of(["dissipation", "critical_distance=0.5"])[:4]
+    ('dissipation', 'dissipation_error', 's_volume@0.5', 's_volume_error@0.5')
+    """
+    columns: list[str] = []
+    for item in items:
+        for row in rows_of(item):
+            columns += (name for variable in row.variables for name in columns_in(row, variable, item))
+    return tuple(columns)
+
+
+def columns_in(row: Quantity, variable: str, item: str) -> tuple[str, ...]:
+    """Those of one data variable of a quantity, along its own dimensions but the critical distance."""
+    if item in NAMED:
+        return (variable,)
+    if item == COUNTS:
+        places, cycles = map(range, COUNTED_SIZES.values())
+        return tuple(f"{variable}@{place}@{cycle}" for place in places for cycle in cycles)
+    name = f"{variable}@{item.partition('=')[2]}"
+    return tuple(f"{name}@{each}" for each in DIRECTIONS) if "direction" in row.dims else (name,)
+
+
+def error_of(name: str) -> str:
+    """Name of the estimated absolute error of a data variable."""
+    return f"{name}_error"
+
+
+def every_variable() -> tuple[str, ...]:
+    """Names of all data variables that may be asked."""
+    return tuple(variable for row in QUANTITIES.values() for variable in row.variables)
+
+
+def attributes_of(variable: str) -> dict[str, Any]:
+    """CF attributes of a data variable."""
+    row = QUANTITIES.get(variable)
+    if row is None:
+        row = QUANTITIES[variable.removesuffix(error_of(""))]
+        words = {"long_name": f"error of {row.name.replace('_', ' ')}", "comment": "absolute, estimated"}
+        return {**words, "units": row.units, "symbol": rf"\Delta {row.symbol}"}
+    attributes = {"long_name": row.meaning, "comment": row.comment, "units": row.units, "symbol": row.symbol}
+    return attributes | ({"ancillary_variables": error_of(variable)} if row.has_error else {})
+
+
+def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
+    """Names of quantities as the user gave them; every mistake is reported."""
+    if isinstance(raw, str) or not isinstance(raw, Sequence):
+        report(key, literal(raw), ALLOWED)
+        return ()
+    for index, name in enumerate(raw):
+        place = f"{key}[{index}]"
+        if not isinstance(name, str):
+            report(place, literal(name), ALLOWED)
+        elif name in NONLOCAL:
+            report(place, literal(name), f"it by giving {DISTANCE} a value")
+        elif name in COUNTED:
+            report(place, literal(name), "it in studies with [material], which have it")
+        elif name not in NAMED:
+            report(place, f"unknown quantity {literal(name)}", nearest(name, NAMED))
+        elif name in raw[:index]:
+            report(place, f"{literal(name)}, the same as {key}[{raw.index(name)}]", "each quantity once")
+    return tuple(dict.fromkeys(name for name in raw if isinstance(name, str) and name in NAMED))

@@ -1,0 +1,159 @@
+"""Names and values as they appear in figures and messages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from swtstudy.vocabulary.axes import AXES
+
+#: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
+_TOLERANCE = 1e-9
+#: Fractions with larger denominators are harder to read than decimals.
+_LARGEST_DENOMINATOR = 20
+
+
+#: Numbers below this power of ten are written out.
+_PLAIN = 6
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+#: Attributes of a coordinate, which say the unit of results that have one.
+_NONE: Mapping[Any, Any] = {}
+
+
+def parameter_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """Symbol of a parameter, or of its coordinate with these attributes, as matplotlib's math text.
+
+    Examples
+    --------
+    >>> parameter_words("friction")
+    '$\\\\mu$'
+    """
+    return f"${attributes.get('symbol', AXES[name].symbol)}$"
+
+
+def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """Symbol of a parameter, or of its coordinate, with its unit, if it has one.
+
+    Examples
+    --------
+    >>> axis_words("phase"), axis_words("friction")
+    ('$\\\\psi$ (rad)', '$\\\\mu$')
+    """
+    units = attributes.get("units", AXES[name].units)
+    words = (
+        f"{AXES[name].meaning}, " if AXES[name].part == "criterion" and AXES[name].kind == "number" else ""
+    )
+    return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
+
+
+def as_text(words: str) -> str:
+    """Words of a user's own in a figure, in which a dollar begins no formula.
+
+    Examples
+    --------
+    >>> print(as_text("US$"))
+    US\\$
+    """
+    return words.replace("$", r"\$")
+
+
+def value_words(name: str, value: float | str) -> str:
+    """A value as people write it: 0.25, 8/9, √20, π/2.
+
+    Examples
+    --------
+    >>> value_words("normal_amplitude", 8 / 9), value_words("phase", 3.141592653589793)
+    ('8/9', 'π')
+    >>> value_words("wavelength", 20**0.5), value_words("profile", "rounded_punch")
+    ('√20', 'rounded punch')
+    >>> value_words("young_modulus", 73.1e3), value_words("friction", 5e-7)
+    ('73100', '5·10⁻⁷')
+    """
+    if isinstance(value, str):
+        return value.replace("_", " ")
+    if AXES[name].kind == "ratio":
+        return str(_fraction(value, 64) or f"{value:.4g}")
+    if AXES[name].units == "rad" and value:
+        multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
+        if multiple is not None:
+            return pi_words(multiple)
+    if float(f"{value:.4g}") == value:
+        return number_words(value)
+    fraction = _fraction(value, _LARGEST_DENOMINATOR)
+    if fraction is not None:
+        return str(fraction)
+    square = round(value**2)
+    if value > 0 and 0 < square < 1000 and math.isclose(value**2, square, rel_tol=_TOLERANCE):
+        return f"√{square}"
+    return number_words(value)
+
+
+def number_words(value: float, digits: int = 4) -> str:
+    """A number to so many digits, a very large or small one with a power of ten.
+
+    Examples
+    --------
+    >>> number_words(0.123456), number_words(73.1e3), number_words(5e7), number_words(1.25e-7)
+    ('0.1235', '73100', '5·10⁷', '1.25·10⁻⁷')
+    """
+    text = f"{value:.{digits}g}"
+    if "e" not in text:
+        return text
+    lead, power = text.split("e")
+    if 0 <= int(power) < _PLAIN:
+        return f"{float(text):.0f}"
+    lead = {"1": "", "-1": "-"}.get(lead, f"{lead}·")
+    return f"{lead}10{str(int(power)).translate(_RAISED)}"
+
+
+def flag_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """`value_words`, or the name that the attributes of a coordinate have for the value, as of a body.
+
+    Examples
+    --------
+    >>> flag_words("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad test_piece"})
+    'test piece'
+    """
+    if "flag_meanings" not in attributes or isinstance(value, str):
+        return value_words(name, value)
+    flags = [int(flag) for flag in attributes["flag_values"]]
+    return str(attributes["flag_meanings"]).split()[flags.index(int(value))].replace("_", " ")
+
+
+def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
+
+    Examples
+    --------
+    >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
+    ('$\\\\mu$ = 0.25', 'rounded punch')
+    """
+    alone = AXES[name].kind == "name" or "flag_meanings" in attributes
+    symbol = "" if alone else f"{parameter_words(name, attributes)} = "
+    units = attributes.get("units", "1")
+    units = "" if units in ("1", "rad", "") else f" {units}"
+    return symbol + as_text(flag_words(name, value, attributes) + units)
+
+
+def pi_words(multiple: Fraction) -> str:
+    """A rational multiple of π.
+
+    Examples
+    --------
+    >>> [pi_words(Fraction(n, 2)) for n in range(-1, 5)]
+    ['-π/2', '0', 'π/2', 'π', '3π/2', '2π']
+    """
+    if multiple == 0:
+        return "0"
+    sign = "-" if multiple < 0 else ""
+    numerator = "" if abs(multiple.numerator) == 1 else str(abs(multiple.numerator))
+    denominator = "" if multiple.denominator == 1 else f"/{multiple.denominator}"
+    return f"{sign}{numerator}π{denominator}"
+
+
+def _fraction(value: float, largest: int) -> Fraction | None:
+    fraction = Fraction(value).limit_denominator(largest)
+    return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None
