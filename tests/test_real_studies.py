@@ -188,7 +188,12 @@ def test_figures_have_the_units(solved):
     figure = solved.swt.figure()
     assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [r"$\psi$ (rad)"] * 2
     assert [axes.get_ylabel() for axes in figure.axes[::2]] == [
-        *(r"$\mathrm{SWT}$ (MPa)", "$N$", r"$\mathrm{SWT}_\mathrm{volume}$ (MPa)", "$x$ (mm)"),
+        *(
+            r"$\mathrm{SWT}$ (MPa)",
+            "rounds to a crack, $N$",
+            r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
+            "position of the critical point, $x$ (mm)",
+        ),
     ]
     assert "$F_0$ = 150 N" in figure.axes[0].get_title(loc="left")
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
