@@ -53,7 +53,7 @@ def draw_load(
     -------
     matplotlib.figure.Figure
         The loads as the contact has them, in the units of the study, and where both are forces the friction
-        margin |Q|/(μP), which must not exceed 1.
+        margin ``|Q|/(μP)``, which must not exceed 1.
 
     Raises
     ------

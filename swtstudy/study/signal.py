@@ -89,7 +89,7 @@ class Signal:
 
     @cached_property
     def loop(self) -> Loop:
-        """The loop of the mean cycle, for `load`."""
+        """The loop of the mean cycle, for a study's ``load``."""
         return self._harmonic if self.highest else self._polygon(self.name, self.mean_cycle)
 
     @property
