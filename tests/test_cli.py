@@ -208,6 +208,7 @@ def test_an_option_given_twice_is_refused(tmp_path, monkeypatch, arguments, line
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_show_draws_one_point(tmp_path):
     target = tmp_path / "point.pdf"
     result = call("show", "--phase", "pi/6", "--frequency-ratio", "3/2", "-o", target)
@@ -217,6 +218,7 @@ def test_show_draws_one_point(tmp_path):
     assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
 
 
+@pytest.mark.slow
 def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     drawn = []

@@ -74,6 +74,7 @@ def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch)
             check(f"{name}_error", volume + number + shift + 0.1, direction=direction)
 
 
+@pytest.mark.slow
 def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path, monkeypatch) -> None:
     path = tmp_path / "a.nc"
     few = run(study(axes=NEAR.format("[0.05]")), path, workers=1)

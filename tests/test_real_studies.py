@@ -86,6 +86,7 @@ def test_units_are_said(solved):
     assert solved.SWT_volume_error.attrs["units"] == "MPa"
 
 
+@pytest.mark.slow
 def test_the_same_in_si_units_is_the_same(solved, tmp_path):
     si = STUDY
     for old, new in (

@@ -147,6 +147,7 @@ def test_the_work_of_a_long_growth_is_refined_and_its_error_told(monkeypatch: py
     assert abs(value - exact) <= error <= 1.1e-5 * exact
 
 
+@pytest.mark.slow
 def test_they_do_not_depend_on_what_is_computed_together(monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(43, 30, "rounded_punch")
     whole = computed(points, EVERY)
