@@ -45,7 +45,10 @@ def test_lives_stand_upright_under_their_amplitude(results):
         np.testing.assert_allclose(line.get_xdata(), 1e5 * friction / AMPLITUDE**4)
     assert cycles.get_xscale() == "log"
     assert cycles.get_ylim() == (0.1, 1.0)
-    assert [axes.get_xlabel() for axes in (cycles, s)] == ["$N$", r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"]
+    assert [axes.get_xlabel() for axes in (cycles, s)] == [
+        "rounds to a crack, $N$",
+        r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
+    ]
     assert {axes.get_ylabel() for axes in (cycles, s)} == {r"$G^* u_A/(\mu E^* \delta_0)$"}
     with pytest.raises(ValueError, match="regimes"):
         draw(some, FigureLayout("tangential_amplitude", "friction", kind="life", regimes=True))

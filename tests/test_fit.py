@@ -55,6 +55,7 @@ def table(lives):
     return {"tangential_force_amplitude": FORCES, "normal_force": LOADS, "life": lives}
 
 
+@pytest.mark.slow
 def test_a_fit_finds_the_distance_with_which_lives_are_made(rig):
     file, lives = rig
     found = swtstudy.fit(file, table(lives))

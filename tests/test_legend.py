@@ -45,6 +45,7 @@ def test_no_entry_is_cut_in_any_size_of_letters(size):
     assert_whole(figure, [place_words("friction", value) for value in friction])
 
 
+@pytest.mark.slow
 def test_any_number_of_entries_fits():
     figure = lines_over([0.1]).isel(friction=0).swt.panels("phase")
     names = [f"the line number {index}" for index in range(60)]

@@ -19,13 +19,17 @@ from swtstudy.mechanics.line.samples import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
 
+def _even(point):
+    """Positions of points, each as far from the one before it as from the next."""
+    even = np.full(len(point), True)
+    return SimpleNamespace(point=point, is_even=even, is_corner=~even)
+
+
 def peaks(swt, highest=None):
     """Numbers of the candidates among values on one side, of one point."""
     values = np.array(swt, dtype=float)[:, None]
     most = values if highest is None else np.array(highest, dtype=float)[:, None]
-    place, side = high_positions(
-        SimpleNamespace(point=np.zeros(len(values), int)), Seen(values, values, most)
-    )
+    place, side = high_positions(_even(np.zeros(len(values), int)), Seen(values, values, most))
     assert not side.any()
     return place.tolist()
 
@@ -57,7 +61,7 @@ def test_a_low_peak_is_none_unless_it_may_be_higher_between_the_instants():
 def test_each_point_has_its_own_peaks():
     seen = np.array([1.0, 2.0, 3.0, 9.0, 8.0, 1.0])[:, None]
     point = np.array([0, 0, 0, 1, 1, 1])
-    assert high_positions(SimpleNamespace(point=point), Seen(seen, seen, seen))[0].tolist() == [2, 3]
+    assert high_positions(_even(point), Seen(seen, seen, seen))[0].tolist() == [2, 3]
 
 
 def test_what_lies_between_is_predicted_as_by_a_cubic_or_a_parabola():

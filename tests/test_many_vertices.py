@@ -57,6 +57,7 @@ def test_few_places_are_looked_at_however_many_vertices_there_are() -> None:
     assert looked[1000] < 2.2 * looked[250] < 1500
 
 
+@pytest.mark.slow
 def test_strain_cycles_are_counted_where_they_would_be_without_a_choice() -> None:
     contact = swtstudy.physical(
         young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, body=1,

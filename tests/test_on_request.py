@@ -117,6 +117,7 @@ def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch)
     assert np.isfinite(done.dissipation).all()
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_with_its_quantities(tmp_path: Path) -> None:
     file, axes = tmp_path / "a.toml", "phase = {start = 0.1, stop = 3, num = 150}\nfriction = [0.2, 0.3, 0.4]"
     file.write_text(study(axes=axes, quantities=EVERY).text)

@@ -189,7 +189,7 @@ def test_every_parameter_is_known_of_a_contact():
     """Each row of the table is an attribute of a contact; what has a scale is measured in one there is."""
     own = {row.name: row for row in PARAMETERS.values() if row.name != "poisson_ratio"}
     shapes = {name for name, row in own.items() if row.part == "shape" and row.kind == "number"}
-    about = {"radius", "depth", "bulk_stress_body", "bulk_stress_ratio", "contact_length"}
+    about = {"radius", "depth", "bulk_stress_body", "bulk_stress_ratio", "contact_length", "bodies"}
     contact = physical(**ALUMINIUM, depth=0.01, tangential_amplitude=1e-3)
     assert {*own} <= {*dir(contact)}
     assert all(getattr(contact, name) == row.default for name, row in own.items() if row.optional)

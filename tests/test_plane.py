@@ -275,6 +275,7 @@ def most_on_planes(
     return best
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PLANE_NAMES)
 def test_no_place_plane_or_instant_has_more(name: str) -> None:
     """A dense look of its own at random points: nothing above s, and s itself nearly met."""

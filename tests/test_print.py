@@ -91,6 +91,7 @@ def test_nothing_is_cut_and_nothing_covered(name, width):
         assert not any(Bbox.intersection(box, other) for other in shown[index + 1 :])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", EACH_WIDTH)
 def test_a_point_and_a_profile(width):
     assert_printable(swtstudy.inspect(width=width), width)
@@ -150,6 +151,7 @@ def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
         assert int.from_bytes(head, "big") == pytest.approx(dots, abs=1)
 
 
+@pytest.mark.slow
 def test_commands(tmp_path):
     (tmp_path / "panels.toml").write_text(PANELS, encoding="utf-8")
     assert call("run", tmp_path / "panels.toml", "--results", tmp_path, "--width", "page").exit_code == 0

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from curves import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
 
@@ -13,7 +14,7 @@ FRICTION = np.array([0.1, 0.2, 0.4])
 WORDS = {
     "s": r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
     "s_error": r"$\Delta s$",
-    "critical_x": "$x/a_H$",
+    "critical_x": "critical point, $x/a_H$",
     "critical_angle": r"$\varphi$ (°)",
     "s_surface": r"$s_\mathrm{surface}$",
 }
@@ -41,10 +42,8 @@ def test_lines_are_the_values(dataset, name):
     assert axes.get_ylabel() == WORDS[name]
     assert axes.get_xlabel() == r"$\psi$ (rad)"
     assert axes.get_xlim() == (0.0, np.pi)
-    assert len(axes.lines) == 3
-    for line, friction in zip(axes.lines, FRICTION, strict=True):
-        np.testing.assert_array_equal(line.get_xdata(), PHASE)
-        np.testing.assert_array_equal(line.get_ydata(), dataset[name].sel(friction=friction))
+    for line, friction in zip(curves(axes), FRICTION, strict=True):
+        np.testing.assert_array_equal(whole(line), [PHASE, dataset[name].sel(friction=friction)])
         assert line.get_label() == rf"$\mu$ = {friction}"
 
 

@@ -22,6 +22,7 @@ SHORT = plain("critical_distance")
 HALF = STUDY.replace('[0, "pi/2"]', "[0]")
 
 
+@pytest.mark.slow
 def test_archives_resume_and_extend(tmp_path, solved):
     path, solved = tmp_path / "sphere.nc", solved.isel(phase=[0])
     with pytest.raises(Stopped, match="2 of 4 distinct points are saved"):

@@ -20,6 +20,7 @@ RIG = {
 }
 
 
+@pytest.mark.slow
 def test_arrays_in_python_are_the_study(solved):
     swings = {"normal_force": [150, 200], "tangential_amplitude": [1e-3, 2.5e-3], "phase": [0, "pi/2"]}
     contacts = physical(**RIG, **swings)

@@ -86,6 +86,7 @@ def test_units_are_said(solved):
     assert solved.SWT_volume_error.attrs["units"] == "MPa"
 
 
+@pytest.mark.slow
 def test_the_same_in_si_units_is_the_same(solved, tmp_path):
     si = STUDY
     for old, new in (
@@ -188,7 +189,12 @@ def test_figures_have_the_units(solved):
     figure = solved.swt.figure()
     assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [r"$\psi$ (rad)"] * 2
     assert [axes.get_ylabel() for axes in figure.axes[::2]] == [
-        *(r"$\mathrm{SWT}$ (MPa)", "$N$", r"$\mathrm{SWT}_\mathrm{volume}$ (MPa)", "$x$ (mm)"),
+        *(
+            r"$\mathrm{SWT}$ (MPa)",
+            "rounds to a crack, $N$",
+            r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
+            "position of the critical point, $x$ (mm)",
+        ),
     ]
     assert "$F_0$ = 150 N" in figure.axes[0].get_title(loc="left")
     labels = [text.get_text() for text in figure.legends[0].get_texts()]

@@ -184,6 +184,7 @@ def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_pag
     assert {"phase", "normal_amplitude", "critical_x"} <= {*table}
 
 
+@pytest.mark.slow
 def test_hostile_names_and_titles_are_words(tmp_path: Path) -> None:
     title = '</title><script>alert("x")</script> & <img src=x onerror=alert(1)> "quoted" \'it\''
     text = page(study(tmp_path, title, axes="phase = [0, 1]"), '"><script>alert(2)</script>')
@@ -193,6 +194,7 @@ def test_hostile_names_and_titles_are_words(tmp_path: Path) -> None:
     assert " ".join(title.split()) in found.text
 
 
+@pytest.mark.slow
 def test_hostile_attributes_are_words(small: xr.Dataset) -> None:
     bad = "</script><b>bad</b>\\mathrm{<b>}"
     dataset = small.copy()
@@ -211,6 +213,7 @@ def test_every_symbol_is_html(row: object) -> None:
     checked(text)
 
 
+@pytest.mark.slow
 def test_a_large_table_is_left_out(small: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("swtstudy.reports.data.LARGEST_TABLE", 100)
     text = page(small, "small")
@@ -218,11 +221,13 @@ def test_a_large_table_is_left_out(small: xr.Dataset, monkeypatch: pytest.Monkey
     assert "too many for a page" in checked(text).text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["figure5", "figure8"])
 def test_pages_of_the_largest_figures_are_below_two_megabytes(name: str) -> None:
     assert len(page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)) < 2_000_000
 
 
+@pytest.mark.slow
 def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
     assert "Where the model holds" not in page(small, "small")
     text = page(small.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
@@ -230,6 +235,7 @@ def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
     assert "<li>contact radius over R up to 0.05, within 0.1</li>" in text
 
 
+@pytest.mark.slow
 def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:
     for name in ("loops", "friction"):
         shutil.copy2(RESULTS / f"{name}.nc", tmp_path)
@@ -271,6 +277,7 @@ def test_mistakes_of_paths_are_told(
     assert not list(tmp_path.rglob("*.html"))
 
 
+@pytest.mark.slow
 def test_a_single_archive_has_its_page_beside_it(tmp_path: Path) -> None:
     archive = tmp_path / "mine.nc"
     swtstudy.run(swtstudy.Study.from_text('title = "Mine"\nrtol = 1e-2\naxes.phase = [0, 1]'), archive)

@@ -374,6 +374,7 @@ def gone(processes: list[int]) -> None:
             os.close(handle)
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on_and_ends_as_if_undisturbed(tmp_path):
     path, line = tmp_path / "line.nc", Study.from_text(LONG)
     undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)

@@ -178,6 +178,7 @@ def test_a_stopped_run_goes_on(tmp_path):
     assert np.array_equal(found.s, undisturbed.s)
 
 
+@pytest.mark.slow
 def test_worker_processes_give_the_same(tmp_path):
     study = sampled("sobol", 256)
     here, there = (run(study, tmp_path / f"{n}.nc", workers=n, solver=stand_in.slow).s.values for n in (1, 2))

@@ -88,6 +88,7 @@ def test_an_inspected_contact_is_in_forces_and_stresses(rig):
     assert float(point.tangential_force_amplitude) == pytest.approx(60.0)
 
 
+@pytest.mark.slow
 def test_the_best_contact_in_units(rig):
     """SWT rises with the tangential force, and life falls: ends of the range, in newtons."""
     over = {"tangential_force_amplitude": (40, "80")}
@@ -103,6 +104,7 @@ def test_the_best_contact_in_units(rig):
     )
 
 
+@pytest.mark.slow
 def test_the_best_life_is_the_longest(rig):
     lives = rig.optimise({"tangential_force_amplitude": (40, 80)}, "cycles", rtol=1e-2, constants=ALUMINIUM)
     assert lives.tangential_force_amplitude.values.tolist() == [40.0, 80.0]

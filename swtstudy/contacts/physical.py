@@ -90,8 +90,8 @@ def physical(
     ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=[100.0, 200.0],
     ...     friction=0.5, tangential_amplitude=0.002,
     ... )
-    >>> contacts
-    <PhysicalContact: 2 normal_force>
+    >>> repr(contacts).splitlines()[0]
+    '<PhysicalContact: 2 normal_force>'
     >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """

@@ -63,8 +63,10 @@ def draw_lines(
         if flag_words(whole):
             look["drawstyle"] = "steps-mid"
         curve = part.value.values
-        gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y) if may_jump(y) else _NONE
-        at, broken = np.insert(x, gaps, np.nan), np.insert(curve, gaps, np.nan)
+        gaps = _NONE
+        if may_jump(y) and not flag_words(whole):
+            gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y)
+        at, broken = np.insert(x, gaps, np.nan), np.insert(curve.astype(float), gaps, np.nan)
         across, up = (broken, at) if layout.kind == "life" else (at, broken)
         (line,) = axes.plot(across, up, **look)
         _mark_jumps(axes, x, curve, gaps, line.get_color())
