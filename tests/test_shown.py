@@ -65,6 +65,8 @@ def clone(fresh, tmp_path_factory):
     for name in "ab":
         shutil.copy2(folder / "results" / "figure3.nc", folder / "results" / f"{name}.nc")
     shutil.copy2(folder / "results" / "contour.nc", folder / "merged.nc")
+    (folder / "mine").mkdir()  # the quick start's, whose blocks of shell make it
+    shutil.copy2(folder / "results" / "figure3.nc", folder / "mine" / "figure3.nc")
     rows = "".join(f"{r / 10},{max(r / 10 - 0.3, 0.0) ** 2}\n" for r in range(25))
     (folder / "worn.csv").write_text(f"radius,height\n{rows}")
     (rig,) = (block for block in TOML if block.page.name == "README.md")
