@@ -11,6 +11,7 @@ from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
+from swtstudy.mechanics.numerics.arrays import largest_of_rows
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -78,8 +79,7 @@ class Climb:
         row, angle, swt = _summits(planes, look.inside[:, 0])
         point = positions.point[place[row]]
         if least is None:
-            least = np.zeros(len(scene))
-            np.maximum.at(least, point, swt)
+            least = largest_of_rows(point, swt)
         # Positions that were predicted by half of them leave less than half of the share.
         high = swt >= (1.0 - 0.5 * SHARE) * least[point]
         row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
@@ -92,9 +92,7 @@ class Climb:
 
     def leading(self, height: FloatArray, share: float) -> Climb:
         """Those whose height, shape (m,), is at least a share of the largest one at their point."""
-        largest = np.zeros(self.point.max(initial=0) + 1)
-        np.maximum.at(largest, self.point, height)
-        return self.take(height >= share * largest[self.point])
+        return self.take(height >= share * largest_of_rows(self.point, height)[self.point])
 
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
         """Without those that have just moved to a position around which another one searches no lower.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
-from swtstudy.mechanics.numerics.arrays import as_rows
+from swtstudy.mechanics.numerics.arrays import as_rows, largest_of_rows, place_in_row
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -102,13 +102,13 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     # The last piece of a point has its end, too; the others end where the next one begins.
     count = steps + pieces.is_last
     layer, of_layer = pieces.layers(THIN)
-    piece = np.concatenate([np.repeat(going, count), layer])
-    share = (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)) / steps
-    share = np.concatenate([share, of_layer])
+    even = np.repeat(going, count)
+    piece = np.concatenate([even, layer])
+    share = np.concatenate([place_in_row(even) / steps, of_layer])
     order = np.lexsort((share, piece))
-    place = np.argsort(order)[: count.sum()]
-    found = [(piece[order], share[order], look_at(scene, pieces, piece[order], share[order]))]
-    values = found[0][2].swt[place][(np.cumsum(count) - count)[:, None] + np.arange(steps + 1)]
+    first = look_at(scene, pieces, piece[order], share[order]).take(np.argsort(order))
+    found = [(piece, share, first)]
+    values = first.swt[np.searchsorted(even, going)[:, None] + np.arange(steps + 1)]
     largest = np.zeros(len(scene))
     while True:
         highest = values.max(axis=(1, 2))
@@ -173,8 +173,7 @@ def look_at(
 
 def _parts(point: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """The positions of points, (m,) ascending, in parts of so many at most: of whom each is, and which."""
-    number = np.arange(point.size) - np.searchsorted(point, point)
-    first = number % most == 0
+    first = place_in_row(point) % most == 0
     return point[first], np.cumsum(first) - 1
 
 
@@ -191,9 +190,7 @@ def high_positions(
     """
     point = positions.point
     if least is None:
-        largest = np.zeros(point.max(initial=-1) + 1)
-        np.maximum.at(largest, point, seen.swt.max(axis=1))
-        least = largest
+        least = largest_of_rows(point, seen.swt.max(axis=1))
     enough = least[point][:, None]
     chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
     beside = np.zeros_like(chosen)

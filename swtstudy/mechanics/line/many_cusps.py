@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.first_look import SHARE, Seen, flanks, look_at, peaks
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.positions import Pieces
+from swtstudy.mechanics.numerics.arrays import largest_of_rows, place_in_row
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -60,9 +61,8 @@ def _runs(pieces: Pieces) -> NDArray[np.bool_]:
     """Which pieces begin a run: every so many, each long one, and what is behind that."""
     first = np.append(True, np.diff(pieces.point) > 0)
     count = np.bincount(pieces.point)
-    rank = np.arange(len(first)) - np.searchsorted(pieces.point, pieces.point)
-    width = np.zeros(len(count))
-    np.maximum.at(width, pieces.point, pieces.high)
+    rank = place_in_row(pieces.point)
+    width = largest_of_rows(pieces.point, pieces.high)
     long = pieces.high - pieces.low > width[pieces.point] / RUNS
     return first | (rank % -(-count // RUNS)[pieces.point] == 0) | long | np.append(True, long[:-1])
 
@@ -74,7 +74,7 @@ def _halves(point: NDArray[np.intp], swt: FloatArray, looked: NDArray[np.intp]) 
     change = np.where(same[:, None], np.abs(right - left), 0.0)
     around = np.pad(change, ((1, 1), (0, 0)))
     rise = np.maximum(np.maximum(around[:-2], around[2:]), change)
-    top = _tops(point[looked], swt[looked])[point[looked[:-1]]]
+    top = largest_of_rows(point[looked], swt[looked].max(axis=1))[point[looked[:-1]]]
     height = (np.maximum(left, right) + rise).max(axis=1)
     open_ = np.flatnonzero((height >= (1.0 - SHARE) * top) & same & (np.diff(looked) > 1))
     chosen = open_[_highest(point[looked[open_]], height[open_], HALVED)]
@@ -84,7 +84,8 @@ def _halves(point: NDArray[np.intp], swt: FloatArray, looked: NDArray[np.intp]) 
 def _kept(point: NDArray[np.intp], seen: Seen, looked: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Which pieces lie about the highest places."""
     some, own = seen.take(looked), point[looked]
-    high = some.swt >= (1.0 - 3.0 * SHARE) * _tops(own, some.swt)[own][:, None]
+    top = largest_of_rows(own, some.swt.max(axis=1))[own]
+    high = some.swt >= (1.0 - 3.0 * SHARE) * top[:, None]
     high &= peaks(own, some.swt) | flanks(own, some)
     height = np.where(high, some.swt, 0.0).max(axis=1)
     places = looked[_highest(own, height, PLACES) & (height > 0.0)]
@@ -98,12 +99,5 @@ def _highest(point: NDArray[np.intp], height: FloatArray, count: int) -> NDArray
     """Which heights are among the highest ones of their points, (m,) ascending."""
     order = np.lexsort((-height, point))
     highest = np.empty(len(order), dtype=bool)
-    highest[order] = np.arange(len(order)) - np.searchsorted(point, point) < count
+    highest[order] = place_in_row(point) < count
     return highest
-
-
-def _tops(point: NDArray[np.intp], swt: FloatArray) -> FloatArray:
-    """The largest swt of each point."""
-    top = np.zeros(point.max(initial=-1) + 1)
-    np.maximum.at(top, point, swt.max(axis=1))
-    return top

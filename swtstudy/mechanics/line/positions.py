@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import packed
+from swtstudy.mechanics.numerics.arrays import packed, place_in_row
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -117,7 +117,7 @@ class Pieces:
         begin = low[point, number]
         end = np.where(last, ends[point, -1], np.roll(begin, -1))
         waves = np.ceil((end - begin) / feature_length[point]).clip(1.0).astype(np.intp)
-        wave = np.arange(waves.sum()) - np.repeat(np.cumsum(waves) - waves, waves)
+        wave = place_in_row(np.repeat(np.arange(waves.size), waves))
         point, begin, end, waves = (np.repeat(v, waves) for v in (point, begin, end, waves))
         length = (end - begin) / waves
         return cls(

@@ -127,9 +127,20 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     sizes = np.bincount(row, minlength=count)
     filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
     order = np.argsort(row, kind="stable")
-    column = np.arange(row.size) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    filled[row[order], column] = values[order]
+    filled[row[order], place_in_row(row[order])] = values[order]
     return filled
+
+
+def place_in_row(row: NDArray[np.intp]) -> NDArray[np.intp]:
+    """How many entries of its row stand before each, shape (m,), of entries listed row by row."""
+    return np.arange(row.size) - np.searchsorted(row, row)
+
+
+def largest_of_rows(row: NDArray[np.intp], values: FloatArray) -> FloatArray:
+    """The largest of the values ≥ 0, (m,), of each row, (n,), 0 where it has none."""
+    largest = np.zeros(row.max(initial=-1) + 1)
+    np.maximum.at(largest, row, values)
+    return largest
 
 
 def as_rows(row: NDArray[np.intp], rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
