@@ -28,6 +28,19 @@ UNCOUNTED = (
 )
 
 
+def check_constants(constants: object) -> None:
+    """Check the constants of a material, whose exponents alone are negative; they become plain numbers."""
+    mistakes: list[Mistake] = []
+    for name, value in vars(constants).items():
+        sign = -1.0 if name.endswith("exponent") else 1.0
+        allowed = "a negative number" if sign < 0.0 else "a positive number"
+        mistakes += wrong_size(name, value, allowed, sign)
+    if mistakes:
+        raise StudyError(mistakes)
+    for name, value in vars(constants).items():
+        object.__setattr__(constants, name, plain_number(value))
+
+
 @dataclass(frozen=True)
 class FatigueConstants:
     """Strain–life constants of a material, after Basquin, Coffin and Manson.
@@ -53,15 +66,7 @@ class FatigueConstants:
     ductility_exponent: float
 
     def __post_init__(self) -> None:
-        mistakes: list[Mistake] = []
-        for name, value in vars(self).items():
-            sign = -1.0 if name.endswith("exponent") else 1.0
-            allowed = "a negative number" if sign < 0.0 else "a positive number"
-            mistakes += wrong_size(name, value, allowed, sign)
-        if mistakes:
-            raise StudyError(mistakes)
-        for name, value in vars(self).items():
-            object.__setattr__(self, name, plain_number(value))
+        check_constants(self)
 
     @property
     def _terms(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.units.life import FatigueConstants, at_cycles, life, not_negative, rounds
-from swtstudy.units.sizes import wrong_size
+from swtstudy.units.life import FatigueConstants, at_cycles, check_constants, life, not_negative, rounds
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
 
 
@@ -39,15 +38,7 @@ class ShearConstants:
     ductility_exponent: float
 
     def __post_init__(self) -> None:
-        mistakes: list[Mistake] = []
-        for name, value in vars(self).items():
-            sign = -1.0 if name.endswith("exponent") else 1.0
-            allowed = "a negative number" if sign < 0.0 else "a positive number"
-            mistakes += wrong_size(name, value, allowed, sign)
-        if mistakes:
-            raise StudyError(mistakes)
-        for name, value in vars(self).items():
-            object.__setattr__(self, name, plain_number(value))
+        check_constants(self)
 
     @classmethod
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
