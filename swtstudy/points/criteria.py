@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from swtstudy.points.values import values_taken
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SHARP, SWT
 from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -27,10 +28,9 @@ def check_criteria(
     fixed, along
         Sound values.
     """
-    defaults = {name: row.default for name, row in PARAMETERS.items()}
 
     def values(name: str) -> Sequence[Any]:
-        return along.get(name, (fixed.get(name, defaults[name]),))
+        return values_taken(name, fixed, along)
 
     names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
     if not others:
@@ -41,7 +41,7 @@ def check_criteria(
     criteria = f"with the criterion {', '.join(others)}"
     if "normal_sensitivity" not in names:
         report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
-    if any(value != defaults["walker_exponent"] for value in values("walker_exponent")):
+    if any(value != PARAMETERS["walker_exponent"].default for value in values("walker_exponent")):
         report(keys("walker_exponent"), f"a value {criteria}", f"it with {SWT} alone")
     if DISTANCE in names:
         why = "means of others are not computed"

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value
+from swtstudy.points.values import Value, values_taken
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.named import Named
-from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import replaced_by
 
 #: What scales the columns of a loop.
@@ -24,7 +24,7 @@ def check_amplitudes(
     report: Report,
 ) -> None:
     """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations."""
-    loads = axes.get("load", (fixed.get("load", HARMONIC),))
+    loads = values_taken("load", fixed, axes)
     if len({isinstance(load, Named) for load in loads}) < 2:
         return
     given = {*fixed, *axes}

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from swtstudy.points.values import Value
+from swtstudy.points.values import Value, values_taken
 from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.mistakes import Report
-from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
 
 
@@ -27,7 +26,7 @@ def check_forces(
     fixed, axes
         Sound values.
     """
-    profiles = axes.get("profile", (fixed.get("profile", PARAMETERS["profile"].default),))
+    profiles = values_taken("profile", fixed, axes)
     plane = [str(profile) for profile in profiles if is_plane(profile)]
     names = set(given)
     wanted = [force for force in PAIRS if force not in names]

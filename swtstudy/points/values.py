@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from numbers import Rational
+from typing import Any
 
 from swtstudy.points.expression import evaluate
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
@@ -27,6 +28,11 @@ NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind
 
 #: How far, relatively, a float may be from the small fraction that it stands for.
 _FRACTION_TOLERANCE = 1e-9
+
+
+def values_taken(name: str, fixed: Mapping[str, Any], along: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
+    """The values that a parameter has in a study: along its axis, or fixed, or its default."""
+    return along.get(name, (fixed.get(name, PARAMETERS[name].default),))
 
 
 def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = NOTHING) -> Value:

@@ -14,7 +14,7 @@ from swtstudy.points.loops import check_amplitudes, check_loops
 from swtstudy.points.plane import check_forces
 from swtstudy.points.reading import NOTHING_KNOWN, Known, Range, read_values
 from swtstudy.points.shapes import check_shapes_given
-from swtstudy.points.values import Value, as_number, read_value
+from swtstudy.points.values import Value, as_number, read_value, values_taken
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
@@ -33,7 +33,7 @@ from swtstudy.units.rows import (
     wrong_mean_load,
 )
 from swtstudy.units.strips import check_lengths, labels_of, still_load
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
 from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
 from swtstudy.vocabulary.named import Named
@@ -111,7 +111,7 @@ def _check_units_of_criteria(
     report: Report,
 ) -> None:
     """The criterion that needs the strength of the bodies, and the one that has no life."""
-    criteria = along.get("criterion", (fixed.get("criterion", SWT),))
+    criteria = values_taken("criterion", fixed, along)
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
