@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,6 +12,9 @@ from swtstudy.cli.examples import examples
 from swtstudy.cli.options import InSections, with_width
 from swtstudy.cli.solve import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @click.command(
@@ -56,57 +58,46 @@ def show(
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
+    values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    words = ""
+    if study is None:
+        figure = _point_or_profile(values, smoothing, style, width)
+    elif [*values] == ["load"]:
+        figure, words = _load(study, str(values["load"]), style, width)
+    else:
+        from swtstudy.contacts.of_results import contact_of_study
+
+        figure = contact_of_study(study, values).inspect(body, style, width)
+    from swtstudy.figures.save import save_figure
+    from swtstudy.vocabulary.files import check_writable
+
+    check_writable(output)
+    save_figure(figure, output, style)
+    if words:
+        click.echo(words)
+    click.echo(output)
+
+
+def _point_or_profile(values: dict[str, object], smoothing: float, style: str | None, width: Any) -> Figure:
+    """A point, or a profile where its shape alone is given."""
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.profile import draw_profile
-    from swtstudy.figures.save import save_figure
     from swtstudy.study.profile_tables import table_from
-    from swtstudy.vocabulary.files import check_writable
 
-    if study is not None:
-        if [name for name, text in texts.items() if text is not None] == ["load"]:
-            _show_load(study, str(texts["load"]), output, style, width)
-        else:
-            _show_contact(study, texts, body, output, style, width)
-        return
-    parameters: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
-    if Path(str(parameters.get("profile"))).suffix == ".csv":
-        parameters["profile"] = table_from(Path(str(parameters["profile"])), smoothing)
-    of_shape = bool(parameters) and all(PARAMETERS[name].part == "shape" for name in parameters)
-    figure = (draw_profile if of_shape else inspect)(style=style, width=width, **parameters)
-    check_writable(output)
-    save_figure(figure, output, style)
-    click.echo(output)
+    if Path(str(values.get("profile"))).suffix == ".csv":
+        values = {**values, "profile": table_from(Path(str(values["profile"])), smoothing)}
+    of_shape = bool(values) and all(PARAMETERS[name].part == "shape" for name in values)
+    return (draw_profile if of_shape else inspect)(style=style, width=width, **values)
 
 
-def _show_contact(
-    study: str, texts: Mapping[str, str | None], body: int, output: str, style: str | None, width: Any
-) -> None:
-    """Draw the contact of a study with units."""
-    from swtstudy.contacts.of_results import contact_of_study
-    from swtstudy.figures.save import save_figure
-    from swtstudy.vocabulary.files import check_writable
-
-    values = {name: text for name, text in texts.items() if text is not None}
-    figure = contact_of_study(study, values).inspect(body, style, width)
-    check_writable(output)
-    save_figure(figure, output, style)
-    click.echo(output)
-
-
-def _show_load(source: str, name: str, output: str, style: str | None, width: Any) -> None:
-    """Draw a load of a study, and say what its record is like."""
+def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure, str]:
+    """A load of a study, and what its record is like in words."""
     from swtstudy.figures.load import draw_load
-    from swtstudy.figures.save import save_figure
     from swtstudy.study.definition import Study
     from swtstudy.study.loops import read_signal_of
     from swtstudy.study.shipped import find_study
-    from swtstudy.vocabulary.files import check_writable
 
     study, path = Study.from_toml(source), find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
     figure = draw_load(study, name, signal, style=style, width=width)
-    check_writable(output)
-    save_figure(figure, output, style)
-    if signal is not None:
-        click.echo(f"{name}: {signal.words}")
-    click.echo(output)
+    return figure, "" if signal is None else f"{name}: {signal.words}"
