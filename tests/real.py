@@ -2,18 +2,20 @@
 
 from swtstudy import FatigueConstants
 
-#: Units and the constants of an aluminium alloy.
-ALLOY = """\
+#: Units, and the constants of an aluminium alloy with them.
+UNITS = """\
 [units]
 length = "mm"
 force = "N"
 stress = "MPa"
-[material]
+"""
+CONSTANTS = """\
 strength = 927
 strength_exponent = -0.113
 ductility = 0.409
 ductility_exponent = -0.713
 """
+ALLOY = f"{UNITS}[material]\n{CONSTANTS}"
 STUDY = f"""
 title = "A sphere on a flat"
 rtol = 1e-3

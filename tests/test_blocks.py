@@ -7,24 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from real import ALLOY
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
 from swtstudy.runner.work import assess
 
-RIG = """
+RIG = f"""
 title = "Blocks"
 rtol = 1e-3
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

@@ -5,7 +5,7 @@ import logging
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from real import ALUMINIUM
+from real import ALLOY, ALUMINIUM
 
 import swtstudy
 from swtstudy import Study, StudyError, physical
@@ -13,18 +13,9 @@ from swtstudy.cli import main
 from swtstudy.figures.fitted import draw_fit, fit_lines
 from swtstudy.results import fitting
 
-STUDY = """
+STUDY = f"""
 title = "Tests of a rig"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{ALLOY}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

@@ -7,17 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from real import UNITS
 
 from swtstudy import Study, StudyError, draw_load
 from swtstudy.cli import main
 
-RIG = """
+RIG = f"""
 title = "A rig"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
+{UNITS}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

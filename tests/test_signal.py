@@ -7,19 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from real import UNITS
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
 from swtstudy.study.recorded import harmonics, mean_over, scatter
 
-RIG = """
+RIG = f"""
 title = "A rig"
 rtol = 1e-3
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
+{UNITS}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

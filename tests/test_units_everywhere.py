@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from matplotlib.figure import Figure
-from real import ALUMINIUM
+from real import ALUMINIUM, UNITS
 
 import swtstudy
 from swtstudy import Study, StudyError, physical
@@ -126,14 +126,10 @@ def test_wrong_optima_are_named(rig):
         physical(**{**RIG, "radius": [40.0, 50.0]}).optimise({"phase": (0, 1)})
 
 
-STUDY = """
+STUDY = f"""
 title = "A pad on a test piece"
 rtol = 1e-2
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
+{UNITS}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50

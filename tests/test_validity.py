@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from real import ALUMINIUM
+from real import ALUMINIUM, CONSTANTS, UNITS
 
 import swtstudy
 from swtstudy import Study, physical, run
@@ -14,20 +14,12 @@ from swtstudy.cli import main
 from swtstudy.points.validity import outside, validity_lines
 
 #: Forces of a rig: constant load, so that all is in closed form.
-RIG = """
+RIG = f"""
 title = "A rig"
 rtol = 1e-2
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
+{UNITS}[material]
 yield_strength = 210
-strength = 927
-strength_exponent = -0.113
-ductility = 0.409
-ductility_exponent = -0.713
-[fixed]
+{CONSTANTS}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.3
 radius = 50
