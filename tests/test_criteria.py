@@ -366,6 +366,26 @@ def test_criteria_with_units() -> None:
         assert np.isnan(fs.cycles).all()
 
 
+def test_a_point_by_criteria_of_shear_in_units() -> None:
+    """What swt_field and inspect_point say of the critical point is what the results have there."""
+    own = STEEL | {"tangential_force_amplitude": 60.0, "normal_sensitivity": 0.3}
+    material = {"yield_strength": 400.0}
+    for criterion, name in (("findley", "findley_stress"), ("fatemi_socie", "FS")):
+        contact = swtstudy.physical(**own, **material, criterion=criterion)
+        found, point = contact.solve(1e-5).sel(body=1), contact.inspect_point()
+        local = contact.swt_field(float(point.shown_x), 0.0, 0.0)[name]
+        assert float(local) == pytest.approx(float(found[name]), rel=1e-3)
+        assert float(point.s_local.max()) == pytest.approx(float(found[name]), rel=1e-3)
+        amplitude, tension = 0.5 * np.ptp(point.shear_stress.values), float(point.normal_stress.max())
+        made = amplitude + 0.3 * tension
+        if criterion == "fatemi_socie":
+            made = amplitude * (1.0 + 0.3 * tension / 400.0) / (210e3 / 2.6)
+        assert float(found[name]) == pytest.approx(made, rel=1e-3)
+        with pytest.raises(ValueError, match=f"criterion: found {criterion}; allowed: swt"):
+            contact.swt(0.1)
+        assert len(contact.inspect().axes) == 9  # no axis of a strain
+
+
 def test_swt_has_no_sensitivity_to_tell_points_apart() -> None:
     names = {"criterion": ("swt", "findley"), "normal_sensitivity": (0.1, 0.3)}
     rows, _ = complete({}, names).canonical()

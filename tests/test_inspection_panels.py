@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures import inspection_panels as panels
+from swtstudy.figures.force_panels import draw_forces
+from swtstudy.figures.maps import STATE_COLOURS
 from swtstudy.figures.panel_marks import limits
 
 #: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
@@ -173,10 +176,12 @@ def test_stress_cycle(moving):
     )
     (words,) = (text for text in other.texts if "Delta" in text.get_text())
     assert words.get_position() == pytest.approx((0.915 * time[-1], (strain.min() + strain.max()) / 2))
-    for each, values in ((axes, stress), (other, strain)):
-        low, high = each.get_ylim()
-        assert values.min() - low == pytest.approx(0.08 * np.ptp(values))
-        assert high - values.max() == pytest.approx(0.22 * np.ptp(values))
+    # Both zeros are at one height; marks above and the legend below have room.
+    ends = np.array([each.get_ylim() for each in (axes, other)])
+    assert ends[0, 0] / ends[0, 1] == pytest.approx(ends[1, 0] / ends[1, 1])
+    for (low, high), values in zip(ends, (stress, strain), strict=True):
+        assert values.min() - low >= 0.199 * np.ptp(values)
+        assert high - values.max() >= 0.219 * np.ptp(values)
     assert axes.get_xlim() == pytest.approx((0.0, 4 * np.pi))
     assert levels(axes, True) == pytest.approx(moving.instant_time.values)
     assert {number: place[0] for number, place in numbers(axes).items()} == pytest.approx(
@@ -273,3 +278,47 @@ def test_marks_over_time_are_at_one_height(moving):
     panels.draw_stress(axes, moving)
     low, high = axes.get_ylim()
     assert {round((place[1] - low) / (high - low), 6) for place in numbers(axes).values()} == {0.94}
+
+
+def test_a_colour_is_a_state_or_an_instant(moving, axes):
+    """No curve of a panel has the colour of stick or slip, and each instant has its own in all panels."""
+    states = {to_hex(colour) for colour in STATE_COLOURS}
+    panels.draw_springs(axes, moving)
+    instants = [line for line in axes.lines if line.get_label().isdigit()]
+    colours = {int(line.get_label()): to_hex(line.get_color()) for line in instants}
+    assert len({*colours.values()}) == len(colours) == moving.instant.size
+    assert not {*colours.values()} & states
+    for draw in (panels.draw_stress, panels.draw_swt, panels.draw_tractions, draw_forces, panels.draw_load):
+        axes = Figure().subplots()
+        draw(axes, moving)
+        for one in axes.figure.axes:
+            assert not {to_hex(line.get_color()) for line in one.lines} & states
+        for text in axes.texts:
+            if text.get_text().isdigit():
+                assert to_hex(text.get_bbox_patch().get_edgecolor()) == colours[int(text.get_text())]
+
+
+@pytest.mark.parametrize(("criterion", "k"), [("findley", 0.3), ("fatemi_socie", 0.7)])
+def test_a_point_of_a_criterion_of_shear(axes, criterion, k):
+    """What s is made of stands in the picture: the swing and the largest tension on the critical plane."""
+    point = swtstudy.inspect_point(**MOVING, criterion=criterion, normal_sensitivity=k)
+    panels.draw_stress(axes, point)
+    assert axes.figure.axes == [axes]  # both are stresses
+    curves = {line.get_label(): line.get_ydata() for line in axes.lines}
+    tension, shear = curves[r"$\sigma_n$"], curves[r"$\tau$"]
+    amplitude = 0.5 * np.ptp(shear)
+    made = amplitude + k * tension.max() if criterion == "findley" else amplitude * (1.0 + k * tension.max())
+    assert tension.max() > 0.0
+    assert made == pytest.approx(float(point.s), rel=1e-4)
+    assert float(point.s_local.max()) == pytest.approx(float(point.s), rel=1e-3)
+    # The plane, turned in the section: τ = sin 2θ (σ_zz − σ_xx)/2 + cos 2θ σ_xz, σ_n with the same σ_zz.
+    angle = np.radians(float(point.shown_angle))
+    c, s = np.cos(angle), np.sin(angle)
+    xx, xz = point.sigma_xx.values, point.sigma_xz.values
+    zz = (tension - c * c * xx - 2.0 * s * c * xz) / (s * s)
+    np.testing.assert_allclose(shear, s * c * (zz - xx) + (c * c - s * s) * xz, atol=1e-9)
+    other = Figure().subplots()
+    panels.draw_swt(other, point)
+    words = {"findley": "Findley stress", "fatemi_socie": "Fatemi–Socie parameter"}[criterion]
+    assert other.get_title("left") == f"{words} along the surface"
+    assert "SWT" not in other.get_ylabel()

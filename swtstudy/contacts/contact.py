@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.contacts.measured import InUnits, Measured
+from swtstudy.contacts.measured import InUnits, Measured, require_swt
 from swtstudy.contacts.overview import as_html, as_text
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
@@ -226,6 +226,7 @@ class PhysicalContact(InUnits):
         StudyError
             A ValueError, if it is not said which body has this s, or s is negative or no number.
         """
+        require_swt(self.grid.values("criterion"))
         return swt_from(s, self.swt_scale, self.moduli, bodies_of(s, self.moduli.alike, body))
 
     def cycles(
@@ -257,6 +258,7 @@ class PhysicalContact(InUnits):
         StudyError
             A ValueError, as of `swt`, or if the constants are none.
         """
+        require_swt(self.grid.values("criterion"))
         one, two = constants_of_both(constants)
         bodies = bodies_of(s, self.moduli.alike and one == two, body)
         return cycles_from((one, two), swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
@@ -284,7 +286,8 @@ class PhysicalContact(InUnits):
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
         yield_strength
-            Of both bodies, or a pair: for von_mises and yield_ratio.
+            Of both bodies, or a pair: for von_mises and yield_ratio. By the criterion "fatemi_socie" in the
+            place of that of the contact.
         blocks
             Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
@@ -340,7 +343,12 @@ class PhysicalContact(InUnits):
             raise StudyError(mistakes)
         if strengths:
             names = tuple(dict.fromkeys((*names, YIELD)))
-        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
+        grid = replace(
+            self.grid,
+            materials=materials,
+            yield_strengths=strengths or self.grid.yield_strengths,
+            blocks=sequence,
+        )
         return grid, Request(names, *distances, counts=constants is not None)
 
     def optimise(
@@ -387,4 +395,5 @@ class PhysicalContact(InUnits):
 
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
-        return Measured(self._one, checked_body(body) - 1, self.grid.labels)
+        (criterion,) = self.grid.values("criterion")
+        return Measured(self._one, checked_body(body) - 1, self.grid.labels, str(criterion))

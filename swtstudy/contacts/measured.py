@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,8 @@ from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
 from swtstudy.units.scales import SCALES
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
@@ -31,7 +33,12 @@ _LENGTHS = {
 _STRESSES = {
     **{f"sigma_{name}": rf"\sigma_{{{name}}}" for name in ("xx", "yy", "zz", "yz", "xz", "xy")},
     **{"normal_stress": r"\sigma_n", "bulk_stress": r"\sigma_B", "pressure": "p", "traction": "q"},
+    "shear_stress": r"\tau",
 }
+
+
+#: What the value of a criterion at a place is called.
+_NAMES = {SWT: "SWT", FATEMI_SOCIE: "FS", FINDLEY: "findley_stress"}
 
 
 @dataclass(frozen=True)
@@ -46,11 +53,14 @@ class Measured:
         0 or 1.
     units
         Labels.
+    criterion
+        Of which s is.
     """
 
     contact: Contact
     body: int
     units: Units
+    criterion: str = SWT
 
     @property
     def swt(self) -> float:
@@ -69,18 +79,34 @@ class Measured:
             "normal_force": (contact.normal_force, "force", "F_N"),
             "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
             "normal_strain": (strain, "1", r"\varepsilon_n"),
-            "s_local": (self.swt, "stress", r"\mathrm{SWT}"),
+            "s_local": self._local(),
             "dissipation": (contact.work_scale, "work", "W"),
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }
 
+    def _local(self) -> tuple[float, str, str]:
+        """Of the value of the criterion at a place."""
+        if self.criterion == FATEMI_SOCIE:
+            shear = self.contact.moduli.shear[self.body]
+            return self.contact.stress_scale / shear, "1", r"\mathrm{FS}"
+        if self.criterion == FINDLEY:
+            return self.contact.stress_scale, "stress", "f"
+        return self.swt, "stress", r"\mathrm{SWT}"
+
     def labels(self) -> dict[str, tuple[float, str]]:
         """By name of a variable its scale, and what an axis of it says."""
-        return {
+        found = {
             name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
             for name, (scale, kind, symbol) in self.scales().items()
             if kind != "1"
         }
+        if self.criterion == FATEMI_SOCIE:
+            scale, _, symbol = self._local()
+            found["s_local"] = scale, f"${symbol}$"
+        if self.criterion != SWT:
+            scale, words = found["normal_stress"]
+            found["normal_stress"] = scale, words.replace(" (", r", $\tau$ (")
+        return found
 
     def places(self, **given: Any) -> dict[str, Any]:
         """Places in lengths as those in a_H that the mechanics is asked for."""
@@ -128,6 +154,14 @@ class Measured:
         return dataset
 
 
+def require_swt(criteria: Iterable[object]) -> None:
+    """Raise a StudyError, a ValueError, where no s of these criteria is of SWT."""
+    names = [str(each) for each in criteria]
+    if SWT not in names:
+        allowed = f"{SWT}; of others solve() has the values in units"
+        raise StudyError([Mistake("criterion", ", ".join(names), allowed)])
+
+
 class InUnits(ABC):
     """What there is of one contact in lengths, forces and stresses."""
 
@@ -148,12 +182,15 @@ class InUnits(ABC):
         return own.with_units(field)
 
     def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
-        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body."""
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
+
+        By a criterion of shear FS, a strain, or findley_stress.
+        """
         from swtstudy.fields.swt import swt_field
 
         own = self._measured(body)
         field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
-        return own.with_units(field, {"s_local": "SWT"})
+        return own.with_units(field, {"s_local": _NAMES[own.criterion]})
 
     def inspect_point(self, body: int = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""

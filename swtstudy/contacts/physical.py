@@ -6,7 +6,7 @@ from typing import Any
 
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
-from swtstudy.units.bodies import LABELS, checked_body
+from swtstudy.units.bodies import LABELS, checked_body, strengths_of_both
 from swtstudy.units.reading import Given, read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
@@ -14,7 +14,7 @@ from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: What is asked of contacts, not given of them.
-_ASKED = ("rtol", "quantities", DISTANCE, "constants", "yield_strength")
+_ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
 def physical(
@@ -29,6 +29,7 @@ def physical(
     contact_length: Any = None,
     bulk_stress_body: Any = 1,
     bodies: Any = None,
+    yield_strength: Any = None,
     **parameters: Any,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
@@ -54,6 +55,8 @@ def physical(
         1 or 2: the body that carries the bulk stress; the other one has none.
     bodies
         Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
+    yield_strength
+        A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
     contact_length
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
@@ -106,8 +109,10 @@ def physical(
     ]
     fixed, axes, wrong = spanned({n: value for n, value in parameters.items() if n not in _ASKED})
     fixed |= {n: _pair(value) for n, value in of_bodies.items() if value is not None}
+    strengths = strengths_of_both(yield_strength, mistakes)
     try:
-        about = Given(bulk_stress_body=checked_body(bulk_stress_body, "bulk_stress_body") - 1)
+        carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
+        about = Given(bulk_stress_body=carrier, yield_strengths=strengths)
     except StudyError as error:
         about, mistakes = Given(), [*mistakes, *error.mistakes]
     if "body" not in parameters:

@@ -12,6 +12,7 @@ from swtstudy.fields.forces import course
 from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
 from swtstudy.mechanics.contact.cycle import NO_SLIP
+from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -80,13 +81,19 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[N
     share
         Shape (T,): time in cycles.
     curves
-        Depth and displacement over it, or without them the forces; if stress and strain on the critical
-        plane are there, they come first.
+        Depth and displacement over it, or without them the forces; if stress and strain, or shear stress, on
+        the critical plane are there, they come first.
     """
     of_swt: dict[str, np.intp] = {}
     if "normal_stress" in curves:
         of_swt["σ_n largest"] = curves["normal_stress"].argmax()
-        of_swt["ε_n smallest"] = curves["normal_strain"].argmin()
+    if NORMAL_STRAIN.name in curves:
+        of_swt["ε_n smallest"] = curves[NORMAL_STRAIN.name].argmin()
+    if SHEAR_STRESS.name in curves:
+        of_swt |= {
+            "τ largest": curves[SHEAR_STRESS.name].argmax(),
+            "τ smallest": curves[SHEAR_STRESS.name].argmin(),
+        }
     names = {"δ": "depth", "u": "displacement"}
     if "depth" not in curves:
         names = {"F_N": "normal_force", "F_x": "tangential_force"}
@@ -108,7 +115,8 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[N
     for reason, index in extremes.items():
         if len(marked) < _MARKED and distance[index] >= _APART and (reason in of_swt or touching[index]):
             mark(int(index), reason)
-    moving = curves["normal_strain" if of_swt else tangential]
+    swings = (NORMAL_STRAIN.name, SHEAR_STRESS.name)
+    moving = next((curves[name] for name in swings if name in curves), curves[tangential])
     while len(marked) < _MARKED and np.ptp(moving) > 0.0:
         mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
     order = sorted(marked)

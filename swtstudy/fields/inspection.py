@@ -32,7 +32,6 @@ from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.solving import solve
-from swtstudy.vocabulary.criteria import SWT
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.prescribed import PAIRS
 
@@ -63,10 +62,10 @@ def inspect_point(**parameters: object) -> xr.Dataset:
           normal_force F_N/F_0 and tangential_force F_x/(μF_0), two of which are prescribed; edge_state, that
           of the contact next to its edge (open, stick, forward or backward slip) from each instant to the
           next; contact_radius, slip_radius; normal_stress
-          and normal_strain on the critical plane at the critical point, and sigma_xx, sigma_xz there; with a
-          bulk stress bulk_stress, its part of sigma_xx;
+          and normal_strain (by a criterion of shear shear_stress in its place) on the critical plane at the
+          critical point, and sigma_xx, sigma_xz there; with a bulk stress bulk_stress, its part of sigma_xx;
         - over time and r: state (open, stick, forward or backward slip);
-        - over x: s_local, that is swt on the surface line;
+        - over x: s_local, that is swt, or the value of the criterion, on the surface line;
         - at a few marked instants, with their instant_time and reason: pressure p and traction q over x;
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
@@ -75,7 +74,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), least_radius and
           largest_radius of the contact.
 
-        Lengths in a_H, stresses in E* √(δ0/R), strains in √(δ0/R), swt in E* δ0/R.
+        Lengths in a_H, stresses in E* √(δ0/R), strains in √(δ0/R), swt in E* δ0/R, the values of other
+        criteria in E* √(δ0/R).
 
     Raises
     ------
@@ -90,10 +90,6 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     1.0
     """
     points = read_point(parameters)
-    if points.criterion != SWT:
-        raise StudyError(
-            [Mistake("criterion", points.criterion, f"{SWT}: what is shown is about that alone")]
-        )
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
     if REGIMES[int(solved.regime)] == "no_equilibrium":
         raise StudyError([no_equilibrium(points, parameters)])
@@ -111,7 +107,11 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     shown: Variables = {
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(line.swt[0, :, 0], line.swt[0, :, -1]), named("SWT parameter", "swt")),
+        "s_local": (
+            "x",
+            _both_sides(line.swt[0, :, 0], line.swt[0, :, -1]),
+            named(scene.criterion.words.replace("–", "-"), scene.criterion.symbol),
+        ),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
@@ -195,14 +195,11 @@ def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float)
     bulk: Variables = {}
     if history.bulk is not None:
         bulk["bulk_stress"] = "time", history.bulk[0, 0], named("bulk stress", r"\sigma_B")
+    swing = scene.criterion.swing
     on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
     return {
         "normal_stress": ("time", on_plane[0][0, 0], named("stress normal to the plane", r"\sigma_n")),
-        "normal_strain": (
-            "time",
-            on_plane[1][0, 0],
-            named("strain normal to the plane", r"\varepsilon_n"),
-        ),
+        swing.name: ("time", on_plane[1][0, 0], named(swing.words, swing.symbol)),
         "sigma_xx": ("time", sigma_xx[0, 0], named("stress xx", r"\sigma_{xx}")),
         "sigma_xz": ("time", sigma_xz[0, 0], named("stress xz", r"\sigma_{xz}")),
         **bulk,

@@ -10,6 +10,7 @@ from swtstudy.figures.maps import draw_time_axis
 from swtstudy.figures.panel_marks import (
     DOTTED,
     FAINT,
+    SECOND,
     draw_direction,
     draw_edge_states,
     instants,
@@ -18,6 +19,7 @@ from swtstudy.figures.panel_marks import (
     mark_over_time,
     thin,
 )
+from swtstudy.figures.style import DASHES
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,9 +46,12 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
 def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
     """Both forces over the cycle, the tangential one between its bounds."""
     time = dataset.time
-    axes.plot(time, dataset.normal_force, label=_words(dataset, "normal_force"))
-    axes.plot(time, dataset.tangential_force, label=_words(dataset, "tangential_force"))
-    axes.plot(time, -dataset.normal_force, color=FAINT, linestyle=DOTTED, linewidth=thin(), marker="")
+    normal, tangential = (_words(dataset, name) for name in ("normal_force", "tangential_force"))
+    axes.plot(time, dataset.normal_force, color="black", linestyle="-", marker="", label=normal)
+    look: dict[str, Any] = {"color": SECOND, "linestyle": DASHES[1], "marker": ""}
+    axes.plot(time, dataset.tangential_force, label=tangential, **look)
+    bound: dict[str, Any] = {"color": "black", "linestyle": DOTTED, "linewidth": thin(), "marker": ""}
+    axes.plot(time, -dataset.normal_force, label=f"$-${normal}", **bound)
     axes.axhline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     both = np.concatenate([dataset.normal_force.values, dataset.tangential_force.values])
     axes.set_ylim(limits(both, 0.08, 0.34))
@@ -54,7 +59,7 @@ def draw_forces(axes: Axes, dataset: xr.Dataset) -> None:
         axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
     draw_time_axis(axes, time)
     mark_over_time(axes, dataset, 0.94)
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=2, fontsize="small")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=3, fontsize="small")
     axes.set_title("forces over the cycle", loc="left")
 
 

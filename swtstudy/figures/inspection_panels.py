@@ -12,16 +12,22 @@ from swtstudy.figures.panel_marks import (
     DASHED,
     DOTTED,
     FAINT,
+    SECOND,
     bold,
     dot,
     draw_direction,
     draw_edge_states,
+    instant_colour,
     instants,
     limits,
     mark_along,
     mark_over_time,
     thin,
 )
+from swtstudy.figures.style import DASHES
+from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
+from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.criteria import SWT, SYMBOLS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,6 +35,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
+#: Room below and above the curves of the stress cycle, over their range.
+_ROOM = (0.2, 0.22)
 #: What is prescribed, by the coordinate ``control``.
 _PRESCRIBED = {
     "displacements": "$u$ and $\\delta$",
@@ -93,6 +101,7 @@ def draw_springs(axes: Axes, dataset: xr.Dataset) -> None:
     axes.legend(
         title="instant", handlelength=2.0, fontsize="small", title_fontsize="small", loc="upper right"
     )
+    _caption(axes, r"thin: $\pm w$")
     axes.set_xlim(0.0, 1.05 * float(dataset.largest_radius))
     axes.set_xlabel(r"$\xi/a_H$")
     axes.set_ylabel(f"${dataset.force.attrs['symbol']}$")
@@ -112,46 +121,63 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
     largest = 1.08 * float(dataset.largest_radius)
     axes.set_xlim(-largest, largest)
     axes.axvline(float(dataset.shown_x), color="black", linewidth=thin(), linestyle=DASHED)
+    _caption(axes, r"thin: $\pm\mu p$;  dashed: $x$ of (E)")
     axes.set_xlabel("$x/a_H$")
     axes.set_ylabel(r"$q\,a_H/(E^* \delta_0)$")
     axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
 
 
 def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
-    """The cycle of stress and strain on the critical plane."""
-    time, stress, strain = dataset.time, dataset.normal_stress, dataset.normal_strain
-    (line,) = axes.plot(time, stress, label=r"$\sigma_n$")
-    other = axes.twinx()
-    other.plot([], [])  # advances the property cycle, for another colour
-    (dashed,) = other.plot(time, strain, label=r"$\varepsilon_n$")
-    other.grid(False)
+    """The cycle of σ_n and of what swings on the critical plane, ε_n or τ."""
+    time, stress = dataset.time, dataset.normal_stress
+    swing = next(dataset[each.name] for each in (NORMAL_STRAIN, SHEAR_STRESS) if each.name in dataset)
+    symbol, is_strain = swing.attrs["symbol"], swing.name == NORMAL_STRAIN.name
+    (line,) = axes.plot(time, stress, color="black", linestyle="-", marker="", label=r"$\sigma_n$")
+    # A shear stress has the axis of the normal one.
+    other = axes.twinx() if is_strain else axes
+    look: dict[str, Any] = {"color": SECOND, "linestyle": DASHES[1], "marker": ""}
+    (dashed,) = other.plot(time, swing, label=f"${symbol}$", **look)
     peak = int(stress.values.argmax())
     axes.plot(time[peak], stress[peak], marker="o", markersize=dot(), color=line.get_color(), linestyle="")
-    high, low = float(strain.max()), float(strain.min())
+    high, low = float(swing.max()), float(swing.min())
     for level in (high, low):
-        other.axhline(level, color=dashed.get_color(), linewidth=thin(), alpha=0.7)
+        other.axhline(level, color=SECOND, linewidth=thin(), alpha=0.7)
     at = 0.93 * float(time[-1])
-    arrow = {"arrowstyle": "<->", "color": dashed.get_color(), "shrinkA": 0, "shrinkB": 0}
+    arrow = {"arrowstyle": "<->", "color": SECOND, "shrinkA": 0, "shrinkB": 0}
     other.annotate("", xy=(at, high), xytext=(at, low), arrowprops=arrow)
     box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-    words: dict[str, Any] = {"color": dashed.get_color(), "ha": "right", "va": "center", "bbox": box}
-    other.text(0.915 * float(time[-1]), 0.5 * (high + low), r"$\Delta\varepsilon_n$", **words)
+    words: dict[str, Any] = {"color": SECOND, "ha": "right", "va": "center", "bbox": box}
+    other.text(0.915 * float(time[-1]), 0.5 * (high + low), rf"$\Delta{symbol}$", **words)
     for when in dataset.instant_time.values:
         axes.axvline(when, color="black", linewidth=thin(), alpha=0.35)
     draw_time_axis(axes, dataset.time)
-    axes.set_ylabel(r"$\sigma_n\,a_H/(E^* \delta_0)$", color=line.get_color())
-    other.set_ylabel(r"$\varepsilon_n\,a_H/\delta_0$", color=dashed.get_color())
-    shown = stress.values
+    handles, shown = [line, dashed], stress.values
     if "bulk_stress" in dataset:
-        look: dict[str, Any] = {"color": line.get_color(), "linestyle": DOTTED, "marker": ""}
-        axes.plot(time, dataset.bulk_stress, **look, label=r"$\sigma_B$")
-        axes.text(0.02, 0.03, r"dotted: $\sigma_B$", transform=axes.transAxes, color=line.get_color())
+        (dotted,) = axes.plot(time, dataset.bulk_stress, color="black", linestyle=DOTTED, label=r"$\sigma_B$")
+        handles.append(dotted)
         shown = np.concatenate([shown, dataset.bulk_stress.values])
-    for one, values in ((axes, shown), (other, strain.values)):
-        one.set_ylim(limits(values, 0.08, 0.22))
+    _scale_stress(axes, other, shown, swing.values)
+    unit = r"a_H/(E^* \delta_0)"
+    axes.set_ylabel(rf"$\sigma_n\,{unit}$" if is_strain else rf"$\sigma_n\,{unit}$, $\tau\,{unit}$")
+    if is_strain:
+        other.grid(False)
+        other.set_ylabel(r"$\varepsilon_n\,a_H/\delta_0$", color=SECOND)
+    axes.legend(handles=handles, loc="lower left", ncols=3, fontsize="small", handlelength=2.0)
     mark_over_time(axes, dataset, 0.94)
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
     axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
+
+
+def _scale_stress(axes: Axes, other: Axes, stress: FloatArray, swing: FloatArray) -> None:
+    """Limits with room for marks above and a legend below; on two axes the zeros are at one height."""
+    if other is axes:
+        axes.set_ylim(limits(np.concatenate([stress, swing]), *_ROOM))
+        return
+    ends = np.array([limits(np.append(values, 0.0), *_ROOM) for values in (stress, swing)])
+    share = ends / np.ptp(ends, axis=1)[:, None]
+    low, high = share[:, 0].min(), share[:, 1].max()
+    for one, span in zip((axes, other), np.ptp(ends, axis=1), strict=True):
+        one.set_ylim(low * span, high * span)
 
 
 def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
@@ -159,8 +185,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     x, largest = float(dataset.shown_x), float(dataset.largest_radius)
     found = float(dataset.s) if _is_finite(dataset) else float(dataset.s_local.max())
     top = found or 1.0
-    (line,) = axes.plot(dataset.x, dataset.s_local)
-    axes.fill_between(dataset.x, 0.0, dataset.s_local, color=line.get_color(), alpha=0.12, linewidth=0)
+    axes.plot(dataset.x, dataset.s_local, color="black", linestyle="-", marker="")
     stick, least = float(dataset.permanent_stick_radius), float(dataset.least_radius)
     if stick > 0.0:
         axes.axvspan(-stick, stick, color="0.85", zorder=0)
@@ -175,9 +200,11 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_xlim(-1.2 * largest, 1.2 * largest)
     axes.set_ylim(0.0, 1.45 * top)
     axes.set_xlabel("$x/a_H$")
-    axes.set_ylabel(r"$\mathrm{swt}/\mathrm{SWT}_0$")
+    criterion = str(dataset.s.attrs.get("criterion", SWT))
+    axes.set_ylabel(r"$\mathrm{swt}/\mathrm{SWT}_0$" if criterion == SWT else f"${SYMBOLS[criterion]}$")
     words = "" if _is_finite(dataset) else "; dot: largest sampled"
-    axes.set_title(f"swt along the surface{words}", loc="left")
+    what = "swt" if criterion == SWT else dataset.s_local.attrs["long_name"].replace("-", "–")
+    axes.set_title(f"{what} along the surface{words}", loc="left")
     _draw_plane(axes, dataset)
 
 
@@ -216,10 +243,21 @@ def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple
     """One line for each marked instant, with its number."""
     lines = []
     for number in dataset.instant.values:
-        (line,) = axes.plot(dataset[along], dataset[name].sel(instant=number), label=str(number))
+        values = dataset[name].sel(instant=number)
+        look: dict[str, Any] = {
+            "color": instant_colour(number),
+            "linestyle": DASHES[(number - 1) % len(DASHES)],
+        }
+        (line,) = axes.plot(dataset[along], values, label=str(number), marker="", **look)
         lines.append((int(number), line))
     axes.axhline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     return lines
+
+
+def _caption(axes: Axes, words: str) -> None:
+    """What faint lines are, in the lower left corner."""
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
+    axes.text(0.02, 0.02, words, transform=axes.transAxes, color="0.25", fontsize="small", bbox=box)
 
 
 def _bound(line: Line2D) -> dict[str, Any]:

@@ -15,8 +15,10 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: Grey of guide lines.
-FAINT = "0.55"
+#: Grey of guide lines, and of the second of two curves. A colour is a state of the contact, or an instant.
+FAINT, SECOND = "0.55", "0.4"
+#: Of the marked instants: none of those of stick and slip.
+_INSTANTS = ("#009E73", "#CC79A7", "#D55E00", "#56B4E9")
 #: Their dashes.
 DASHED, DOTTED = (0, (4, 2)), (0, (1, 1.5))
 #: Widths of guide lines, and of the band that shows stick and slip along a loop, over that of a curve.
@@ -27,6 +29,11 @@ _DOT, _NUMBER = 1.75, 0.75
 _NEAR = 0.02
 #: A curve whose range is a smaller fraction of its size is constant but for rounding.
 _ROUNDING = 1e-13
+
+
+def instant_colour(number: int) -> str:
+    """Colour of a marked instant, counted from 1."""
+    return _INSTANTS[(int(number) - 1) % len(_INSTANTS)]
 
 
 def bold() -> float:
@@ -110,6 +117,7 @@ def _mark(axes: Axes, marks: list[tuple[int, float, float]]) -> None:
     for group in groups:
         words = ", ".join(str(number) for number, _, _ in group)
         shape = "circle,pad=0.18" if len(group) == 1 else "round,pad=0.18,rounding_size=0.6"
-        disc = {"boxstyle": shape, "facecolor": "white", "edgecolor": "black", "linewidth": 0.8}
+        edge = instant_colour(group[0][0])
+        disc = {"boxstyle": shape, "facecolor": "white", "edgecolor": edge, "linewidth": 1.4}
         look: dict[str, Any] = {"fontsize": _NUMBER * rcParams["font.size"], "bbox": disc, "zorder": 5}
         axes.text(*group[0][1:], words, ha="center", va="center", **look)

@@ -33,6 +33,10 @@ NO_SWING, NO_SHARE = 1e-100, 1e-9
 class Swing(ABC):
     """A functional of the stress on a plane."""
 
+    #: As a variable, what a reader calls it, and its symbol in LaTeX.
+    name: ClassVar[str]
+    words: ClassVar[str]
+    symbol: ClassVar[str]
     #: Whether it goes with one over E.
     is_strain: ClassVar[bool]
 
@@ -98,6 +102,9 @@ class Swing(ABC):
 class NormalStrain(Swing):
     """ε_n."""
 
+    name: ClassVar[str] = "normal_strain"
+    words: ClassVar[str] = "strain normal to the plane"
+    symbol: ClassVar[str] = r"\varepsilon_n"
     is_strain: ClassVar[bool] = True
 
     def on_planes(
@@ -150,6 +157,11 @@ class NormalStrain(Swing):
 class ShearStress(Swing):
     """τ: in the section a number; on other planes a vector, of which the largest chord of its path counts."""
 
+    name: ClassVar[str] = "shear_stress"
+    words: ClassVar[str] = "shear stress on the plane"
+    symbol: ClassVar[str] = r"\tau"
+    is_strain: ClassVar[bool] = False
+
     def in_section(self, tension: FloatArray, yy: FloatArray, poisson_ratio: FloatArray) -> FloatArray:
         _, b, c = tension
         return np.stack([np.zeros_like(b), c, -b])
@@ -158,8 +170,6 @@ class ShearStress(Swing):
         self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
     ) -> FloatArray:
         return stress
-
-    is_strain: ClassVar[bool] = False
 
     def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:
         shape = tensor.shape[:-1]
