@@ -11,12 +11,14 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 import swtstudy
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.vocabulary.wording import place_words
 
 STUDY = Path(__file__).with_suffix(".toml")
 #: The displacement in the place of each force.
@@ -24,7 +26,6 @@ PAIRS = {
     "normal_force_amplitude": "normal_amplitude",
     "tangential_force_amplitude": "tangential_amplitude",
 }
-COLOURS = ("#0072B2", "#D55E00", "#009E73")
 
 
 def both(phases: int | None) -> tuple[xr.Dataset, xr.Dataset]:
@@ -45,16 +46,30 @@ def main() -> None:
     given = arguments.parse_args()
     forces, displacements = both(4 if given.quick else None)
     ratios = forces.frequency_ratio.values
-    figure = Figure((10.0, 3.8), layout=ConstrainedLayoutEngine())
-    panels = figure.subplots(1, len(ratios), sharey=True)
-    for axes, ratio in zip(panels, ratios, strict=True):
-        for colour, amplitude in zip(COLOURS, forces.tangential_force_amplitude.values, strict=True):
+    with styled(width="page"):
+        sheet = Sheet(1, len(ratios), "page", least_height=2.4)
+        figure = sheet.figure()
+        panels = sheet.panels(figure)[0]
+        draw(panels, forces, displacements)
+        handles, labels = panels[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    save_figure(figure, given.results / "force_and_displacement.png")
+
+
+def draw(panels, forces: xr.Dataset, displacements: xr.Dataset) -> None:  # type: ignore[no-untyped-def]
+    """s over the phase, a panel for each frequency ratio; numbers are printed."""
+    looks = tuple(zip(COLOURS, MARKERS[1:], strict=False))
+    for letter, axes, ratio in zip("ABCDEFG", panels, forces.frequency_ratio.values, strict=False):
+        amplitudes = forces.tangential_force_amplitude.values
+        for (colour, marker), amplitude in zip(looks, amplitudes, strict=False):
             at = {"frequency_ratio": ratio}
             force = forces.s.sel(tangential_force_amplitude=amplitude, **at)
             displacement = displacements.s.sel(tangential_amplitude=amplitude, **at)
-            degrees = np.degrees(forces.phase.values)
-            axes.plot(degrees, force, color=colour, label=f"{amplitude:g}, forces")
-            axes.plot(degrees, displacement, "--", color=colour, label=f"{amplitude:g}, displacements")
+            phase = forces.phase.values
+            look = {"color": colour, "marker": marker, "markevery": 0.14}
+            axes.plot(phase, force, linestyle="-", label=rf"$Q_A/(\mu F_0)$ = {amplitude:g}", **look)
+            words = rf"$G^* u_A/(\mu E^* \delta_0)$ = {amplitude:g}"
+            axes.plot(phase, displacement, linestyle="--", mfc="white", label=words, **look)
             swings = [float(each.max() / each.min()) for each in (force, displacement)]
             lower = 1.0 - (force.values / displacement.values)
             print(
@@ -62,17 +77,10 @@ def main() -> None:
                 f"{100 * lower.max():.0f} %; largest over least s {swings[0]:.2f}, "
                 f"by displacements {swings[1]:.2f}"
             )
-        axes.set(
-            title=rf"$\omega_2/\omega_1$ = {ratio:g}", xlabel=r"$\psi$ in degrees", xticks=range(0, 361, 90)
-        )
-        axes.grid(color="0.9", linewidth=0.6)
-    panels[0].set(ylabel="s", ylim=(0, None))
-    words = r"$Q_A/(\mu F_0)$ or $G^* u_A/(\mu E^* \delta_0)$;  $F_A/F_0$ or $\delta_A/\delta_0$ = 0.4"
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(
-        handles, labels, title=words, loc="outside lower center", ncols=3, frameon=False, fontsize=8
-    )
-    figure.savefig(given.results / "force_and_displacement.png", dpi=150)
+        axes.set_title(f"({letter})  {place_words('frequency_ratio', ratio)}")
+        axes.set_xlabel(r"$\psi$ (rad)")
+        tick_in_pi(axes.xaxis, float(phase.min()), float(phase.max()))
+    panels[0].set(ylabel="$s$", ylim=(0, None))
 
 
 if __name__ == "__main__":

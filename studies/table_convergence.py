@@ -15,9 +15,11 @@ from pathlib import Path
 import numpy as np
 from accuracy import random_points
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import COLOURS, MARKERS, styled
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.vocabulary.families import FAMILIES, is_plane
@@ -37,6 +39,8 @@ SHAPES: dict[str, dict[str, float]] = {
 }
 
 Array = NDArray[np.float64]
+#: Abscissae, median and largest errors.
+Curve = tuple[Array, Array, Array]
 
 
 def height(name: str, r: Array) -> Array:
@@ -78,8 +82,7 @@ def main() -> None:
     given = arguments.parse_args()
     box = random_points("paraboloid", 1 if given.quick else POINTS, seed=1)
     counts, amounts, rtol = (COUNTS[:2], NOISE[:2], 1e-2) if given.quick else (COUNTS, NOISE, RTOL)
-    figure = Figure((7.0, 3.4), layout=ConstrainedLayoutEngine())
-    left, right = figure.subplots(1, 2, sharey=True)
+    curves: list[tuple[str, Curve]] = []
     for name, shape in SHAPES.items():
         exact, errors = of_profile(box, name, shape, rtol), []
         for count in counts:
@@ -87,23 +90,38 @@ def main() -> None:
             geometry = FAMILIES[name].geometry
             table = TabulatedProfile(f"{name} of {count}", r, height(name, r), geometry=geometry)
             errors.append(np.abs(of_profile(box, table, {}, rtol) / exact - 1.0))
-        draw(left, counts, errors, name.replace("_", " "))
+        curves.append((name.replace("_", " "), found(name, counts, errors)))
     exact = of_profile(box, "paraboloid", {}, rtol)
     errors = [np.abs(of_profile(box, noisy(amount), {}, rtol) / exact - 1.0) for amount in amounts]
-    draw(right, amounts, errors, f"paraboloid of {NOISY} points")
-    left.set(xlabel="points of the table", ylabel="relative error of s: median and largest")
-    right.set(xlabel="noise over δ0, smoothed as much")
-    figure.savefig(given.results / "table_convergence.png", dpi=150)
+    noisy_ones = f"paraboloid of {NOISY} points", found("noisy paraboloid", amounts, errors)
+    save_figure(chart(curves, noisy_ones), given.results / "table_convergence.png")
 
 
-def draw(axes, at, errors, label) -> None:  # type: ignore[no-untyped-def]
-    """Median and largest errors, and print them."""
+def found(name: str, at: tuple[float, ...], errors: list[Array]) -> Curve:
+    """Abscissae, median and largest errors, which are printed."""
     median, largest = (np.array([of(error) for error in errors]) for of in (np.median, np.max))
-    (line,) = axes.loglog(at, median, "o-", label=label)
-    axes.loglog(at, largest, "o:", color=line.get_color())
-    axes.legend(frameon=False, fontsize=8)
     for where, middle, most in zip(at, median, largest, strict=True):
-        print(f"{label}, {where:g}: median {middle:.1e}, largest {most:.1e}")
+        print(f"{name}, {where:g}: median {middle:.1e}, largest {most:.1e}")
+    return np.array(at), median, largest
+
+
+def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Figure:
+    """Errors over the number of points, and over the noise: markers tell curves apart in grey."""
+    with styled(width="page"):
+        sheet = Sheet(1, 2, "page", least_height=3.2)
+        figure = sheet.figure()
+        left, right = sheet.panels(figure, share_x="none")[0]
+        looks = list(zip(COLOURS, MARKERS[1:], strict=False))
+        several = [(left, *each) for each in curves] + [(right, *noisy_ones)]
+        for (axes, label, (at, median, largest)), (color, marker) in zip(several, looks, strict=False):
+            look = {"color": color, "marker": marker}
+            axes.loglog(at, median, linestyle="-", label=label, **look)
+            axes.loglog(at, largest, linestyle=":", mfc="none", **look)
+            axes.legend()
+        left.set(xlabel="points of the table", ylabel="relative error of $s$")
+        left.set_title("(A)  median, filled; largest, open")
+        right.set(xlabel=r"noise over $\delta_0$, smoothed as much", title="(B)  with noise")
+    return figure
 
 
 if __name__ == "__main__":

@@ -17,17 +17,21 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 import swtstudy
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import COLOURS, MARKERS, styled
 
 YOUNG, POISSON, FRICTION = 205e3, 0.3, 0.8
 #: Yield strength, and fatigue limits in reversed bending and torsion, MPa.
 YIELD, BENDING, TORSION = 950.0, 575.0, 386.0
 #: Depths in mm.
 DEPTHS = (0.0, 0.005, 0.010, 0.015, 0.020)
+#: Those that the figure shows.
+SHOWN = (0.0, 0.005, 0.010, 0.020)
 
 Array = NDArray[np.float64]
 
@@ -135,7 +139,7 @@ def main() -> None:
         print(f"{test.name:<46}{_row(row)}")
     for words, row in _mean_and_scatter(np.array(peaks)):
         print(f"{words:<46}{_row(row)}")
-    draw(tests, np.array(sizes), table).savefig(given.results / "thresholds_35NCD16.png", dpi=150)
+    save_figure(draw(tests, np.array(sizes), table), given.results / "thresholds_35NCD16.png")
 
 
 def _heads() -> str:
@@ -154,19 +158,22 @@ def _mean_and_scatter(table: Array) -> tuple[tuple[str, Array], ...]:
 
 def draw(tests: tuple[Test, ...], sizes: Array, table: Array) -> Figure:
     """√(SWT E)/σ_−1 at the thresholds over the half-width: one marker a test."""
-    figure = Figure((7.0, 4.2), layout=ConstrainedLayoutEngine())
-    axes = figure.subplots()
     pulled = np.array([test.bulk > 0.0 for test in tests])
-    for color, depth in zip(("C3", "C1", "C0", "C2"), (0.0, 0.005, 0.010, 0.020), strict=True):
-        column = table[:, DEPTHS.index(depth)]
-        words = "surface" if depth == 0.0 else f"{1e3 * depth:.0f} µm"
-        axes.plot(sizes[~pulled], column[~pulled], "o", color=color, label=words)
-        axes.plot(sizes[pulled], column[pulled], "^", color=color, mfc="none")
-    axes.axhline(1.0, color="0.4", lw=0.8)
-    axes.set(xlabel="half-width a in mm", ylabel=r"$\sqrt{\mathrm{SWT}\,E}\,/\,\sigma_{-1}$", xlim=(0, None))
-    axes.set_title("at the threshold of crack initiation; triangles: with bulk stress", fontsize=10)
-    axes.legend(title="beneath the edge", frameon=False, ncols=2)
-    axes.set_ylim(0.6, None)
+    with styled(width="page"):
+        sheet = Sheet(1, 1, "page", least_height=4.0)
+        figure = sheet.figure()
+        axes = sheet.panels(figure)[0, 0]
+        for color, marker, depth in zip(COLOURS, MARKERS[1:], SHOWN, strict=False):
+            column = table[:, DEPTHS.index(depth)]
+            words = "surface" if depth == 0.0 else f"{1e3 * depth:.0f} µm"
+            look = {"linestyle": "none", "marker": marker, "color": color, "markersize": 4.5}
+            axes.plot(sizes[~pulled], column[~pulled], label=words, **look)
+            axes.plot(sizes[pulled], column[pulled], mfc="white", **look)
+        axes.axhline(1.0, color="0.4", linestyle="-", marker="", linewidth=0.8)
+        axes.set(xlabel="half-width $a$ (mm)", xlim=(0, None), ylim=(0.6, None))
+        axes.set_ylabel(r"$\sqrt{\mathrm{SWT}\,E}\,/\,\sigma_{-1}$")
+        axes.set_title("at the threshold of crack initiation; open: with bulk stress")
+        axes.legend(title="beneath the edge", ncols=2)
     return figure
 
 

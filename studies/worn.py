@@ -15,11 +15,13 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 import swtstudy
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import COLOURS, MARKERS, styled
 
 TABLES = Path(__file__).parent / "worn"
 RADIUS, FORCE, FRICTION = 50.0, 200.0, 0.5
@@ -90,35 +92,44 @@ def main() -> None:
     if given.tables:
         write_tables()
     depths, count = (WEAR[:1], 50) if given.quick else (WEAR, 1500)
-    figure = Figure((9.0, 3.6), layout=ConstrainedLayoutEngine())
-    shapes, pressures, values = figure.subplots(1, 3)
     r = np.linspace(1e-6, 1.0, count)
-    of_new = {share: swt_of(contact_of(share)) for share in SHARES}
-    for color, (name, blend) in zip(("C3", "C0"), BLENDS.items(), strict=True):
-        pads = [pad(name, wear) for wear in depths]
-        half = min(4, len(pads) - 1)
-        label = f"{name} blend (±{100 * blend:g} %)"
-        shapes.plot(pads[half].radius, 1e3 * pads[half].height, color=color, label=label)
-        contact = contact_of(SHARES[0], pads[half])
-        pressures.plot(r, pressure(contact, r), color=color)
-        for style, share in zip(("-", "--"), SHARES, strict=True):
-            swt = [of_new[share], *(swt_of(contact_of(share, one)) for one in pads)]
-            values.plot((0.0, *depths), swt, style, color=color, marker=".", label=f"{name}, {share:g}")
+    pads = {name: [pad(name, wear) for wear in depths] for name in BLENDS}
+    figure = chart(depths, pads, r)
+    save_figure(figure, given.results / "worn.png")
+
+
+def chart(depths: tuple[float, ...], pads: dict[str, list[swtstudy.TabulatedProfile]], r: Array) -> Figure:
+    """Shapes and pressures half way, and SWT over the wear: dashes and markers tell them apart in grey."""
+    half = min(4, len(depths) - 1)
     new = contact_of(SHARES[0])
-    shapes.plot(r, 1e3 * r**2 / (2.0 * RADIUS) - depths[half], ":", color="0.5", label="new, shifted")
-    pressures.plot(r, pressure(new, r), ":", color="0.5")
-    shapes.set(
-        xlabel="r in mm",
-        ylabel="height in µm",
-        xlim=(0, 1),
-        ylim=(-2.5, 8),
-        title=f"worn by {depths[half]:g} µm",
-    )
-    shapes.legend(frameon=False, fontsize=8)
-    pressures.set(xlabel="r in mm", ylabel="pressure in MPa", xlim=(0, 1), ylim=(0, None))
-    values.set(xlabel="wear in µm", ylabel="SWT in MPa", xlim=(0, None), ylim=(0, None))
-    values.legend(title="blend, $Q_A/(\\mu F_0)$", frameon=False, fontsize=8)
-    figure.savefig(given.results / "worn.png", dpi=150)
+    with styled(width="page"):
+        sheet = Sheet(1, 3, "page", least_height=2.4)
+        figure = sheet.figure()
+        shapes, pressures, values = sheet.panels(figure, share_x="none", share_y="none")[0]
+        looks = zip(COLOURS, ("-", "--"), MARKERS[1:], BLENDS.items(), strict=False)
+        for color, dashes, marker, (name, blend) in looks:
+            look = {"color": color, "linestyle": dashes, "marker": ""}
+            middle = pads[name][half]
+            shapes.plot(middle.radius, 1e3 * middle.height, label=f"{name} (±{100 * blend:g} %)", **look)
+            pressures.plot(r, pressure(contact_of(SHARES[0], middle), r), **look)
+            for share, fill in zip(SHARES, ("white", color), strict=True):
+                contacts = [new if share == SHARES[0] else contact_of(share)]
+                contacts += [contact_of(share, one) for one in pads[name]]
+                look |= {"marker": marker, "mfc": fill}
+                swt = [swt_of(contact) for contact in contacts]
+                values.plot((0.0, *depths), swt, label=f"{name}, {share:g}", **look)
+        faint = {"linestyle": ":", "color": "0.4", "marker": ""}
+        shapes.plot(r, 1e3 * r**2 / (2.0 * RADIUS) - depths[half], **faint, label="new, shifted")
+        pressures.plot(r, pressure(new, r), **faint)
+        shapes.set(xlabel="$r$ (mm)", ylabel="height (µm)", xlim=(0, 1), ylim=(-2.5, 8))
+        shapes.set_title(f"(A)  worn by {depths[half]:g} µm")
+        shapes.legend(title="blend", loc="upper left")
+        pressures.set(xlabel="$r$ (mm)", ylabel="pressure (MPa)", xlim=(0, 1), ylim=(0, None))
+        pressures.set_title("(B)  pressure of these")
+        values.set(xlabel="wear (µm)", ylabel="SWT (MPa)", xlim=(0, None), ylim=(0, None))
+        values.set_title(r"(C)  SWT at $Q_A/(\mu F_0)$")
+        values.legend(loc="lower left")
+    return figure
 
 
 def pressure(contact: PhysicalContact, r: Array) -> Array:

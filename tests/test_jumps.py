@@ -9,7 +9,10 @@ import xarray as xr
 from made_up import made_up
 
 from swtstudy.figures.draw import draw
+from swtstudy.figures.figure import Figure
 from swtstudy.figures.lines import may_jump, place_jumps
+from swtstudy.figures.ticks import tick_in_ratios
+from swtstudy.figures.wrap import wrap_texts
 from swtstudy.study.figure import FigureLayout
 
 X = np.linspace(0.0, 2.0 * np.pi, 49)
@@ -55,6 +58,45 @@ def test_the_line_of_a_place_breaks_and_both_ends_are_marked() -> None:
     assert marks.get_linestyle() == "None"
     (whole,) = draw(places(), FigureLayout("phase", y=("s",))).axes[0].lines
     assert np.isfinite(whole.get_ydata()).all()
+
+
+def test_in_an_upright_figure_the_marks_are_at_the_ends_too() -> None:
+    dataset = places()
+    dataset["critical_x"] = np.exp(5.0 * dataset.critical_x).assign_attrs(dataset.critical_x.attrs)
+    (axes,) = draw(dataset, FigureLayout("phase", y=("critical_x",), kind="life")).axes
+    _, marks = axes.lines
+    first = int(np.argmax(X >= 3.0))
+    assert marks.get_xdata() == pytest.approx(np.exp([4.5, -4.0]))
+    assert marks.get_ydata() == pytest.approx([X[first - 1], X[first]])
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [(2.0, 900.0, ["5", "10", "20"]), (6e4, 5e6, [r"$10^{5}$", r"$2\cdot10^{5}$", r"$5\cdot10^{5}$"])],
+)
+def test_numbers_of_a_short_logarithmic_axis_are_of_one_kind(
+    low: float, high: float, words: list[str]
+) -> None:
+    axes = Figure().subplots()
+    axes.set_yscale("log")
+    axes.set_ylim(low, high)
+    tick_in_ratios(axes.yaxis, low, high)
+    axes.figure.draw_without_rendering()
+    shown = [text.get_text() for text in axes.get_yticklabels()]
+    at = shown.index(words[0])
+    assert shown[at : at + 3] == words
+    assert len({"$" in each for each in shown}) == 1
+
+
+def test_a_long_label_is_no_taller_than_its_panel() -> None:
+    figure = Figure((4.0, 3.2))
+    figure.width = None
+    axes = figure.subplots()
+    axes.set_ylabel("mean of SWT over a volume of the body, $\\mathrm{SWT}_V$ (MPa)")
+    wrap_texts(figure)
+    figure.draw_without_rendering()
+    assert axes.yaxis.label.get_window_extent().height <= axes.bbox.height
+    assert "\n" in axes.get_ylabel()
 
 
 @pytest.mark.parametrize(

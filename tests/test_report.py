@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html.parser import HTMLParser
 from io import StringIO
 from pathlib import Path
@@ -25,6 +26,7 @@ from swtstudy.reports.findings import extreme_points, levers, parameters_of, sen
 from swtstudy.reports.page import page
 from swtstudy.reports.site import write_reports
 from swtstudy.reports.symbols import symbol_html
+from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
 
@@ -228,6 +230,13 @@ def test_pages_of_the_largest_figures_are_below_two_megabytes(name: str) -> None
 
 
 @pytest.mark.slow
+def test_what_a_study_says_of_its_figure_is_beneath_it(small: xr.Dataset) -> None:
+    layout = replace(FigureLayout.from_json(small.attrs["figure"]), caption="<b>Not</b> as in the paper.")
+    text = page(small.assign_attrs(figure=layout.to_json()), "small")
+    (caption,) = re.findall("<figcaption>(.*?)</figcaption>", text.partition('id="figure"')[2])[:1]
+    assert "&lt;b&gt;Not&lt;/b&gt; as in the paper." in caption
+
+
 def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
     assert "Where the model holds" not in page(small, "small")
     text = page(small.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")

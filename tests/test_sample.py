@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import stand_in
+from matplotlib.colors import to_rgb
 from scipy import stats
 
 from swtstudy import Study, StudyError, open_results, run
@@ -285,6 +286,18 @@ def test_a_scatter_has_a_panel_for_each_parameter(results):
         "paraboloid",
         "rounded punch, $b/a_H$ = 0.5",
     ]
+
+
+def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
+    (axes, *_), (legend,) = (lambda figure: (figure.axes, figure.legends))(draw(results))
+    first, second = axes.lines
+    assert first.get_marker() != second.get_marker()
+    grey = [np.dot(to_rgb(line.get_color()), [0.299, 0.587, 0.114]) for line in (first, second)]
+    assert abs(grey[0] - grey[1]) > 0.25
+    for handle, line in zip(legend.legend_handles, (first, second), strict=True):
+        assert handle.get_marker() == line.get_marker()
+        assert handle.get_markersize() > 2.0 * line.get_markersize()
+        assert handle.get_alpha() == 1.0
 
 
 def test_a_scatter_of_regimes_has_a_row_for_each(results):

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from swtstudy import open_results
+from swtstudy.figures.draw import layout_of
 from swtstudy.reports.findings import sentences
 from swtstudy.reports.site import entry, gallery_of
 from swtstudy.study.shipped import in_groups, shipped_studies
@@ -18,7 +19,9 @@ def gallery(root: Path) -> str:
         parts.append(f"## {group}\n")
         for name in own:
             said = _plain(next(iter(sentences(results[name])), ""))
-            parts.append(_entry(name, str(results[name].title), f"studies/{name}.toml", said, root))
+            caption = layout_of(results[name]).caption or ""
+            title, source = str(results[name].title), f"studies/{name}.toml"
+            parts.append(_entry(name, title, source, f"{said} {_plain(caption)}".strip(), root))
     parts.append("## Scripts\n")
     for path in sorted((root / "studies" / "maps").glob("*.py")):
         title = path.read_text(encoding="utf-8").partition('"""')[2].partition("\n")[0].rstrip(".")

@@ -16,10 +16,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
+from swtstudy.figures.save import save_figure
+from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.style import COLOURS, MARKERS, styled
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.vocabulary.prescribed import Control
@@ -116,18 +117,21 @@ def costs(batch: int, pairs: int) -> list[str]:
 
 def draw(found: dict[str, Array], counts: tuple[int, ...], path: Path) -> None:
     """Median and largest differences over the number of vertices."""
-    figure = Figure((5.6, 4.0), layout=ConstrainedLayoutEngine())
-    axes = figure.subplots()
-    for marker, (name, off) in zip("ovs^D", found.items(), strict=True):
-        (line,) = axes.loglog(counts, np.median(off, axis=1), marker=marker, label=name)
-        axes.loglog(counts, off.max(axis=1), ":", marker=marker, color=line.get_color())
-    axes.loglog(counts, 1.0 / np.array(counts), color="black", label="1/k")
-    axes.set(xlabel="vertices k of the polygon", ylabel="relative difference of s: median and largest")
-    axes.set_xticks(counts, map(str, counts))
-    axes.minorticks_off()
-    axes.grid(color="0.9", linewidth=0.6)
-    axes.legend(frameon=False, fontsize=8)
-    figure.savefig(path, dpi=150)
+    with styled(width="page"):
+        sheet = Sheet(1, 1, "page", least_height=4.0)
+        figure = sheet.figure()
+        axes = sheet.panels(figure)[0, 0]
+        for color, marker, (name, off) in zip(COLOURS, MARKERS[1:], found.items(), strict=False):
+            look = {"color": color, "marker": marker}
+            axes.loglog(counts, np.median(off, axis=1), linestyle="-", label=name, **look)
+            axes.loglog(counts, off.max(axis=1), linestyle=":", mfc="none", **look)
+        axes.loglog(counts, 1.0 / np.array(counts), color="0.5", marker="", label="1/k")
+        axes.set(xlabel="vertices $k$ of the polygon", ylabel="relative difference of $s$")
+        axes.set_title("median, filled; largest, open")
+        axes.set_xticks(counts, map(str, counts))
+        axes.minorticks_off()
+        axes.legend()
+    save_figure(figure, path)
 
 
 def main() -> None:

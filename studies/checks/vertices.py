@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 import swtstudy
 from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import styled
+from swtstudy.figures.style import COLOURS, MARKERS, styled
 
 COUNTS = (50, 100, 200, 400, 800, 1400, 2000)
 #: Noise over the amplitude, and whether there is a bulk stress.
@@ -49,12 +49,12 @@ def chart(counts: list[int], found: dict[str, list[float]]) -> Figure:
         sheet = Sheet(1, 1, "column")
         figure = sheet.figure()
         axes = sheet.panels(figure)[0, 0]
-        for words, times in found.items():
-            axes.loglog(counts, times, "o-", label=words)
+        for color, marker, (words, times) in zip(COLOURS, MARKERS[1:], found.items(), strict=False):
+            axes.loglog(counts, times, color=color, linestyle="-", marker=marker, label=words)
         k = np.array(counts, dtype=float)
         last = next(reversed(found.values()))[-1]
         axes.loglog(k, last * k * np.log(k) / (k[-1] * np.log(k[-1])), "k:", marker="", label="like k log k")
-        axes.set(xlabel="vertices $k$", ylabel="s")
+        axes.set(xlabel="vertices $k$", ylabel="processor time (s)")
         axes.legend(frameon=False)
     return figure
 

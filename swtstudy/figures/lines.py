@@ -69,7 +69,9 @@ def draw_lines(
         at, broken = np.insert(x, gaps, np.nan), np.insert(curve.astype(float), gaps, np.nan)
         across, up = (broken, at) if layout.kind == "life" else (at, broken)
         (line,) = axes.plot(across, up, **look)
-        _mark_jumps(axes, x, curve, gaps, line.get_color())
+        ends = np.concatenate([gaps - 1, gaps])
+        dots = (curve[ends], x[ends]) if layout.kind == "life" else (x[ends], curve[ends])
+        _mark_jumps(axes, *dots, line.get_color())
         banded = layout.kind != "life" and visible > 0.0 and "error" in part
         if banded and np.any(part.error.values > visible):
             low, high = curve - part.error.values, curve + part.error.values
@@ -113,15 +115,12 @@ def place_jumps(curve: NDArray[Any], name: str) -> NDArray[np.intp]:
     return np.flatnonzero(jump) + 1
 
 
-def _mark_jumps(
-    axes: Axes, x: NDArray[Any], curve: NDArray[Any], gaps: NDArray[np.intp], colour: Any
-) -> None:
-    """Open dots at both ends of a gap."""
-    if len(gaps):
-        ends = np.concatenate([gaps - 1, gaps])
+def _mark_jumps(axes: Axes, across: NDArray[Any], up: NDArray[Any], colour: Any) -> None:
+    """Open dots at both ends of each gap."""
+    if len(across):
         size = 0.8 * rcParams["lines.markersize"]
         look: dict[str, Any] = {"linestyle": "none", "marker": "o", "markersize": size, "zorder": 3}
-        axes.plot(x[ends], curve[ends], color=colour, markerfacecolor="white", **look)
+        axes.plot(across, up, color=colour, markerfacecolor="white", **look)
 
 
 def _names(regime: xr.DataArray) -> list[str | None]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib import rcParams
+from matplotlib.lines import Line2D
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
@@ -28,6 +30,11 @@ if TYPE_CHECKING:
 _ACROSS = 3
 #: Points of a cloud are the fainter the more there are: so many are drawn without transparency.
 _OPAQUE = 100
+#: Colours of the points of values of hue, dark and light by turns, and markers: in grey, too, they differ.
+SHADES = ("#0072B2", "#E69F00", "#000000", "#56B4E9", "#D55E00", "#CC79A7", "#009E73")
+POINTS = ("o", "^", "s", "D", "v")
+#: Their sizes over that of a marker.
+_POINT, _IN_LEGEND = 0.6, 1.4
 #: Percentiles that a histogram marks.
 PERCENTILES = (5, 50, 95)
 _DASHES = (":", "-", "--")
@@ -41,13 +48,12 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
         for one, name in zip(axes[row], names, strict=True):
-            for label, part in _by(dataset, layout.hue):
+            for index, (label, part) in enumerate(_by(dataset, layout.hue)):
                 values = quantity(part, y).values
                 x, at = _numbers(part[name])
                 faint = min(1.0, (_OPAQUE / len(values)) ** 0.5)
-                one.plot(
-                    x, values, linestyle="none", marker="o", markersize=3, alpha=faint, mew=0, label=label
-                )
+                look = _look(index)
+                one.plot(x, values, **look, alpha=faint, label=label)
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
@@ -55,6 +61,19 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
     return _finished(figure, axes, layout)
+
+
+def _look(index: int) -> dict[str, Any]:
+    """Of the points of one value of hue: in grey a marker and a shade tell them apart."""
+    colour = SHADES[index % len(SHADES)]
+    marker = POINTS[index % len(POINTS)]
+    return {
+        "linestyle": "none",
+        "marker": marker,
+        "markersize": _POINT * rcParams["lines.markersize"],
+        "mew": 0,
+        "color": colour,
+    }
 
 
 def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
@@ -146,4 +165,8 @@ def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figur
     if layout.title:
         figure.suptitle(layout.title)
     add_legend(figure, axes)
+    for handle in (each for legend in figure.legends for each in legend.legend_handles):
+        # The marker of a faint point is to be seen.
+        if isinstance(handle, Line2D) and handle.get_linestyle() == "None":
+            handle.set(markersize=_IN_LEGEND * rcParams["lines.markersize"], alpha=1.0)
     return figure

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 _TOLERANCE = 1e-9
 #: Logarithmic axes with a smaller ratio of their ends have plain numbers.
 _DECADES = 1e3
+#: Numbers from this on, and below one over it, are powers of ten, and all beside them on an axis.
+_PLAIN = 1e5
 #: Most steps between ticks, however long the axis.
 _STEPS = 6
 #: Width of a letter, and distance of two labels upwards, in em.
@@ -38,8 +40,19 @@ def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
     """Put plain numbers at 1, 2, 5 of each decade of a logarithmic axis of few decades."""
     if high < _DECADES * low:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        powers = high >= _PLAIN or low < 1.0 / _PLAIN
+        axis.set_major_formatter(FuncFormatter(lambda x, _: _power_words(x) if powers else f"{x:g}"))
         axis.set_minor_formatter(NullFormatter())
+
+
+def _power_words(value: float) -> str:
+    """A number of one digit and a power of ten, such as 5·10⁶."""
+    if value <= 0.0:
+        return ""
+    exponent = math.floor(math.log10(value) + _TOLERANCE)
+    digit = round(value / 10.0**exponent)
+    power = f"10^{{{exponent}}}"
+    return f"${power}$" if digit == 1 else rf"${digit}\cdot{power}$"
 
 
 def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:

@@ -12,11 +12,18 @@ if TYPE_CHECKING:
 
 #: A word with the blanks before it; a formula between $ is one word, also with the value that it has.
 _WORD = re.compile(r"\s*(?:\$[^$]*\$|[^\s$])+(?: = \S+)?")
+#: Labels of so many letters may be longer than a panel.
+_LONG = 30
 
 
 def wrap_texts(figure: Figure) -> None:
-    """Break titles and labels of axes that are longer than their panels; nothing to do on a screen."""
+    """Break titles and labels of axes that are longer than their panels; on a screen upright labels alone."""
     if figure.width is None:
+        tall = [axes for axes in figure.axes if len(axes.get_ylabel()) > _LONG]
+        if tall:
+            figure.draw_without_rendering()
+        for axes in tall:
+            _wrap(axes.yaxis.label, axes.bbox.height, True)
         return
     figure.draw_without_rendering()
     wrap_title(figure)
@@ -27,7 +34,7 @@ def wrap_texts(figure: Figure) -> None:
         for text in (axes.title, axes._left_title, axes._right_title):  # type: ignore[attr-defined]
             _wrap(text, min(wide, room - axes.bbox.x0), False)
         _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
-        _wrap(axes.yaxis.label, 1.15 * axes.bbox.height, True)
+        _wrap(axes.yaxis.label, axes.bbox.height, True)
 
 
 def wrap_title(figure: Figure) -> None:

@@ -129,7 +129,8 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
     words = f"{', '.join(escape(each) if '/s(' in each else each for each in names)}"
     along = {"x": "over", "vertical": "and", "hue": "a line for each", "panels": "a panel for each"}
     parts = [f"{along[role]} {symbol_of(dataset[each])}" for role, each in layout.roles() if each in dataset]
-    return f"{words} {', '.join(parts)}.".replace(", and", " and")
+    own = f" {escape(layout.caption)}" if layout.caption else ""
+    return f"{words} {', '.join(parts)}.".replace(", and", " and") + own
 
 
 def _validity(dataset: xr.Dataset) -> list[str]:

@@ -54,6 +54,8 @@ class FigureLayout:
     regimes
         Whether to mark where a regime of the contact begins along a line, or the borders of regimes on a
         contour map.
+    caption
+        What there is to say beneath it, in reports; or None.
     """
 
     x: str
@@ -64,6 +66,7 @@ class FigureLayout:
     kind: str = "lines"
     vertical: str | None = None
     regimes: bool = False
+    caption: str | None = None
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""

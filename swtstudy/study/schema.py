@@ -103,6 +103,7 @@ _FIGURE_DESCRIPTIONS = {
     ),
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
+    "caption": "What there is to say beneath the figure, in reports.",
 }
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"

@@ -65,6 +65,8 @@ def to_toml(
             lines.append(f"title = {quoted(figure.title)}")
         if figure.regimes:
             lines.append("regimes = true")
+        if figure.caption:
+            lines.append(f"caption = {quoted(figure.caption)}")
     return "\n".join(lines) + "\n"
 
 
