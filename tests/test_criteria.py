@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from brute_shear import brute
+from click.testing import CliRunner
 from numpy.typing import NDArray
 from scenes import plane_points, points, random_plane_points, random_points, take
 
 import swtstudy
+from swtstudy.cli import main
+from swtstudy.fields.one_point import read_scene
+from swtstudy.figures.draw import draw
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
@@ -255,10 +260,6 @@ def test_a_criterion_is_a_dimension() -> None:
             "walker_exponent: found",
         ),
         (
-            {"criterion": "findley", "normal_sensitivity": 0.3, "critical_distance": 0.1},
-            "critical_distance: found a value with the criterion findley",
-        ),
-        (
             {
                 "criterion": ["swt", "findley"],
                 "normal_sensitivity": 0.3,
@@ -364,6 +365,149 @@ def test_criteria_with_units() -> None:
         life = swtstudy.ShearConstants.estimated(constants[0], 0.3)
         np.testing.assert_allclose(fs.FS_cycles, life.cycles(fs.FS), rtol=1e-6)
         assert np.isnan(fs.cycles).all()
+
+
+def highest_of_all_planes(name: str, k: float, stress: Array) -> float:
+    """The definition over planes of every orientation, from one history, (T, 6): tensors turned."""
+    sphere = np.random.default_rng(0).normal(size=(700, 3))
+    best, value = np.array([1.0, 0.0, 0.0]), 0.0
+    for spread in (np.inf, 0.06, 0.012, 0.003):
+        normals = sphere if np.isinf(spread) else np.vstack([best, best + spread * sphere[:120]])
+        normals = normals / np.linalg.norm(normals, axis=1)[:, None]
+        traction = np.einsum("tij,pj->tpi", symmetric_tensor(stress), normals)
+        tension = np.einsum("tpi,pi->tp", traction, normals)
+        shear = traction - tension[..., None] * normals
+        across = np.cross(normals, [0.3, 0.5, 0.81])
+        across /= np.linalg.norm(across, axis=1)[:, None]
+        turned, swing = np.cross(normals, across), np.zeros(len(normals))
+        for turn in np.pi / 48 * np.arange(48):
+            line = np.cos(turn) * across + np.sin(turn) * turned
+            swing = np.maximum(swing, 0.5 * np.ptp(np.einsum("tpi,pi->tp", shear, line), axis=0))
+        largest = tension.max(axis=0)
+        made = swing + k * largest if name == "findley" else swing * (1.0 + k * np.maximum(largest, 0.0))
+        best, value = normals[made.argmax()], max(value, float(made.max()))
+    return value
+
+
+STRIP = {"profile": "cylinder", "friction": 0.5, "phase": 1.0}
+STRIP |= {"normal_force_amplitude": 0.3, "tangential_force_amplitude": 0.5}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SHEAR)
+def test_means_of_criteria_of_shear(name: str) -> None:
+    """Values at the places of a Gauss rule, each the highest of random planes, averaged."""
+    k, size = 0.5, 0.1
+    found = swtstudy.solve(**STRIP, criterion=name, normal_sensitivity=k, critical_distance=size)
+    scene = read_scene({**STRIP, "criterion": name, "normal_sensitivity": k})
+
+    def at(x: float, z: float) -> float:
+        body = Body(scene, time_nodes(scene, 16, [abs(x)]), 60)
+        return highest_of_all_planes(name, k, body.stress(x, 0.0, z))
+
+    down = {"direction": found.direction.values[0]}
+    point = at(float(found.point_x.sel(down)), 0.5 * size)
+    assert float(found.s_point.sel(down)) == pytest.approx(point, rel=2e-3)
+    node, weight = np.polynomial.legendre.leggauss(5)
+    share, weight = 0.5 * (node + 1.0), 0.5 * weight
+    values = [at(float(found.line_x.sel(down)), 2.0 * size * u * u) for u in share]
+    assert float(found.s_line.sel(down)) == pytest.approx(np.dot(2.0 * share * weight, values), rel=5e-3)
+    total = 0.0
+    for r, of_r in zip(size * share**2, 4.0 * share**3 * weight, strict=True):  # 2 r dr/size²
+        for u, of_u in zip(share, 6.0 * share * (1.0 - share) * weight, strict=True):
+            turn = np.pi * u * u * (3.0 - 2.0 * u)
+            total += of_r * of_u * at(float(found.volume_x) + r * np.cos(turn), r * np.sin(turn))
+    assert float(found.s_volume) == pytest.approx(total, rel=5e-3)
+    assert float(found.s_volume) < 0.8 * float(found.s)
+
+
+def test_means_of_shear_with_units() -> None:
+    """Each is the same multiple of its s as the value at the worst place, and has its own life."""
+    own = STEEL | {"tangential_force_amplitude": 60.0, "normal_sensitivity": 0.3, "yield_strength": 400.0}
+    constants = swtstudy.FatigueConstants(210e3, 900.0, -0.1, 0.5, -0.6)
+    for criterion, name in (("findley", "findley_stress"), ("fatemi_socie", "FS")):
+        given = {} if criterion == "findley" else {"constants": constants}
+        found = swtstudy.physical(**own, criterion=criterion).solve(critical_distance=0.05, **given)
+        scale = found[name] / found.s
+        for end in ("_volume", "_volume_error", "_line", "_point"):
+            np.testing.assert_allclose(found[f"{name}{end}"], scale * found[f"s{end}"], rtol=1e-12)
+        if given:
+            life = swtstudy.ShearConstants.estimated(constants, 0.3).cycles(found.FS_volume.values)
+            np.testing.assert_allclose(found.FS_cycles_volume, life, rtol=1e-6)
+            assert (found.FS_cycles_volume > found.FS_cycles).all()
+
+
+SHEAR_STUDY = """
+title = "Shear in units"
+
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+
+[material]
+yield_strength = 400
+
+[fixed]
+young_modulus = 210e3
+poisson_ratio = 0.3
+radius = 50
+friction = 0.5
+normal_force = 200
+normal_sensitivity = 0.3
+
+[axes]
+criterion = ["fatemi_socie", "findley"]
+tangential_force_amplitude = [30, 60]
+
+[figure]
+x = "tangential_force_amplitude"
+y = ["FS", "findley_stress"]
+hue = "criterion"
+"""
+
+
+def test_from_a_study_of_shear_to_its_figure(tmp_path: Path) -> None:
+    """Study file, archive, info, figure and page, in units."""
+    (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")
+    runner = CliRunner()
+
+    def call(*words: object) -> str:
+        done = runner.invoke(main, [*map(str, words)])
+        assert done.exit_code == 0, done.output
+        return done.output
+
+    call("run", tmp_path / "shear.toml", "--results", tmp_path, "--workers", "1")
+    archive = tmp_path / "shear.nc"
+    found = swtstudy.open_results(archive)
+    for criterion, name, unit in (("fatemi_socie", "FS", "1"), ("findley", "findley_stress", "MPa")):
+        own = {"criterion": criterion, "normal_sensitivity": 0.3, "yield_strength": 400.0}
+        alone = swtstudy.physical(**STEEL, **own, tangential_force_amplitude=60.0).solve()
+        value = found[name].sel(criterion=criterion, tangential_force_amplitude=60)
+        assert float(value.squeeze()) == pytest.approx(float(alone[name].values.ravel()[0]), rel=1e-6)
+        assert found[name].attrs.get("units", "1") == unit
+    assert "findley" in call("info", archive)
+    (upper, lower) = draw(found).axes
+    assert upper.get_ylabel() == r"$\mathrm{FS}$"
+    assert lower.get_ylabel() == "$f$ (MPa)"
+    for axes in (upper, lower):  # one criterion has each
+        assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
+    call("report", archive, "-o", tmp_path / "shear.html")
+    assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
+
+
+def test_where_slip_reverses_at_a_sharp_edge_the_shear_has_no_bound() -> None:
+    """The amplitude of σ_xz grows by as much in each decade towards the edge; in stick it does not."""
+    amplitudes = {}
+    for u in (0.02, 1.5):
+        own = {"profile": "truncated_paraboloid", "flat_radius": 0.5, "normal_amplitude": 0.0}
+        x = 0.5 * (1.0 + 10.0 ** -np.arange(2.0, 6.0))
+        field = swtstudy.stress_field(x, 0.0, 0.0, **own, tangential_amplitude=u)
+        amplitudes[u] = 0.5 * np.ptp(field.sigma_xz.transpose("x", ...).values, axis=1)
+    sliding = np.diff(amplitudes[1.5])
+    assert (sliding > 0.05).all()
+    np.testing.assert_allclose(sliding, sliding[0], rtol=0.1)
+    assert (np.diff(amplitudes[0.02]) < 0.01 * sliding[0]).all()
 
 
 def test_a_point_by_criteria_of_shear_in_units() -> None:

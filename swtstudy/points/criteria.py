@@ -9,7 +9,6 @@ from swtstudy.points.values import values_taken
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SHARP, SWT
 from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import DISTANCE
 
 
 def check_criteria(
@@ -43,9 +42,6 @@ def check_criteria(
         report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
     if any(value != PARAMETERS["walker_exponent"].default for value in values("walker_exponent")):
         report(keys("walker_exponent"), f"a value {criteria}", f"it with {SWT} alone")
-    if DISTANCE in names:
-        why = "means of others are not computed"
-        report(keys(DISTANCE), f"a value {criteria}", f"it with {SWT} alone: {why}")
     if SHARP in map(str, values("profile")):
-        why = "next to its edge the stress has no bound, and where these are finite is not known"
+        why = "where slip reverses at its sharp edge, the amplitude of the shear stress has no bound"
         report(keys("profile"), f"{SHARP} {criteria}", f"another one: {why}")

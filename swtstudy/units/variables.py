@@ -83,24 +83,9 @@ class Variable:
 def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     """The data variables with units that a grid has, beside those without."""
     criteria = {*map(str, grid.values("criterion"))}
-    for name, of in _swt_of(asked) if SWT in criteria else ():
-        end = name.removeprefix("SWT")
-        error = end.endswith("error")
-        words = end.replace("_", " ")
-        place = end.removesuffix("_error").removeprefix("_")
-        symbol = rf"\mathrm{{SWT}}_\mathrm{{{place}}}" if place else r"\mathrm{SWT}"
-        meaning = f"{'error of ' * error}SWT{words.removesuffix(' error')}"
-        yield Variable(name, r"\Delta " * error + symbol, meaning, "stress", of, _swt_scale, criterion=SWT)
-        if grid.materials and not error:
-            symbol = rf"N_\mathrm{{{place}}}" if place else "N"
-            life = f"cycles{end}", symbol, f"rounds to a crack{words}", "1", of, _swt_scale
-            yield Variable(*life, to_cycles=True, counts=asked.counts, criterion=SWT)
-    if FATEMI_SOCIE in criteria:
-        yield from _fatemi_socie(grid, asked)
-    if FINDLEY in criteria:
-        for of, symbol, words in (("s", "f", ""), ("s_error", r"\Delta f", "error of ")):
-            name, meaning = f"findley_stress{of.removeprefix('s')}", f"{words}Findley stress"
-            yield Variable(name, symbol, meaning, "stress", of, _stress_scale, criterion=FINDLEY)
+    for kind in _KINDS:
+        for end in _ends(asked) if kind.criterion in criteria else ():
+            yield from kind.variables(end, bool(grid.materials), asked.counts)
     yield Variable(
         "critical_position", "x", "position of the critical point", "length", "critical_x", _length
     )
@@ -129,17 +114,6 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
             yield Variable("yield_ratio", symbol, words, "1", of, _over_strength)
 
 
-def _fatemi_socie(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
-    """The parameter as a strain, its error and its life."""
-    for of, symbol, words in (("s", r"\mathrm{FS}", ""), ("s_error", r"\Delta \mathrm{FS}", "error of ")):
-        name, meaning = f"FS{of.removeprefix('s')}", f"{words}Fatemi-Socie parameter"
-        yield Variable(name, symbol, meaning, "1", of, _strain_scale, criterion=FATEMI_SOCIE)
-    if grid.materials:
-        meaning = "rounds to a crack by shear constants estimated from the tensile ones"
-        life = "FS_cycles", r"N_\mathrm{FS}", meaning, "1", "s", _strain_scale
-        yield Variable(*life, to_cycles=True, counts=asked.counts, criterion=FATEMI_SOCIE)
-
-
 #: Of the nonlocal quantities those that are swt, and those that are places.
 MEANS = tuple(name for name, row in NONLOCAL.items() if not row.is_place)
 PLACES = tuple(name for name, row in NONLOCAL.items() if row.is_place)
@@ -151,17 +125,63 @@ def position_of(place: str) -> str:
 
 
 #: Names of all lives that there may be, and of all that there may be.
-LIVES = (*(f"cycles{name.removeprefix('s')}" for name in ("s", *MEANS)), "FS_cycles")
+LIVES = tuple(f"{life}{name.removeprefix('s')}" for life in ("cycles", "FS_cycles") for name in ("s", *MEANS))
 NAMES = (
-    *(f"SWT{of.removeprefix('s')}" for name in ("s", *MEANS) for of in (name, error_of(name))),
+    *(
+        f"{name}{of.removeprefix('s')}"
+        for name in ("SWT", "FS", "findley_stress")
+        for each in ("s", *MEANS)
+        for of in (each, error_of(each))
+    ),
     *(position_of(place) for place in PLACES),
     *LIVES,
-    *("FS", "FS_error", "findley_stress", "findley_stress_error"),
     *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
     *("von_mises", "yield_ratio", "bulk_shift"),
 )
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """What s of a criterion is with units.
+
+    Attributes
+    ----------
+    criterion, name, symbol, words
+        Its name, that of the variable, its symbol and what a reader calls it.
+    unit
+        "stress", or "1".
+    scale
+        Over s.
+    life, life_symbol, life_words
+        Of the life at that its name, what is below N, and more words; empty where there is none.
+    """
+
+    criterion: str
+    name: str
+    symbol: str
+    words: str
+    unit: str
+    scale: Callable[[PhysicalGrid], xr.DataArray]
+    life: str = ""
+    life_symbol: str = ""
+    life_words: str = ""
+
+    def variables(self, end: str, materials: bool, counts: bool) -> Iterator[Variable]:
+        """The value of s, of a mean or of an error, and its life, if there are materials."""
+        error, words = end.endswith("error"), end.replace("_", " ")
+        place = end.removesuffix("_error").removeprefix("_")
+        sign, below = r"\Delta " * error, rf"_\mathrm{{{place}}}" * bool(place)
+        meaning = f"{'error of ' * error}{self.words}{words.removesuffix(' error')}"
+        own: dict[str, Any] = {"of": f"s{end}", "scale": self.scale, "criterion": self.criterion}
+        yield Variable(f"{self.name}{end}", f"{sign}{self.symbol}{below}", meaning, self.unit, **own)
+        if materials and self.life and not error:
+            below = ", ".join(filter(None, (self.life_symbol, place)))
+            symbol = rf"N_\mathrm{{{below}}}" if below else "N"
+            meaning = f"rounds to a crack{words}{self.life_words}"
+            life = f"{self.life}{end}", symbol, meaning, "1"
+            yield Variable(*life, to_cycles=True, counts=counts, **own)
 
 
 def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
@@ -175,12 +195,11 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _swt_of(asked: Request) -> Iterator[tuple[str, str]]:
-    """Names of SWT, and of what without units it is made of."""
-    names = ["s", *(name for name in MEANS if name in asked.variables)]
-    for name in names:
+def _ends(asked: Request) -> Iterator[str]:
+    """How the names of s, its means and their errors end."""
+    for name in ("s", *(name for name in MEANS if name in asked.variables)):
         for of in (name, error_of(name)):
-            yield f"SWT{of.removeprefix('s')}", of
+            yield of.removeprefix("s")
 
 
 def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
@@ -256,3 +275,14 @@ def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterio
     else:
         one, two = (swt.copy(data=each.cycles(swt.values)) for each in materials)
     return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]
+
+
+_ESTIMATED = " by shear constants estimated from the tensile ones"
+_KINDS = (
+    _Kind(SWT, "SWT", r"\mathrm{SWT}", "SWT", "stress", _swt_scale, "cycles"),
+    _Kind(
+        *(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "Fatemi-Socie parameter", "1", _strain_scale),
+        *("FS_cycles", "FS", _ESTIMATED),
+    ),
+    _Kind(FINDLEY, "findley_stress", "f", "Findley stress", "stress", _stress_scale),
+)

@@ -25,5 +25,5 @@ BENEATH = (
     "a criterion of shear may be larger beside that line or beneath the surface, where friction is below "
     "0.3, the Poisson ratio below 0.1 or the tangential motion small: swtstudy audit compares"
 )
-#: The profile next to whose edge only SWT is known.
+#: The profile at whose sharp edge only SWT may be finite while it slips.
 SHARP = "truncated_paraboloid"
