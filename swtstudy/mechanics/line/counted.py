@@ -219,8 +219,8 @@ def _bounds(histories: Histories) -> FloatArray:
 def _counted(histories: list[Histories]) -> FloatArray:
     """`sums` of many histories, some at a time, which have as many instants each, shape (powers, h)."""
     stress, swing, inside = (np.concatenate([each[k] for each in histories]) for k in range(3))
-    first, *others = (each.criterion for each in histories)
-    every = Histories(stress, swing, inside, first.joined(others))
+    criteria = [each.criterion for each in histories]
+    every = Histories(stress, swing, inside, type(criteria[0]).joined(criteria))
     parts = np.array_split(np.arange(len(stress)), -(-len(stress) // COUNT_SIZE) or 1)
     return np.concatenate([sums(every.take(rows).swt()) for rows in parts], axis=1)
 

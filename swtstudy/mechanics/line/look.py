@@ -16,6 +16,7 @@ from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.peaks import parabola
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
@@ -50,7 +51,7 @@ class Resolution:
 
 
 @dataclass(frozen=True)
-class Look:
+class Look(Rows):
     """The stress at n × X positions and the event-aligned instants of each.
 
     Attributes
@@ -78,11 +79,6 @@ class Look:
         parts = stretches(scene.cycle, line.edges.at, line.fronts.at)
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
-
-    def take(self, index: NDArray[np.intp]) -> Look:
-        """The looks at the points at ``index``, repetitions allowed."""
-        line, nodes = self.line.take(index), self.nodes.take(index)
-        return Look(line, self.parts.take(index), self.count, nodes, self.placed.take(index))
 
     @cached_property
     def history(self) -> History:

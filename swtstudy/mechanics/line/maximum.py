@@ -17,6 +17,7 @@ from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.round import climb_round
 from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.passing import arrival
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import told_by_fronts
@@ -39,7 +40,7 @@ SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
 
 
 @dataclass(frozen=True)
-class Maximum:
+class Maximum(Rows):
     """Largest swt of n points.
 
     Attributes
@@ -61,10 +62,6 @@ class Maximum:
     def unknown(cls, count: int, value: float) -> Maximum:
         """``count`` points that all have the same ``value`` everywhere."""
         return cls(*(np.full(count, value) for _ in range(4)))
-
-    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Maximum:
-        """The points at ``index``."""
-        return Maximum(*(values[index] for values in vars(self).values()))
 
     def put(self, index: NDArray[np.intp] | NDArray[np.bool_], other: Maximum) -> Maximum:
         """The same with other points at ``index``."""

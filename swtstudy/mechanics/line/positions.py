@@ -17,6 +17,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import packed, place_in_row
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
@@ -156,7 +157,7 @@ class Pieces:
 
 
 @dataclass(frozen=True)
-class Positions:
+class Positions(Rows):
     """m positions on the line of n points, one point's after the other's, ascending.
 
     Attributes
@@ -191,10 +192,6 @@ class Positions:
         step = np.stack([np.where(first, 0.0, np.roll(right, 1)), np.where(last, 0.0, right)], axis=-1)
         r = pieces.radius(piece, alpha)
         return cls(point, r, pieces.low[sides], pieces.high[sides], np.stack([left, alpha], axis=-1), step)
-
-    def take(self, index: NDArray[np.intp]) -> Positions:
-        """The positions at ``index``, repetitions allowed."""
-        return Positions(*(values[index] for values in vars(self).values()))
 
     @property
     def is_corner(self) -> NDArray[np.bool_]:

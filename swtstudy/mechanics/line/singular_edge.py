@@ -200,12 +200,11 @@ def _swt(
 class _SeenFromEdge(TruncatedParaboloid):
     """n truncated paraboloids whose stress is wanted at r = b⁺, at L of shape (n, X)."""
 
+    __match_args__ = ("largest_depth", "flat_radius", "distance")
+
     def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray, distance: FloatArray) -> None:
         super().__init__(largest_depth, flat_radius)
         self.distance = distance
-
-    def take(self, index: NDArray[np.intp]) -> _SeenFromEdge:
-        return _SeenFromEdge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return _EdgePrimitives(self)

@@ -171,10 +171,10 @@ def _decisive_history(
     wide = look.line.history(brackets.samples())
     closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
     narrow = look.line.history(brackets.narrowed(closer).samples())
-    history = wide.joined(narrow)
+    history = wide.followed_by(narrow)
     if scene.critical_everywhere:
-        history = history.joined(look.history)
-    history = history.take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
+        history = history.followed_by(look.history)
+    history = history.take((np.arange(len(r)), 0))
     history = history.with_tangential_sign(side[:, None])
     θ = 0.5 * double_angle
     return history, np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)

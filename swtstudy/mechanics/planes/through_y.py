@@ -63,7 +63,7 @@ class PlaneHistory:
     def take(self, *index: NDArray[np.intp] | slice) -> PlaneHistory:
         """Those at ``index`` of the points' axes."""
         # The criterion is that of the point at all its positions.
-        criterion = self.criterion.take(index[0], *(0 for _ in index[1:]))
+        criterion = self.criterion.take((index[0], *(0 for _ in index[1:])))
         return PlaneHistory(self.stress[:, *index], self.swing[:, *index], criterion)
 
     def on_plane(self, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
