@@ -8,7 +8,6 @@ from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
-from swtstudy.points.defined import kinds
 from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
@@ -43,6 +42,14 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
+def _kinds() -> dict[str, type[Named]]:
+    """The classes of definitions, by parameter; imported where they are needed."""
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.mechanics.load.load_path import LoadPath
+
+    return {each.parameter: each for each in (LoadPath, TabulatedProfile)}
+
+
 def definitions_text(definitions: Iterable[Named]) -> str:
     """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
@@ -58,7 +65,7 @@ def read_definitions(text: object) -> dict[str, dict[str, Named]]:
     found: dict[str, dict[str, Named]] = {}
     for raw in _json(text, list):
         try:
-            defined = kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
+            defined = _kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined

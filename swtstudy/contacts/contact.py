@@ -26,8 +26,8 @@ from swtstudy.units.bodies import (
     strengths_of_both,
     swt_from,
 )
-from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.loads import mean_of_bulk
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
 from swtstudy.units.scales import length_of

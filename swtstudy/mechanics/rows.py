@@ -23,10 +23,9 @@ class Rows:
 
     @classmethod
     def joined(cls, several: Sequence[Self]) -> Self:
-        """The rows of several, one after another; for arrays alone."""
-        return cls._made(
-            np.concatenate([getattr(one, name) for one in several]) for name in cls.__match_args__
-        )
+        """The rows of several, one after another; they consist of arrays, or of None in all."""
+        columns = ([getattr(one, name) for one in several] for name in cls.__match_args__)
+        return cls._made(None if column[0] is None else np.concatenate(column) for column in columns)
 
     @classmethod
     def _made(cls, values: Any) -> Self:

@@ -16,10 +16,9 @@ from swtstudy.points.codes import code_of
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.units.blocks import Block
-from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import mean_of_loads
+from swtstudy.units.loads import ends_of_bulk, mean_of_bulk, mean_of_loads
 from swtstudy.units.rows import rows
 from swtstudy.units.seats import Seats, seats_of
 from swtstudy.units.strips import labels_of

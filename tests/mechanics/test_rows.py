@@ -15,6 +15,7 @@ from swtstudy.mechanics.rows import Rows
 @dataclass(frozen=True)
 class Inner(Rows):
     value: np.ndarray
+    none: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -48,14 +49,14 @@ def test_an_index_may_be_of_several_axes() -> None:
 def test_rows_are_joined_in_their_order() -> None:
     found = Inner.joined([Inner(np.array([3])), Inner(np.array([1, 2]))])
     np.testing.assert_array_equal(found.value, [3, 1, 2])
+    assert found.none is None
 
 
 @pytest.mark.parametrize("family", ["paraboloid", "power_law", "rounded_punch", "cylinder", "rounded_flat"])
 def test_a_profile_taken_is_the_one_of_its_row(family: str) -> None:
     depth = np.array([1.0, 1.5, 1.75])
-    shape = {"power_law": {"exponent": [1.5, 2.0, 4.0]}}.get(family, {"flat_radius": [0.2, 0.5, 0.7]})
-    shape = {name: np.array(values) for name, values in shape.items()}
-    own = shape if family not in ("paraboloid", "cylinder") else {}
+    names = {"power_law": "exponent", "rounded_punch": "flat_radius", "rounded_flat": "flat_half_width"}
+    own = {names[family]: np.array([1.2, 2.0, 4.0])} if family in names else {}
     r = np.linspace(0.1, 1.5, 7)
     some = make_profile(family, own, depth).take(np.array([2, 1]))
     alone = [make_profile(family, {name: v[[k]] for name, v in own.items()}, depth[[k]]) for k in (2, 1)]
