@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
+from swtstudy.figures.in_units import Labels, show_units
 from swtstudy.figures.inspection_panels import (
     draw_load,
     draw_slip,
@@ -27,14 +27,8 @@ from swtstudy.vocabulary.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
-#: By the name of a variable: what its unit is worth, and the words of an axis of it.
-Labels = Mapping[str, tuple[float, str]]
-#: Ticks of an axis at most.
-_TICKS = 5
 #: The panels, and those of a plane contact, whose displacements are not known.
 _PANELS = (
     draw_load,
@@ -150,21 +144,3 @@ def _headline(dataset: xr.Dataset, labels: Labels) -> str:
         found = "$s$ is not finite: swt grows without bound towards the edge"
     lines = [f"{place_words('profile', profile)},  {',  '.join(values)}", found, *validity_lines(dataset)]
     return "\n".join(lines)
-
-
-def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) -> None:
-    """Label the axes of a panel, x and y, of which each is that of a variable or of none."""
-    for axis, name in zip((axes.xaxis, axes.yaxis), of, strict=True):
-        if name in labels:
-            _show(axis, *labels[name])  # type: ignore[index]
-
-
-def _show(axis: Axis, scale: float, words: str) -> None:
-    """Ticks at round numbers of the unit."""
-    from matplotlib.ticker import MaxNLocator
-
-    low, high = sorted(axis.get_view_interval())
-    ticks = MaxNLocator(_TICKS, steps=[1, 2, 2.5, 5, 10]).tick_values(low * scale, high * scale)
-    inside = [tick for tick in ticks if low * scale <= tick <= high * scale]
-    axis.set_ticks([tick / scale for tick in inside], labels=[f"{tick:.6g}" for tick in inside])
-    axis.set_label_text(words)
