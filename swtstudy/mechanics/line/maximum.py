@@ -21,7 +21,8 @@ from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import told_by_fronts
 
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
-#: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/test_narrow_maxima.py); 0.9 throughout: no gain.
+#: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/mechanics/test_narrow_maxima.py); 0.9 throughout:
+#: no gain.
 SHARES = 0.97, 0.995, 0.999
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
 #: sharp tip, lost contact and large friction miss s_error.
