@@ -14,9 +14,10 @@ from swtstudy.mechanics.line.positions import cusps
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Steps of each smooth part of the cycle, at first and in the first closer look: twice and six times the
-#: search's. Each further look has twice as many: with 12 in each it was itself 6e-4 low at 1 of 66 points.
-INSTANTS, CLOSER_INSTANTS = 4, 12
+#: Steps of each smooth part of the cycle, at first and in the first closer look: four and six times the
+#: search's. Each further look has twice as many. With 4 at first it was itself 7e-4 low at a point, with 12
+#: in each closer look 6e-4 at 1 of 66.
+INSTANTS, CLOSER_INSTANTS = 8, 12
 #: Digits of tables and series, at first and in the closer looks: stresses may be 1e4 times those that make
 #: swt. 9 in the closer ones: 3e-6 too high at 3 of 1,473 points.
 DIGITS, CLOSER_DIGITS = 6.0, 12.0
