@@ -11,8 +11,8 @@ from typing import Any, TypedDict
 from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.quantities import every_variable, is_item
 
 
@@ -42,7 +42,7 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
-def _kinds() -> dict[str, type[Named]]:
+def _kinds() -> dict[str, type[Definition]]:
     """The classes of definitions, by parameter; imported where they are needed."""
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
     from swtstudy.mechanics.load.load_path import LoadPath
@@ -50,7 +50,7 @@ def _kinds() -> dict[str, type[Named]]:
     return {each.parameter: each for each in (LoadPath, TabulatedProfile)}
 
 
-def definitions_text(definitions: Iterable[Named]) -> str:
+def definitions_text(definitions: Iterable[Definition]) -> str:
     """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
         [
@@ -60,9 +60,9 @@ def definitions_text(definitions: Iterable[Named]) -> str:
     )
 
 
-def read_definitions(text: object) -> dict[str, dict[str, Named]]:
+def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name."""
-    found: dict[str, dict[str, Named]] = {}
+    found: dict[str, dict[str, Definition]] = {}
     for raw in _json(text, list):
         try:
             defined = _kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
@@ -72,7 +72,7 @@ def read_definitions(text: object) -> dict[str, dict[str, Named]]:
     return found
 
 
-def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Named]]:
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
     return read_definitions(attributes.get("definitions", "[]"))
 

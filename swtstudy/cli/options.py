@@ -1,4 +1,4 @@
-"""What commands share: checks of options, completion of arguments by the shell, examples of the help."""
+"""Shared by commands: checks of options, completion of arguments by the shell, examples of the help."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ def _mistake(detail: Any, source: str) -> Mistake:
 
 
 def _allowed(path: list[Any]) -> str:
-    """What is allowed at a key or in the place of a table; empty where pydantic's message says it."""
+    """Words for what a key or the place of a table may hold; empty where pydantic's message says it."""
     depth, table = _INNER.get(str(path[0]), (0, StudyTable))
     if len(path) == depth:
         return table.allowed

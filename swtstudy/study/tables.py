@@ -17,7 +17,7 @@ from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, LARGEST_RTO
 
 @dataclass(frozen=True)
 class Allowed:
-    """What is allowed at a key, where pydantic's own message would not say it."""
+    """Words for what a key may hold, where pydantic's own message would not say it."""
 
     words: str
 

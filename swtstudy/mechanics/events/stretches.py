@@ -72,6 +72,6 @@ def stretches(cycle: Cycle, of_edge: FloatArray, of_front: FloatArray) -> Stretc
 
 
 def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
-    """Whether one stretch ends where another begins, in the periodic cycle."""
+    """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)
     return np.asarray((gap <= GAP) | (PERIOD - gap <= GAP))

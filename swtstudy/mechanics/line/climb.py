@@ -89,7 +89,7 @@ class Climb(Rows):
         return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)
 
     def leading(self, height: FloatArray, share: float) -> Climb:
-        """Those whose height, shape (m,), is at least a share of the largest one at their point."""
+        """Keep the climbs whose height, shape (m,), is at least a share of the largest one at their point."""
         return self.take(height >= share * largest_of_rows(self.point, height)[self.point])
 
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:

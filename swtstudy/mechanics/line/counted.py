@@ -1,4 +1,4 @@
-"""How many strain cycles a round of the load has at its worst place and plane, and how bad each is.
+"""Strain cycles of a round of the load at its worst place and plane, and how bad each is.
 
 A life N(SWT) is one of strain cycles. The strain of a plane is counted by rainflow, each cycle with its own
 amplitude and its own largest σ_n: a swt of its own. A round does the damage Σ 1/N(SWT_i), which depends on a

@@ -77,7 +77,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
 def _seen(
     planes: PlaneHistory, inside: NDArray[np.bool_], count: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """What `Seen` holds of one side, each (n, X)."""
+    """Values of `Seen` for one side, each (n, X)."""
     swt, angle = coarse_swt(planes, count)
     highest = swt.copy()
     at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))

@@ -98,7 +98,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 
 def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
-    """How far off swt > 0 may be by rounding and tables, shape (n,)."""
+    """Share by which rounding and tables may put swt > 0 off, shape (n,)."""
     # What swt is made of is as large as its root; it is a stress times a strain.
     is_product = scene.criterion.degree == 2
     size = np.sqrt(found.swt) if is_product else found.swt
@@ -115,14 +115,14 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
-    """How near to a singular edge, over its radius, swt is taken from the limit, shape (n,)."""
+    """Distance from a singular edge, over its radius, below which swt is taken from the limit, shape (n,)."""
     radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
     reach = REACH * np.minimum(radius - flat, flat)
     return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
 
 
 def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
-    """How far off a stress at r, shape (n, 1), may be by the rounding of what arrives there, shape (n,)."""
+    """Error of a stress at r, shape (n, 1), by the rounding of what arrives there, shape (n,)."""
     profile, coordinate = scene.profile, scene.coordinate
     r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
     r = told_by_fronts(scene.cycle, coordinate, r)
@@ -137,7 +137,7 @@ def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
 
 
 def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
-    """How far off tables leave a stress, by the mean slope of the profile, shape (n,)."""
+    """Error of a stress by tables, from the mean slope of the profile, shape (n,)."""
     deepest = scene.profile.largest_depth
     return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
 

@@ -102,13 +102,13 @@ class Pieces:
 
     @classmethod
     def of(cls, split: Scene) -> Pieces:
-        """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
+        """Pieces of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
         ends = cusps(split.cycle, split.coordinate, split.critical_everywhere)
         return cls.between(ends, split.profile.feature_length)
 
     @classmethod
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
-        """Those between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
+        """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
         # Next to a sharp tip pieces are short, but not as they lie there.
         real = high - low > np.minimum(NO_LENGTH * (ends[:, -1:] - ends[:, :1]), 0.5 * high)
@@ -180,7 +180,7 @@ class Positions(Rows):
 
     @classmethod
     def of(cls, pieces: Pieces, piece: NDArray[np.intp], alpha: FloatArray) -> Positions:
-        """Those at angles of pieces, in their order; each piece but the last of a point lacks its end."""
+        """Positions at angles of pieces, in their order; each piece but the last of a point lacks its end."""
         point = pieces.point[piece]
         first = np.append(True, np.diff(point) > 0)
         last = np.append(first[1:], True)

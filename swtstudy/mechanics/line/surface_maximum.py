@@ -121,7 +121,7 @@ def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray
 
 
 def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:
-    """Whether swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
+    """True where swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
     angle = np.broadcast_to(np.concatenate([[0.0], LOOK_ANGLES]), (len(scene), 1 + LOOK_ANGLES.size))
     stress, tensor = _circle(scene, history, angle)
     criterion = scene.criterion_along

@@ -89,7 +89,7 @@ class Criterion(Rows, ABC):
         """f_T, f_a, f_TT, f_Ta and f_aa where f > 0."""
 
     def derivatives(self, tension: Jet, amplitude: Jet) -> tuple[FloatArray, FloatArray]:
-        """How f, or an increasing function of it, rises and bends on a way, over a common positive factor."""
+        """Slope and curvature of f, or of an increasing function of it, along a way, but for a factor > 0."""
         (f, df, ddf), (g, dg, ddg) = tension, amplitude
         first, second, both_first, mixed, both_second = self.partials(f, g)
         bend = both_first * df * df + 2.0 * mixed * df * dg + both_second * dg * dg
