@@ -124,7 +124,7 @@ class PhysicalContact(InUnits):
 
     @property
     def shape(self) -> dict[str, Any]:
-        """The shape of the profile: flat_radius, waviness_amplitude and wavelength, lengths, and exponent."""
+        """Shape parameters of the profile: lengths but for the exponent."""
         profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 

@@ -7,11 +7,11 @@ Values of parameters are checked elsewhere, against their own table.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
-from swtstudy.study.figure import QUANTITY, VARIABLES
+from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES
 from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL
 
 
@@ -90,13 +90,17 @@ class SampleTable(Table):
     )
 
 
+_QUOTED = [f'"{kind}"' for kind in KINDS]
+if TYPE_CHECKING:
+    _Kind = str
+else:
+    _Kind = Literal[KINDS]
+
+
 class FigureTable(Table):
     """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    kind: Annotated[
-        Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"],
-        Allowed('"lines", "life", "contour", "heatmap", "scatter" or "histogram"'),
-    ] = _key(
+    kind: Annotated[_Kind, Allowed(f"{', '.join(_QUOTED[:-1])} or {_QUOTED[-1]}")] = _key(
         "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
         "scatter or histogram of a sample.",
         "lines",
