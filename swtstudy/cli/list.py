@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import on_terminal
+from swtstudy.cli.options import examples, on_terminal
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -36,7 +35,7 @@ def list_studies() -> None:
 
 
 def _points(study: Study) -> str:
-    """How many points there are to be computed; those of random boxes are drawn."""
+    """Number of points to be computed; those of random boxes are drawn."""
     from swtstudy.points.unique import LARGEST_GRID
 
     return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"

@@ -165,7 +165,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray) -> xr.Dataset:
-    """What is drawn of a quantity: its values, their errors and the regime where known, with attributes."""
+    """Collect what is drawn of a quantity: values, errors and regime where known, with attributes."""
     import xarray as xr
 
     # Of the whole results: a part may lack the place that normalises the quantity.

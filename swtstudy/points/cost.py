@@ -1,4 +1,4 @@
-"""What points cost to compute, and such times in words."""
+"""Computing times of points, and such times in words."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.points.canonical import RATIO_COLUMNS, select
-from swtstudy.vocabulary.named import CONTENT_BITS
+from swtstudy.vocabulary.definition import CONTENT_BITS
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3

@@ -20,8 +20,8 @@ from swtstudy.points.plane import check_forces
 from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
@@ -31,7 +31,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 MANY_TURNS = 8.0 * math.pi
 
 #: What the user has defined, by parameter and name.
-Known = Mapping[str, Mapping[str, Named]]
+Known = Mapping[str, Mapping[str, Definition]]
 NOTHING_KNOWN: Known = {}
 
 #: More points than this along one axis are taken for a slip of the pen.
@@ -121,7 +121,7 @@ def read_values(
     known: Known = NOTHING_KNOWN,
     rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> tuple[dict[str, Value], dict[str, tuple[Value, ...]]]:
-    """Those fixed values and axes that are sound one by one; see `read_grid`, and ``rows`` says what is."""
+    """Return the fixed values and axes that are sound one by one; see `read_grid`."""
     good_fixed: dict[str, Value] = {}
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
@@ -171,7 +171,7 @@ def _too_many(
     report: Report,
     rows: Mapping[str, Parameter],
 ) -> bool:
-    """Whether axes that are not too long one by one are so together: to read them takes a minute."""
+    """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [
         raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
         for name, raw in axes.items()
@@ -246,8 +246,8 @@ def _read_axis(
         if value is None:
             continue
         values.append(value)
-        # Two of one name could not be told apart.
-        own = str(value) if isinstance(value, Named) else value
+        # Definitions with the same name cannot be distinguished in results.
+        own = str(value) if isinstance(value, Definition) else value
         first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
         if first != own_key:
             report(own_key, f"{literal(element)}, the same as {first}", "distinct values")

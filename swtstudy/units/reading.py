@@ -34,9 +34,9 @@ from swtstudy.units.rows import (
 )
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
@@ -44,8 +44,8 @@ from swtstudy.vocabulary.quantities import DISTANCE
 
 
 @dataclass(frozen=True)
-class Given:
-    """What is given of contacts beside the values of their parameters; see `PhysicalGrid`."""
+class ContactDetails:
+    """The facts that are given of contacts besides the values of their parameters; see `PhysicalGrid`."""
 
     units: Units = field(default_factory=Units)
     materials: tuple[FatigueConstants, ...] = ()
@@ -59,7 +59,7 @@ class Given:
 def read_contacts(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
-    given: Given,
+    given: ContactDetails,
     keys: Callable[[str], str] = lambda name: name,
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
@@ -107,7 +107,7 @@ def read_contacts(
 def _check_units_of_criteria(
     fixed: Mapping[str, Value],
     along: Mapping[str, tuple[Value, ...]],
-    given: Given,
+    given: ContactDetails,
     report: Report,
 ) -> None:
     """The criterion that needs the strength of the bodies, and the one that has no life."""
@@ -157,7 +157,7 @@ def completed(
 def _body_names(
     single: dict[str, object], given: tuple[str, ...], keys: Callable[[str], str], report: Report
 ) -> tuple[str, ...]:
-    """What the bodies are called, taken from the fixed values, in which a name becomes 1 or 2."""
+    """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
     raw = single.pop(NAMES_KEY, given or None)
     if raw is None:
         return ()
@@ -183,15 +183,15 @@ def _scaling(*values: Mapping[str, Value | tuple[Value, ...]]) -> set[str]:
     return {name for load in _loops(*values) for name in load.scaled_by}
 
 
-def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
+def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Definition]:
     """The loops among the loads."""
     loads = (each.get("load", ()) for each in values)
     every = (load for each in loads for load in (each if isinstance(each, tuple) else (each,)))
-    return [load for load in every if isinstance(load, Named)]
+    return [load for load in every if isinstance(load, Definition)]
 
 
 def _differ(grid: PhysicalGrid) -> bool:
-    """Whether the two bodies have different s, SWT or cycles."""
+    """Return whether the two bodies have different s, SWT or cycles."""
     bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
     pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
     return bool(grid.pairs) or pulled or len({*grid.materials}) > 1 or len({*grid.yield_strengths}) > 1
@@ -200,7 +200,7 @@ def _differ(grid: PhysicalGrid) -> bool:
 def _pairs(
     fixed: Mapping[str, object], own: Mapping[str, Parameter], keys: Callable[[str], str], report: Report
 ) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
-    """What is given for each body, and the other fixed values; an empty pair for one that is wrong."""
+    """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
     for name in OF_BODIES:
         raw = fixed.get(name)
@@ -229,8 +229,8 @@ def _check_given(
     keys: Callable[[str], str],
     report: Report,
 ) -> None:
-    """What a contact needs, and what cannot be given together."""
-    tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
+    """Report which values a contact lacks, and which exclude one another."""
+    tables = [isinstance(profile, Definition) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
@@ -287,8 +287,8 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
                 return
 
 
-def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
-    """What the attribute of results says: see `swtstudy.units.grid.PhysicalGrid`.
+def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, float]]]:
+    """Read the attribute of results; see `swtstudy.units.grid.PhysicalGrid`.
 
     Raises
     ------
@@ -304,7 +304,7 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
         blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
-        given = Given(
+        given = ContactDetails(
             units,
             materials,
             float(raw["similar"]),

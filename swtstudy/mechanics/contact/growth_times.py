@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
-class GrowthTimes:
+class GrowthTimes(Rows):
     """The stretches of time in which n loads gained ground in stick, by their number in the period.
 
     Attributes
@@ -52,7 +53,7 @@ class GrowthTimes:
         return cls(np.arange(len(load)), table)
 
     def take(self, index: NDArray[np.intp]) -> GrowthTimes:
-        """Those of the loads at ``index``, repetitions allowed."""
+        """Return the times of the loads at ``index``, repetitions allowed."""
         return replace(self, row=self.row[index])
 
     def slip_line_brackets(self, sense: float, row: NDArray[np.intp], number: IntArray) -> Brackets:

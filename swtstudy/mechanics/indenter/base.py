@@ -1,4 +1,4 @@
-"""What a profile must know: its MDR profile g, and the integrals of the surface stress over it.
+"""Base of all profiles: the MDR profile g, and the integrals of the surface stress over it.
 
 Lengths are in a_H, which is √(R δ0) unless a family says otherwise, depths in δ0. A batch of n profiles of
 one family is one object; its methods take arrays of shape (n, …).
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 #: Steps that invert the normal force fall back to bisection, so this many always suffice (10 do at 144
 #: points); the last one, relative: its square is the error. 1e-4: 1e-4 at 42 of 144; 1e-11: 5e-11.
@@ -50,7 +51,7 @@ class Primitives(ABC):
 
 @dataclass(frozen=True)
 class Tables:
-    """How to tabulate depths and forces of n profiles.
+    """Layout of the tables of depths and forces of n profiles.
 
     Attributes
     ----------
@@ -67,7 +68,7 @@ class Tables:
     cells: int
 
 
-class Profile(ABC):
+class Profile(Rows, ABC):
     """n profiles of one family, in contact up to a depth.
 
     Parameters
@@ -75,6 +76,8 @@ class Profile(ABC):
     largest_depth
         Shape (n,): largest indentation depth in δ0, up to which tables are made.
     """
+
+    __match_args__ = ("largest_depth",)
 
     #: Whether the contact is a strip in plane strain, not a disc: what that changes is in
     #: `swtstudy.mechanics.indenter.plane`.
@@ -89,7 +92,7 @@ class Profile(ABC):
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
-        """How finely g′ must be resolved, in whole steps: points that differ are not batched together."""
+        """Resolution that g′ needs, in whole steps: points that differ are not batched together."""
         return np.zeros(len(largest_depth), dtype=np.int64)
 
     @classmethod
@@ -101,7 +104,7 @@ class Profile(ABC):
 
     @classmethod
     def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
-        """Whether the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
+        """True where the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 
     @classmethod
@@ -128,10 +131,6 @@ class Profile(ABC):
         """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ, the contact radius at δ0 were there no shape."""
         return 1.0, 0.5
 
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> Profile:
-        """The profiles at ``index``."""
-
     @property
     def flat_radius(self) -> FloatArray:
         """Shape (n,): radius b inside of which g = 0."""
@@ -153,7 +152,7 @@ class Profile(ABC):
         return np.zeros((len(self.largest_depth), 0))
 
     def tables(self) -> Tables | None:
-        """How depths and forces are tabulated against each other, None where formulas are as fast."""
+        """Layout of the tables of depths against forces, None where formulas are as fast."""
         return None
 
     def extra_nodes(self, digits: float) -> int:

@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.definition import Definition, wrong_name
 from swtstudy.vocabulary.families import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.vocabulary.named import Named, wrong_name
 from swtstudy.vocabulary.numbers import read_numbers
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ RADII_BY_LOAD = 20_001
 SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
 
 
-class TabulatedProfile(Named):
+class TabulatedProfile(Definition):
     """A measured or computed profile: heights f above its lowest point, at the axis.
 
     Parameters
@@ -100,12 +100,12 @@ class TabulatedProfile(Named):
 
     @property
     def geometry(self) -> str:
-        """What the contact is, as of a ``Family``."""
+        """The noun for its contact, as of a ``Family``."""
         return self._geometry
 
     @property
     def plane(self) -> bool:
-        """Whether it is that of a plane contact."""
+        """True if it is a profile of a plane contact."""
         return self._geometry == PLANE
 
     def __repr__(self) -> str:
@@ -236,7 +236,7 @@ def _every_other(values: FloatArray) -> FloatArray:
 
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
-    """What is wrong with a table."""
+    """Return the mistakes in a table."""
     if mistake := wrong_name(name, "profile"):
         yield mistake
         name = "profile"

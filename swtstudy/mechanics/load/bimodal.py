@@ -42,10 +42,6 @@ class BimodalLoad(Load):
     def __len__(self) -> int:
         return len(self.phase)
 
-    def take(self, index: NDArray[np.intp]) -> BimodalLoad:
-        of_load = self.normal_amplitude[index], self.tangential_amplitude[index], self.phase[index]
-        return BimodalLoad(*of_load, self.p, self.q)
-
     def normal(self, instant: FloatArray) -> FloatArray:
         d, psi = (align(v, instant) for v in (self.normal_amplitude, self.phase))
         return 1.0 + d * np.sin(self.q * instant + psi)
@@ -89,7 +85,7 @@ class BimodalLoad(Load):
         return np.sort(np.concatenate([self.normal_turning_instants(), *slip_lines], axis=1), axis=1)
 
     def normal_turning_instants(self) -> FloatArray:
-        """Those of `turning_instants` at which the normal load turns, or contact is made or lost."""
+        """The `turning_instants` at which the normal load turns, or contact is made or lost."""
         q, d = self.q, self.normal_amplitude
         quarter = np.pi * (np.arange(2 * q) + 0.5)
         columns = [np.mod((quarter - self.phase[:, None]) / q, PERIOD)]

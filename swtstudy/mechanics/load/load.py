@@ -1,4 +1,4 @@
-"""What a load must know: a closed loop in the plane of the normal and the tangential load.
+"""Base of all loads: a closed loop in the plane of the normal and the tangential load.
 
 Both components are measured in the coordinate of the memory diagram: the normal one is 1 at the reference
 depth δ0, the tangential one is scaled so that friction reads |tangential| ≤ normal for each spring. Time is
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 #: Length of the common period in φ, rad.
 PERIOD = 2.0 * np.pi
@@ -22,7 +23,7 @@ PERIOD = 2.0 * np.pi
 SAME_CUSP = 1e-9
 
 
-class Load(ABC):
+class Load(Rows, ABC):
     """n loads of one kind.
 
     Notes
@@ -34,10 +35,6 @@ class Load(ABC):
     @abstractmethod
     def __len__(self) -> int:
         """Number n of loads."""
-
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> Load:
-        """The loads at ``index``, repetitions allowed."""
 
     @abstractmethod
     def normal(self, instant: FloatArray) -> FloatArray:
@@ -83,12 +80,12 @@ class Load(ABC):
     @property
     @abstractmethod
     def oscillations(self) -> tuple[int, int]:
-        """How often the normal and the tangential load oscillate in a period."""
+        """Numbers of oscillations of the normal and the tangential load in a period."""
 
     @property
     @abstractmethod
     def mirrored_half(self) -> bool:
-        """Whether half a period later the normal load is the same and the tangential one has changed sign."""
+        """True if half a period later the normal load is the same and the tangential one has changed sign."""
 
     @property
     def same_cusp(self) -> float:
@@ -97,7 +94,7 @@ class Load(ABC):
 
     @property
     def grows_in_lines(self) -> bool:
-        """Whether the ratio of both rates is constant between turning instants."""
+        """True if the ratio of both rates is constant between turning instants."""
         return False
 
     @abstractmethod

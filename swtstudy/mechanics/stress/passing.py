@@ -12,6 +12,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.tip import (
     OF_EDGE,
     OF_FRONT,
@@ -31,7 +32,7 @@ COORDINATE, INSTANT = 2e-15, 2.5e-15
 def arrival(
     load: Load, coordinate: Coordinate, position: FloatArray, at: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """How far from ``at``, the coordinate of r, shape (n, X), rounding leaves that of what arrives there.
+    """Distance from ``at``, the coordinate of r, shape (n, X), at which rounding leaves what arrives there.
 
     The stress shows the square root of this distance.
 
@@ -49,8 +50,8 @@ def arrival(
 
 
 @dataclass(frozen=True)
-class Passing:
-    """What passes n × X positions.
+class Passing(Rows):
+    """Edges and fronts that pass n × X positions.
 
     Attributes
     ----------
@@ -83,11 +84,6 @@ class Passing:
 
         of_edge, of_front = reach_of_edges(cycle.load), reach_of_fronts(cycle)
         return slowed(0, OF_EDGE, of_edge), slowed(1, OF_FRONT, of_front)
-
-    def take(self, index: NDArray[np.intp]) -> Passing:
-        """The positions at ``index`` of the first axis."""
-        own = self.position[index], self.at[index], self.near[index]
-        return Passing(*own, self.slower and self.slower.take(index))
 
     def spread(
         self,

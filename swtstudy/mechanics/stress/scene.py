@@ -1,11 +1,8 @@
-"""What the stress depends on: contact, indenter, Poisson ratio and friction."""
+"""A scene holds all that the stress depends on: contact, indenter, Poisson ratio and friction."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-
-import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
@@ -21,13 +18,14 @@ from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.vocabulary.prescribed import Control
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Rows):
     """n points: what the stress on the surface line depends on.
 
     Attributes
@@ -59,17 +57,6 @@ class Scene:
         """The n profiles."""
         return self.coordinate.profile
 
-    def take(self, index: NDArray[np.intp]) -> Scene:
-        """The points at ``index``, repetitions allowed."""
-        return Scene(
-            self.cycle.take(index),
-            self.coordinate.take(index),
-            self.poisson_ratio[index],
-            self.friction[index],
-            self.criterion.take(index),
-            self.bulk and self.bulk.take(index),
-        )
-
     def with_own(self, points: Points) -> Scene:
         """The same with the criterion and the bulk stresses of its n points."""
         return replace(self, criterion=criterion_of(points)).carrying(bulk_of(points))
@@ -95,7 +82,7 @@ class Scene:
 
     @property
     def critical_everywhere(self) -> bool:
-        """Whether places in mere pressure may be critical, or those outside of the contact."""
+        """True if places in mere pressure may be critical, or those outside of the contact."""
         return self.bulk is not None or not self.criterion.needs_tension
 
     @property
@@ -105,7 +92,7 @@ class Scene:
 
     @property
     def mirrored_half(self) -> bool:
-        """Whether half a period later the stress is the same at −x."""
+        """True if half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:

@@ -17,11 +17,12 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
 class Slowness:
-    """How the load is slowed down.
+    """The rule by which the load is slowed down.
 
     Attributes
     ----------
@@ -53,12 +54,12 @@ OF_LEAST_EDGE, OF_AMPLITUDE, LEAST_REACH = 1e5, 1e2, 1e-3
 
 
 def reach_of_edges(load: Load) -> FloatArray:
-    """What the coordinates of `OF_EDGE` are over, shape (n,): 0 unless edges come to the tip."""
+    """Reference of the coordinates of `OF_EDGE`, shape (n,): 0 unless edges come to the tip."""
     return np.where(load.least_normal <= 0.0, load.largest_normal, 0.0)
 
 
 def reach_of_fronts(cycle: Cycle) -> FloatArray:
-    """What the coordinates of `OF_FRONT` are over, shape (n,): 0 unless fronts come to the tip."""
+    """Reference of the coordinates of `OF_FRONT`, shape (n,): 0 unless fronts come to the tip."""
     load = cycle.load
     amplitude = load.motion - load.normal_motion
     edge = np.maximum(OF_LEAST_EDGE * load.least_normal, OF_AMPLITUDE * amplitude)
@@ -67,7 +68,7 @@ def reach_of_fronts(cycle: Cycle) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class SlowerTime:
+class SlowerTime(Rows):
     """Slower time for n × X positions, some of which are next to a tip.
 
     Attributes
@@ -91,10 +92,6 @@ class SlowerTime:
             return None
         far = np.broadcast_to(coordinate.radius((slowness.until * over)[:, None]), r.shape)
         return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, 1e-300)))
-
-    def take(self, index: NDArray[np.intp]) -> SlowerTime:
-        """Those at ``index`` of the first axis."""
-        return SlowerTime(*(values[index] for values in vars(self).values()))
 
     def put(self, radius: FloatArray, own: NDArray[np.bool_] | None = None) -> None:
         """Put what stands for radii, shape (n, X, T), in place, but for those at their ``own`` time."""

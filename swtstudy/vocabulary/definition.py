@@ -1,0 +1,96 @@
+"""Base of the definitions with names that users give, such as a loop of loads; the content counts."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any, ClassVar
+
+from swtstudy.vocabulary.mistakes import STORABLE, Mistake, literal, storable
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+#: Bits of a code for the content; above them is the cost, so that the whole is an exact double.
+CONTENT_BITS = 40
+
+
+def wrong_name(name: object, parameter: str) -> Mistake | None:
+    """Return the mistake in the name of a definition, as a value of a parameter."""
+    if not isinstance(name, str) or not name.strip():
+        return Mistake("name", literal(name), "a text that is not empty")
+    if not storable(name):
+        return Mistake("name", literal(name), STORABLE)
+    if name in PARAMETERS[parameter].names:
+        return Mistake("name", literal(name), f"another one: this is a built-in {parameter}")
+    return None
+
+
+class Definition(ABC):
+    """Something with a name and a content that can be written as JSON.
+
+    Attributes
+    ----------
+    name
+        For people, files and figures. Two with the same content are the same whatever their names.
+    """
+
+    #: The parameter of which it is a value.
+    parameter: ClassVar[str]
+
+    name: str
+
+    @abstractmethod
+    def content(self) -> dict[str, Any]:
+        """The content, as JSON can hold it to the last digit."""
+
+    @classmethod
+    @abstractmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> Definition:
+        """The inverse of `content`.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with everything that is wrong in it.
+        """
+
+    @property
+    def cost(self) -> int:
+        """About how many times as long as the simplest one it takes, from 1 to 4095."""
+        return 1
+
+    @property
+    def scaled_by(self) -> tuple[str, ...]:
+        """The parameters that scale it, which are 1 unless given."""
+        return ()
+
+    @cached_property
+    def code(self) -> float:
+        """The number that stands for its content in canonical rows; built-in values have smaller ones."""
+        text = json.dumps(self.content(), sort_keys=True)
+        digest = hashlib.sha256(text.encode()).digest()
+        content = int.from_bytes(digest[: CONTENT_BITS // 8], "big")
+        return float((self.cost << CONTENT_BITS) + content)
+
+    def notes(self) -> dict[str, Any]:
+        """Facts that archives keep beside the content, as JSON can hold them."""
+        return {}
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Definition) and (self.name, self.code) == (other.name, other.code)
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.code))
+
+    def __str__(self) -> str:
+        return self.name
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}>"
+
+
+def cost_of(code: float) -> int:
+    """`Definition.cost` of what a code stands for; 0 for a built-in value."""
+    return int(code) >> CONTENT_BITS

@@ -1,0 +1,244 @@
+"""Validity, told with every result: margins against closed forms, and what is said of points outside."""
+
+import warnings
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from real import ALUMINIUM, CONSTANTS, UNITS
+
+import swtstudy
+from swtstudy import Study, physical, run
+from swtstudy.archive.describe import describe
+from swtstudy.cli import main
+from swtstudy.points.validity import outside, validity_lines
+
+#: Forces of a rig: constant load, so that all is in closed form.
+RIG = f"""
+title = "A rig"
+rtol = 1e-2
+{UNITS}[material]
+yield_strength = 210
+{CONSTANTS}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.3
+radius = 50
+friction = 0.5
+normal_force = 200
+[axes]
+tangential_force_amplitude = [30, 60, 120]
+"""
+E_STAR = 73.1e3 / (2 * (1 - 0.3**2))
+
+
+@pytest.fixture(scope="module")
+def rig(tmp_path_factory):
+    return run(Study.from_text(RIG), tmp_path_factory.mktemp("rig") / "rig.nc", workers=1)
+
+
+def test_contact_radius_over_r(rig):
+    radius = (0.75 * 200.0 * 50.0 / E_STAR) ** (1 / 3)
+    np.testing.assert_allclose(rig.radius_ratio, radius / 50.0, rtol=1e-9)
+    # Of a cycle the largest; a table has no R.
+    own = {"young_modulus": 73.1e3, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
+    more = physical(**own, normal_force=200.0, normal_force_amplitude=150.0, tangential_force_amplitude=1.0)
+    expected = (0.75 * 350.0 * 50.0 / E_STAR) ** (1 / 3) / 50.0
+    np.testing.assert_allclose(more.solve(1e-2).radius_ratio, expected, rtol=1e-9)
+    cap = np.linspace(0.0, 3.0, 40)
+    table = swtstudy.TabulatedProfile("cap", cap, cap**2 / 100.0)
+    flat = physical(**{**own, "radius": None, "profile": table}, depth=0.01, tangential_amplitude=1e-3)
+    assert "radius_ratio" not in flat.solve(1e-2)
+
+
+def test_the_yield_ratio_is_that_of_the_table(rig):
+    """At Q = 0.6 μP and μ = 0.5 a sphere with ν = 0.3 begins to yield at p0 = 1.30 of the yield strength."""
+    at = rig.sel(tangential_force_amplitude=60)
+    assert float(rig.peak_pressure / 210.0 / at.yield_ratio) == pytest.approx(1.30, rel=1e-2)
+    np.testing.assert_allclose(at.von_mises / 210.0, at.yield_ratio, rtol=1e-12)
+    assert rig.von_mises.attrs["units"] == "MPa"
+
+
+def test_each_body_has_its_own_strength():
+    own = {"young_modulus": 73.1e3, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
+    contact = physical(**own, normal_force=200.0, tangential_force_amplitude=60.0)
+    found = contact.solve(1e-2, yield_strength=(150.0, 300.0))
+    np.testing.assert_allclose(found.yield_ratio[0], 2.0 * found.yield_ratio[1], rtol=1e-12)
+    with pytest.raises(swtstudy.StudyError, match="yield_strength: found -1; allowed: a positive stress"):
+        contact.solve(yield_strength=-1)
+    with pytest.raises(swtstudy.StudyError, match="one, or a pair"):
+        contact.solve(yield_strength=[1, 2, 3])
+
+
+def test_the_prescribed_force_ratio_is_that_of_the_forces(rig):
+    np.testing.assert_allclose(rig.prescribed_force_ratio, [0.3, 0.6, 1.2], rtol=1e-12)
+    # Of oscillating forces it is what the quantity finds where there is equilibrium, by another way.
+    found = swtstudy.solve(
+        rtol=1e-2,
+        quantities=["force_ratio"],
+        normal_force_amplitude=[0.0, 0.3, 0.5],
+        phase=[0.0, 1.1, "pi/2"],
+        tangential_force_amplitude=0.6,
+    )
+    known = found.force_ratio.notnull()
+    assert int(known.sum()) == 8
+    expected = found.prescribed_force_ratio.where(known)
+    np.testing.assert_allclose(expected, found.force_ratio, rtol=1e-3)
+    # At ψ = 0 in closed form: 0.6 sin φ over 1 + 0.5 sin φ, at φ = 3π/2.
+    assert found.prescribed_force_ratio[2, 0] == pytest.approx(1.2)
+    mixed = swtstudy.solve(rtol=1e-2, quantities=["force_ratio"], tangential_force_amplitude=0.05)
+    assert mixed.prescribed_force_ratio == pytest.approx(float(mixed.force_ratio), rel=1e-3)
+    assert "prescribed_force_ratio" not in swtstudy.solve(rtol=1e-2)
+
+
+def test_forces_along_a_loop_have_their_ratio_at_a_vertex():
+    loop = swtstudy.LoadPath("way", [[0.0, 0.0], [-0.5, 0.4], [0.5, 0.4]])
+    found = swtstudy.solve(rtol=1e-2, load=loop, normal_force_amplitude=1, tangential_force_amplitude=1)
+    assert float(found.prescribed_force_ratio) == pytest.approx(0.8)
+
+
+def test_the_bulk_shift_over_the_slip_zone():
+    """As in closed form at δA = 0, also where the shift is larger than the slip zone and the shift NaN."""
+    amplitude = np.array([0.01, 0.1, 0.4])
+    found = swtstudy.solve(
+        rtol=1e-2, normal_amplitude=0.0, bulk_stress_amplitude=amplitude, tangential_amplitude=0.75
+    )
+    shift = 2.0 * amplitude / (0.3 * 1.3 * 3.1)
+    np.testing.assert_allclose(found.bulk_shift_ratio, shift / (1.0 - np.sqrt(0.25)), rtol=1e-12)
+    assert np.isnan(found.bulk_shift[-1])
+    (line,) = validity_lines(found)
+    assert line == (
+        "1 of 3 points where the bulk strain moves the stick zone, which is left out: shift over the width "
+        "of the slip zone up to 1.32, at most 0.5 at bulk_stress_amplitude = 0.4"
+    )
+
+
+def test_the_shift_is_a_length_of_the_study():
+    pulled = RIG.replace("normal_force = 200", "normal_force = 200\nbulk_stress_amplitude = 20")
+    grid = Study.from_text(pulled.replace("[30, 60, 120]", "[60]")).grid
+    contact = physical(
+        young_modulus=73.1e3, poisson_ratio=0.3, radius=50.0, friction=0.5, normal_force=200.0,
+        bulk_stress_amplitude=20.0, tangential_force_amplitude=60.0,
+    )  # fmt: skip
+    found = contact.solve(1e-2)
+    plain = swtstudy.solve(rtol=1e-2, **contact.parameters()).bulk_shift
+    assert float(found.bulk_shift[0]) == pytest.approx(float(plain) * contact.length_scale)
+    assert "bulk_shift" in grid.margins
+    assert found.bulk_shift.dims == ("body",)
+
+
+def test_what_is_outside_is_said(rig):
+    lines = validity_lines(rig)
+    assert lines[0] == (
+        "1 of 3 points in no equilibrium: tangential_force_amplitude 120 N exceeds μ F_N = 100 N"
+    )
+    assert lines[1].startswith("1 of 3 points beyond first yield: largest von Mises stress over the yield ")
+    assert lines[1].endswith("up to 1.07, at most 1 at tangential_force_amplitude = 60 N")
+    assert len(lines) == 2
+    assert rig.attrs["validity"] == "\n".join(lines)
+    assert validity_lines(rig.sel(tangential_force_amplitude=30)) == ()
+    within = validity_lines(rig.sel(tangential_force_amplitude=[30]), inside=True)
+    assert "contact radius over R up to 0.0114, within 0.1" in within
+    assert outside(rig).values.tolist() == [False, True, False]
+    assert [line for line in describe(rig) if "validity" in line][:2] == [
+        f"  validity       {line}" for line in lines
+    ]
+    assert rig.swt.validity() == lines
+    assert "beyond first yield" in rig.swt._repr_html_()
+
+
+def test_a_life_beyond_the_constants_is_said(rig):
+    short = rig.assign(cycles=rig.cycles * 0.0 + np.array([5.0, 1e4, np.nan]))
+    assert "1 of 3 points with cycles outside of 100 to 1e7, extrapolated: 5" in validity_lines(short)
+    long = rig.assign(cycles=rig.cycles * 0.0 + np.array([2e7, 5e8, np.inf]))
+    (line,) = [line for line in validity_lines(long) if "cycles" in line]
+    assert line == "2 of 3 points with cycles outside of 100 to 1e7, extrapolated: 2e+07 to 5e+08"
+    assert float(ALUMINIUM.cycles(ALUMINIUM.swt(1e7))) == pytest.approx(1e7)
+    volume = rig.assign(cycles_volume=rig.cycles * 0.0 + np.array([5e8, 1e4, 1e4]))
+    assert "1 of 3 points with cycles_volume outside of 100 to 1e7, extrapolated: 5e+08" in validity_lines(
+        volume
+    )
+
+
+def test_a_whole_grid_without_a_value_says_why():
+    found = swtstudy.solve(rtol=1e-2, normal_force_amplitude=0.0, tangential_force_amplitude=[1.2, 1.5])
+    assert np.isnan(found.s).all()
+    expected = "all 2 points in no equilibrium: tangential_force_amplitude 1.5 exceeds 1, in μ F_N"
+    assert validity_lines(found) == (expected,)
+    pulls = swtstudy.solve(rtol=1e-2, normal_force_amplitude=1.5, tangential_amplitude=0.1)
+    assert validity_lines(pulls) == (
+        "the point is in no equilibrium: the normal force pulls at some instant",
+    )
+    swings = swtstudy.solve(
+        rtol=1e-2, normal_force_amplitude=0.5, tangential_force_amplitude=[0.2, 0.75], friction=[0.2, 0.3]
+    )
+    assert validity_lines(swings) == (
+        "2 of 4 points in no equilibrium: the tangential force is up to 1.5 times μ F_N at friction = 0.2",
+    )
+    apart = swtstudy.solve(rtol=1e-2, normal_force_amplitude=1.0, tangential_force_amplitude=0.2, phase=1)
+    assert "while the normal force is 0" in validity_lines(apart)[0]
+    sharp = swtstudy.solve(rtol=1e-2, profile="truncated_paraboloid", flat_radius=0.5, friction=2.0)
+    assert validity_lines(sharp) == ("the point is not finite: swt grows without bound towards an edge",)
+
+
+def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):
+    file = tmp_path / "metres.toml"
+    # A radius in metres for one in millimetres.
+    file.write_text(
+        RIG.replace("radius = 50", "radius = 0.05").replace("[30, 60, 120]", "[60]"), encoding="utf-8"
+    )
+    done = CliRunner().invoke(main, ["run", str(file), "--results", str(tmp_path), "--workers", "1"])
+    assert done.exit_code == 0
+    lines = [line for line in done.stderr.splitlines() if line.startswith("validity: ")]
+    assert any("too large for half-spaces: contact radius over R up to" in line for line in lines)
+    assert any("outside of 100 to 1e7" in line for line in lines)
+    assert any("beyond first yield" in line for line in lines)
+
+
+def test_old_results_say_what_they_can(rig):
+    margins = ["radius_ratio", "yield_ratio", "prescribed_force_ratio"]
+    assert validity_lines(rig.drop_vars(margins))[0].startswith("1 of 3 points in no equilibrium")
+
+
+def test_inspection_says_it():
+    with pytest.raises(swtstudy.StudyError, match=r"\|F_x\| is up to 1.2 μ F_N"):
+        swtstudy.inspect_point(normal_force_amplitude=0.0, tangential_force_amplitude=1.2)
+    figure = swtstudy.inspect(normal_amplitude=0.0, bulk_stress_amplitude=0.4, tangential_amplitude=0.75)
+    assert "the bulk strain moves the stick zone" in figure.get_suptitle().replace("\n", " ")
+
+
+@pytest.mark.parametrize("phase", ["90 deg", "90°", "90 degrees", "pi/2", "1.5707963267948966 rad"])
+def test_an_angle_may_have_a_unit(phase):
+    assert Study.from_text(f'title = "t"\n[fixed]\nphase = "{phase}"').grid.fixed["phase"] == np.pi / 2
+
+
+def test_degrees_in_axes_and_samples():
+    axis = 'title = "t"\n[axes]\nphase = { start = "0 deg", stop = "180 deg", num = 3 }'
+    assert Study.from_text(axis).grid.axes["phase"] == (0.0, np.pi / 2, np.pi)
+    drawn = 'title = "t"\n[sample]\ndesign = "sobol"\nsize = 4\n[sample.ranges]\nphase = ["0 deg", "180 deg"]'
+    assert max(Study.from_text(drawn).grid.samples["phase"]) <= np.pi
+    with pytest.raises(swtstudy.StudyError, match='or such as "90 deg"'):
+        swtstudy.solve(phase="90 grad")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[fixed]\nphase = 90",
+        '[fixed]\nphase = "90"',
+        "[fixed]\nphase = -26",
+        "[fixed]\nbulk_stress_phase = 90",
+        "[axes]\nphase = [0, 90]",
+        "[axes]\nphase = { start = 0, stop = 360, num = 3 }",
+        '[sample]\ndesign = "random"\nsize = 8\n[sample.ranges]\nphase = [30, 360]',
+    ],
+)
+def test_degrees_without_a_word_are_warned_of(text):
+    with pytest.warns(UserWarning, match=r'phase: .* is in radians; for degrees write ".* deg"'):
+        Study.from_text(f'title = "t"\n{text}')
+
+
+@pytest.mark.parametrize("phase", ["25", '"90 deg"', '"30*pi"', '"90 rad"'])
+def test_what_is_meant_is_not(phase):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Study.from_text(f'title = "t"\n[fixed]\nphase = {phase}')

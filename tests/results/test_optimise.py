@@ -1,0 +1,254 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import stand_in
+
+import swtstudy
+from swtstudy import StudyError, optimise
+from swtstudy.points.values import NUMERIC
+from swtstudy.results.optimum.least import least
+from swtstudy.results.optimum.objective import Objective
+from swtstudy.results.optimum.planes import planes_from, probes
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
+
+
+def kinked(points, rtol):
+    """A sharp valley that runs askew, lowest at the largest amplitude and hardly higher at none."""
+    bottom = 2.0 + 0.8 * points.normal_amplitude
+    s = 0.15 + 0.05 * abs(points.phase - bottom) - 0.05 * (points.normal_amplitude - 0.4) ** 2
+    return replace(stand_in.smooth(points, rtol), s=s, s_surface=s)
+
+
+@pytest.fixture(scope="module")
+def found():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("swtstudy.mechanics.solve_points", kinked)
+        return optimise(over=OVER, rtol=1e-3)
+
+
+@pytest.fixture
+def valley(monkeypatch):
+    monkeypatch.setattr("swtstudy.mechanics.solve_points", kinked)
+
+
+def test_no_point_of_a_fine_grid_is_better_or_worse(found, valley):
+    amplitude, phase = np.linspace(0.0, 0.9, 31), np.linspace(np.pi / 4, np.pi, 31)
+    grid = swtstudy.solve(normal_amplitude=amplitude, phase=phase, rtol=1e-3)
+    best, worst = found.s.sel(case="best").item(), found.s.sel(case="worst").item()
+    assert best <= grid.s.min() * (1 + 1e-6)
+    assert worst >= grid.s.max() * (1 - 1e-6)
+    # As the grid is fine, it has nearly the same: s rises by no more over a cell.
+    assert best > 0.95 * grid.s.min()
+    assert worst < 1.02 * grid.s.max()
+
+
+def test_the_best_point_is_a_minimum_of_a_very_fine_grid_around_it(found, valley):
+    best = found.sel(case="best")
+    around = {name: best[name].item() + 1e-3 * np.linspace(-1, 1, 21) for name in OVER}
+    around["normal_amplitude"] = np.clip(around["normal_amplitude"], 0.0, 0.9)
+    around = {name: np.unique(values) for name, values in around.items()}
+    grid = swtstudy.solve(**around, rtol=1e-3)
+    assert best.s <= grid.s.min() * (1 + 1e-6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 8])
+def test_no_phase_of_a_dense_grid_is_better_or_worse_in_random_cases(seed):
+    rng = np.random.default_rng(seed)
+    case = {
+        "frequency_ratio": str(rng.choice(["1/2", "1", "3/2", "2"])),
+        "friction": rng.uniform(0.1, 0.9),
+        "normal_amplitude": rng.uniform(0.1, 0.9),
+        "tangential_amplitude": rng.uniform(0.1, 1.5),
+    }
+    if seed % 2:
+        case |= {"profile": "rounded_punch", "flat_radius": rng.uniform(0.1, 1.0)}
+    optimum = optimise(over={"phase": (0, "2*pi")}, rtol=1e-2, **case)
+    dense = swtstudy.solve(phase=np.linspace(0.0, 2.0 * np.pi, 361), rtol=1e-2, **case)
+    for case, of_grid, sign in (("best", dense.s.min(), 1.0), ("worst", dense.s.max(), -1.0)):
+        s = optimum.s.sel(case=case)
+        # What the nodes of a grid miss of a kink is small, and never better than the optimum.
+        assert -1e-6 * s <= sign * (of_grid - s) <= 0.01 * s
+
+
+def test_the_values_are_those_of_the_solver(found, valley):
+    for case in ("best", "worst"):
+        one = found.sel(case=case)
+        alone = swtstudy.solve(**{name: one[name].item() for name in OVER}, rtol=1e-3)
+        for name in ("s", "critical_x", "critical_angle", "regime"):
+            assert one[name].item() == pytest.approx(alone[name].item(), rel=1e-9)
+
+
+def test_how_it_was_found(found):
+    assert found.attrs["minimise"] == "s"
+    assert found.attrs["without_value"] == 0
+    progress = found.progress.values
+    assert (np.diff(progress[0][np.isfinite(progress[0])]) <= 0.0).all()
+    assert (np.diff(progress[1][np.isfinite(progress[1])]) >= 0.0).all()
+    best, worst = found.sel(case="best"), found.sel(case="worst")
+    assert best.s <= best.searched == best.progress.min()
+    assert worst.s >= worst.searched == worst.progress.max()
+    assert (found.evaluations > 200).all()
+
+
+def test_each_case_has_its_own_numbers(found):
+    assert found.case.values.tolist() == ["best", "worst"]
+    for name in ("s", "converged", "evaluations"):
+        assert found[name].dims == ("case",), name
+
+
+def test_the_neighbourhood_is_along_each_parameter(found, valley):
+    best = found.sel(case="best")
+    assert np.allclose(best.nearby.sel(step=0.0, method="nearest"), best.s, rtol=1e-9)
+    along = best.sel(parameter="phase").dropna("step")
+    grid = swtstudy.solve(
+        phase=along.nearby_value.values, normal_amplitude=best.normal_amplitude.item(), rtol=1e-3
+    )
+    assert np.allclose(along.nearby, grid.s, rtol=1e-6)
+    # The best amplitude is the largest: there is nothing beyond.
+    assert best.normal_amplitude == 0.9
+    beyond = best.nearby.sel(parameter="normal_amplitude").where(best.step > 1e-9, drop=True)
+    assert np.isnan(beyond).all()
+
+
+def test_the_same_seed_gives_the_same_to_the_bit(monkeypatch):
+    monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)
+    over = {"phase": (0, 4), "friction": (0.1, 0.2)}
+    one, same, other = (optimise(over=over, seed=seed) for seed in (1, 1, 2))
+    assert one.identical(same)
+    assert not one.identical(other)
+    assert one.s.values == pytest.approx(other.s.values, rel=1e-6)
+    assert one.phase.values == pytest.approx([np.pi, 0.0], abs=1e-3)
+    assert one.friction.values.tolist() == [0.1, 0.2]
+
+
+@pytest.mark.slow
+def test_another_quantity():
+    found = optimise(over={"friction": (0.1, 0.5)}, minimise="critical_x", rtol=1e-2)
+    grid = swtstudy.solve(friction=np.linspace(0.1, 0.5, 21), rtol=1e-2)
+    assert found.critical_x.sel(case="best") <= grid.critical_x.min() + 1e-6
+    assert found.critical_x.sel(case="worst") >= grid.critical_x.max() - 1e-6
+
+
+def test_a_quantity_beside_s(monkeypatch):
+    # The work is that of the mechanics.
+    monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)
+    found = optimise(over={"tangential_amplitude": (0.2, 0.9)}, minimise="dissipation", rtol=1e-2)
+    # A contact that sticks dissipates nothing, and the larger of two oscillations more.
+    assert found.dissipation.sel(case="best") == pytest.approx(0.0, abs=1e-12)
+    assert found.tangential_amplitude.sel(case="worst") == 0.9
+    there = swtstudy.solve(tangential_amplitude=0.9, quantities=["dissipation"], rtol=1e-2)
+    assert found.dissipation.sel(case="worst") == pytest.approx(there.dissipation.item(), rel=1e-9)
+
+
+def test_every_number_may_be_searched_over():
+    assert {*NUMERIC} == {name for name, row in PARAMETERS.items() if row.kind == "number"}
+
+
+def singular_beyond(points, rtol):
+    """A smooth function of the friction that is infinite from 1.6 on."""
+    found = stand_in.smooth(points, rtol)
+    return replace(found, s=np.where(points.friction < 1.6, found.s, np.inf))
+
+
+def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
+    monkeypatch.setattr("swtstudy.mechanics.solve_points", singular_beyond)
+    found = optimise(over={"friction": (0.2, 2.0)}, rtol=1e-2)
+    assert found.attrs["without_value"] > 0
+    assert np.isfinite(found.s).all()
+    assert found.friction.sel(case="worst") == pytest.approx(1.6, abs=1e-4)
+    with pytest.raises(StudyError, match=r"over: found no finite value at any of .* points"):
+        optimise(over={"friction": (1.8, 2.0)}, rtol=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"over": {}}, "over: found {}; allowed: ranges by name"),
+        ({"over": {"phas": (0, 1)}}, "over.phas: .* did you mean phase"),
+        (
+            {"over": {"frequency_ratio": (1, 2)}},
+            "over.frequency_ratio: found not a parameter that is a number",
+        ),
+        ({"over": {"phase": (0, 1, 2)}}, "over.phase: .* allowed: both ends of a range"),
+        ({"over": {"phase": 1}}, "over.phase: found 1; allowed: both ends of a range"),
+        ({"over": {"phase": (1, 0)}}, "over.phase: .* the lower end first"),
+        ({"over": {"phase": (1, 1)}}, r"over.phase\[1\]: .* distinct values"),
+        ({"over": {"friction": (0, 11)}}, r"over.friction\[1\]: found 11"),
+        (
+            {"over": {"friction": (0, 1)}, "friction": 0.3},
+            "over.friction: found both a fixed value and an axis",
+        ),
+        ({"over": {"flat_radius": (0, 1)}}, "over.flat_radius: .* only with the profile"),
+        ({"over": {"phase": (0, 1)}, "phase_shift": 1}, "phase_shift: found unknown parameter"),
+        ({"over": {"phase": (0, 1)}, "friction": [0.1, 0.2]}, "friction: "),
+        ({"over": {"phase": (0, 1)}, "minimise": "S"}, "minimise: found 'S'; allowed: did you mean s"),
+        ({"over": {"phase": (0, 1)}, "minimise": "regime"}, "minimise: found 'regime'"),
+        ({"over": {"phase": (0, 1)}, "rtol": 1}, "rtol: found 1"),
+        ({"over": {"phase": (0, 1)}, "seed": -1}, "seed: found -1"),
+        (
+            {"over": {"phase": (0, 1)}, "seed": 2**32},
+            "seed: found 4294967296; allowed: a whole number from 0",
+        ),
+    ],
+)
+def test_bad_input_is_named(given, words):
+    with pytest.raises(StudyError, match=words):
+        optimise(**given)
+
+
+def test_every_mistake_is_reported():
+    with pytest.raises(StudyError) as error:
+        optimise(over={"phas": (0, 1), "friction": 3}, rtol=7, minimise="t")
+    assert {mistake.key for mistake in error.value.mistakes} == {
+        "over.phas",
+        "over.friction",
+        "rtol",
+        "minimise",
+    }
+
+
+class Highest(Objective):
+    """The highest of curved surfaces, whose gradients cancel at the place where they meet."""
+
+    sign = 1
+
+    def __init__(self, dimensions, rng):
+        self.points, self.values = np.empty((0, dimensions)), np.empty(0)
+        self.kink = rng.uniform(0.1, 0.9, dimensions)
+        slopes = rng.normal(size=(dimensions + 1, dimensions))
+        self.slopes = slopes - slopes.mean(axis=0)
+        halves = rng.normal(size=(dimensions + 1, dimensions, dimensions))
+        self.curvatures = np.einsum("kij,klj->kil", halves, halves) / 2.0
+
+    def __call__(self, unit):
+        away = unit - self.kink
+        bent = np.einsum("ni,kij,nj->nk", away, self.curvatures, away)
+        values = 1.0 + (away @ self.slopes.T + bent).max(axis=1)
+        self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
+        return values
+
+
+@pytest.mark.parametrize("dimensions", [1, 2, 3])
+def test_kinks_are_followed_to_their_lowest_point(dimensions):
+    rng = np.random.default_rng(7)
+    for _ in range(5):
+        objective = Highest(dimensions, rng)
+        found = least(objective, dimensions, seed=3)
+        assert objective.values.min() == pytest.approx(1.0, abs=1e-5)
+        assert objective.values.min() < found.searched
+        assert objective(found.unit[None]) == objective.values.min()
+
+
+def test_planes_that_touch_a_linear_function_are_that_function():
+    points = np.array([[0.2, 0.3], [0.8, 0.1], [0.4, 0.9]])
+
+    def linear(at):
+        return 1.0 + at @ [3.0, -5.0]
+
+    planes = planes_from(points, 0.1, linear(probes(points, 0.1)))
+    np.testing.assert_allclose(planes.gradients, [[3.0, -5.0]] * 3, rtol=1e-6)
+    np.testing.assert_allclose(planes.values, linear(points))
