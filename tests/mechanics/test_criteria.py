@@ -24,6 +24,7 @@ from swtstudy.mechanics.numerics.hemisphere import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.planes.crossland import smallest_sphere
 from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
+from swtstudy.mechanics.planes.swing import SHEAR_STRESS
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.mechanics.stress.scene import scene_of
@@ -494,6 +495,42 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path) -> None:
         assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
     call("report", archive, "-o", tmp_path / "shear.html")
     assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
+
+
+def test_derivatives_of_the_shear_along_its_line() -> None:
+    """The plane turned along great circles, its line with it; two instants have one chord."""
+    stress = random_histories(5, 6, 2)
+    normal, first = np.array([0.48, 0.6, 0.64]), np.array([-0.8, 0.0, 0.6])
+    tangent = np.stack([first, np.cross(normal, first)])
+    tensor = symmetric_tensor(stress)
+    traction = np.einsum("ntij,j->nti", tensor, normal)
+    path = traction @ tangent.T
+    chord = path[:, 1] - path[:, 0]
+    chord /= np.linalg.norm(chord, axis=1)[:, None]
+
+    def shear(u: float, v: float) -> Array:
+        size = np.hypot(u, v) or 1.0
+        way = (u * tangent[0] + v * tangent[1]) / size
+        turned = np.cos(size) * normal + np.sin(size) * way if u or v else normal
+        line = chord @ tangent
+        if u or v:
+            line = line + (line @ way)[:, None] * ((np.cos(size) - 1.0) * way - np.sin(size) * normal)
+        return np.asarray(np.einsum("ntij,j,ni->nt", tensor, turned, line))
+
+    own = np.repeat(normal[None], 6, axis=0), np.repeat(tangent[None], 6, axis=0)
+    jets = SHEAR_STRESS.curve_jets(np.empty(0), *own, stress)
+    sign = np.sign(np.einsum("nt,nt->n", jets[..., 0], shear(0.0, 0.0)))[:, None]
+    h = 1e-3
+    expected = [
+        shear(0, 0),
+        (shear(h, 0) - shear(-h, 0)) / (2 * h),
+        (shear(0, h) - shear(0, -h)) / (2 * h),
+        (shear(h, 0) + shear(-h, 0) - 2 * shear(0, 0)) / h**2,
+        (shear(0, h) + shear(0, -h) - 2 * shear(0, 0)) / h**2,
+        (shear(h, h) + shear(-h, -h) - shear(h, -h) - shear(-h, h)) / (4 * h**2),
+    ]
+    for k, each in enumerate(expected):
+        np.testing.assert_allclose(sign * jets[..., k], each, atol=3e-5)
 
 
 def test_where_slip_reverses_at_a_sharp_edge_the_shear_has_no_bound() -> None:
