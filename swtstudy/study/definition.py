@@ -299,6 +299,4 @@ def _figure_from(raw: Mapping[str, Any]) -> FigureLayout | None:
     except ValidationError:
         return None  # reported with the structure
     y = (table.y,) if isinstance(table.y, str) else tuple(table.y)
-    return FigureLayout(
-        table.x, table.hue, table.panels, y, table.title, table.kind, table.vertical, table.regimes
-    )
+    return FigureLayout(**{**dict(table), "y": y})

@@ -103,6 +103,7 @@ _FIGURE_DESCRIPTIONS = {
     ),
     "title": "Title over the figure.",
     "regimes": "Whether to mark where a regime of the contact begins along a line.",
+    "validity": "Whether to mark points outside of what the model holds for, such as beyond first yield.",
 }
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"

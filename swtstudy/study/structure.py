@@ -36,7 +36,7 @@ _ALLOWED = {
     "material": "a table of fatigue constants",
     "loads": "a table of loops, [loads.NAME]",
     "profiles": "a table of profiles, [profiles.NAME]",
-    "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title and regimes",
+    "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title, regimes and validity",
     "figure.kind": '"lines", "life", "contour", "heatmap", "scatter" or "histogram"',
     "figure.vertical": "the name of an axis",
     "figure.x": "the name of an axis",
@@ -45,6 +45,7 @@ _ALLOWED = {
     "figure.y": 'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
     "figure.title": "a text",
     "figure.regimes": "true or false",
+    "figure.validity": "true or false",
 }
 
 

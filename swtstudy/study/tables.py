@@ -54,6 +54,7 @@ class FigureTable(_Table):
     y: str | list[str] = "s"
     title: str | None = None
     regimes: bool = False
+    validity: bool = False
 
 
 class LoadTable(_Table):
