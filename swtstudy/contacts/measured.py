@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import Label
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
@@ -74,13 +75,15 @@ class Measured:
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }
 
-    def labels(self) -> dict[str, tuple[float, str]]:
-        """By name of a variable its scale, and what an axis of it says."""
+    def labels(self) -> dict[str, Label]:
+        """By name of a variable what its numbers are in these units."""
         return {
-            name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
+            name: Label(scale, symbol, self._unit(kind))
             for name, (scale, kind, symbol) in self.scales().items()
-            if kind != "1"
         }
+
+    def _unit(self, kind: str) -> str:
+        return "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}"
 
     def places(self, **given: Any) -> dict[str, Any]:
         """Places in lengths as those in a_H that the mechanics is asked for."""
@@ -103,7 +106,7 @@ class Measured:
                 **dataset[name].attrs,
                 "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
                 "symbol": symbol,
-                "units": "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}",
+                "units": self._unit(kind),
             }
             scaled = dataset[name].variable * scale
             scaled.attrs = attributes
@@ -139,6 +142,10 @@ class InUnits(ABC):
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
 
+    @abstractmethod
+    def _headlines(self, body: int) -> tuple[str, tuple[str, ...]]:
+        """What is given of one body, with units, and where the model does not hold for it."""
+
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
@@ -166,5 +173,5 @@ class InUnits(ABC):
         from swtstudy.fields.inspection import inspect_point
         from swtstudy.figures.inspection import draw_inspection
 
-        labels = self._measured(body).labels()
-        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels)
+        labels, headlines = self._measured(body).labels(), self._headlines(body)
+        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
