@@ -390,8 +390,8 @@ class PhysicalContact(InUnits):
         """The scales of one body of one contact."""
         return Measured(self._one, checked_body(body) - 1, self.grid.labels)
 
-    def _headlines(self, body: int) -> tuple[str, tuple[str, ...]]:
-        """What is given of one body, with units, and where the model does not hold for it."""
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
         grid = replace(self._with_bodies((float(body),)), materials=(), blocks=())
         asked = Request((YIELD,) if grid.yield_strengths else ())
-        return headline(self, body), validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        return headline(self, body, at_rest), validity

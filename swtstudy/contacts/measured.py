@@ -69,6 +69,8 @@ class Measured:
             "displacement": (contact.slip_scale, "length", "u"),
             "normal_force": (contact.normal_force, "force", "F_N"),
             "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
+            "height": (contact.depth, "length", "-z"),
+            "spring_depth": (contact.depth, "length", "g"),
             "normal_strain": (strain, "1", r"\varepsilon_n"),
             "s_local": (self.swt, "stress", r"\mathrm{SWT}"),
             "dissipation": (contact.work_scale, "work", "W"),
@@ -143,8 +145,8 @@ class InUnits(ABC):
         """The scales of one body of one contact."""
 
     @abstractmethod
-    def _headlines(self, body: int) -> tuple[str, tuple[str, ...]]:
-        """What is given of one body, with units, and where the model does not hold for it."""
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        """What is given of one body, with units, and where the model does not hold unless it is at rest."""
 
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
@@ -175,3 +177,12 @@ class InUnits(ABC):
 
         labels, headlines = self._measured(body).labels(), self._headlines(body)
         return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+
+    def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
+        from swtstudy.figures.profile import draw_shape
+
+        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
+        return draw_shape(
+            shape, style, width, self._measured(1).labels(), self._headlines(1, at_rest=True)[0]
+        )

@@ -12,7 +12,7 @@ from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.margins import margins
 from swtstudy.points.unique import unique_points
 from swtstudy.units.labels import KINDS, Units
-from swtstudy.units.rows import rows
+from swtstudy.units.rows import REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
 
@@ -52,15 +52,18 @@ def as_text(contact: PhysicalContact) -> str:
     )
 
 
-def headline(contact: PhysicalContact, body: int) -> str:
-    """What is given of one contact, with symbols and units: of one of its bodies."""
+def headline(contact: PhysicalContact, body: int, at_rest: bool = False) -> str:
+    """What is given of one contact, with symbols and units: of one of its bodies, or of it at rest alone."""
     grid = contact.grid
-    words = {"profile": place_words("profile", str(grid.values("profile")[0]))}
-    for name, values in _given(grid).items():
+    words = {}
+    for name, values in {"profile": grid.values("profile"), **_given(grid)}.items():
         if grid.row(name).part == "bulk" and body != grid.bulk_stress_body + 1:
             continue
+        if at_rest and name not in REST_DEPENDS_ON:
+            continue
         row = grid.row(name)
-        value = values[body - 1 if name in grid.pairs else 0]
+        value: Any = values[body - 1 if name in grid.pairs else 0]
+        value = str(value) if row.kind == "name" else value
         words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
     return ",  ".join(words.values())
 
