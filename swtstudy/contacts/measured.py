@@ -183,6 +183,5 @@ class InUnits(ABC):
         from swtstudy.figures.profile import draw_shape
 
         shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
-        return draw_shape(
-            shape, style, width, self._measured(1).labels(), self._headlines(1, at_rest=True)[0]
-        )
+        given, _ = self._headlines(1, at_rest=True)
+        return draw_shape(shape, style, width, self._measured(1).labels(), given)
