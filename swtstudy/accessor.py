@@ -37,7 +37,7 @@ class SwtAccessor:
         self._dataset = dataset
 
     def __repr__(self) -> str:
-        """What the results are, as ``swtstudy info`` says it of an archive."""
+        """Describe the results, as ``swtstudy info`` describes an archive."""
         from swtstudy.archive.describe import describe
 
         return "\n".join(describe(self._dataset)) if "s" in self._dataset else "<no results of swtstudy>"

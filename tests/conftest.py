@@ -30,7 +30,7 @@ TOGETHER = (
     ("sensitivity",),
     ("shown",),
 )
-GROUP_OF = {f"tests/test_{name}.py": group[0] for group in TOGETHER for name in group}
+GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
 SMALL = """
 title = "A small study"
@@ -80,7 +80,7 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
     class Scheduling(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            file = nodeid.split("::")[0]
+            file = nodeid.split("::")[0].rpartition("/")[2]
             return GROUP_OF.get(file, nodeid)
 
     return Scheduling(config, log)

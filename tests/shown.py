@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from click.testing import CliRunner
+from folders import ROOT
 
 from swtstudy.cli import main
 
-ROOT = Path(__file__).parent.parent
 #: What the README and the pages say; the generated parts of the pages are made by running.
 PAGES = sorted(
     [

@@ -1,6 +1,6 @@
 """The rooms of the package and of its mechanics, from the ground up, and what the files of each import.
 
-tests/test_rooms.py holds the files against these lists; the pages draw them.
+tests/pages/test_rooms.py holds the files against these lists; the pages draw them.
 """
 
 from __future__ import annotations

@@ -138,10 +138,10 @@ def main() -> None:
     parser.add_argument("--results", type=Path, default=PROJECT / "results", help="where mutants.md goes")
     parser.add_argument("--quick", action="store_true", help="few mutants and few tests, to see that it runs")
     arguments = parser.parse_args()
-    files = sorted((PROJECT / "tests").glob("test_*.py"))
-    package, groups = "swtstudy", [["swtstudy"], *([f"tests/{file.name}"] for file in files)]
+    files = sorted((PROJECT / "tests").rglob("test_*.py"))
+    package, groups = "swtstudy", [["swtstudy"], *([str(file.relative_to(PROJECT))] for file in files)]
     if arguments.quick:
-        package, groups, arguments.size = "swtstudy/units", [["tests/test_numerics.py"]], 1
+        package, groups, arguments.size = "swtstudy/units", [["tests/mechanics/test_numerics.py"]], 1
     with tempfile.TemporaryDirectory() as folder:
         covered = arguments.covered or Path(folder) / "covered"
         covered.mkdir(exist_ok=True, parents=True)

@@ -44,7 +44,7 @@ def read_failures(text: object) -> list[Failure]:
 
 
 def definitions_text(definitions: Iterable[Named]) -> str:
-    """What the user has defined, as an attribute; see `read_definitions`."""
+    """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
         [
             {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
@@ -54,7 +54,7 @@ def definitions_text(definitions: Iterable[Named]) -> str:
 
 
 def read_definitions(text: object) -> dict[str, dict[str, Named]]:
-    """What the user had defined, by parameter and name."""
+    """Read the user's definitions, by parameter and name."""
     found: dict[str, dict[str, Named]] = {}
     for raw in _json(text, list):
         try:
@@ -66,7 +66,7 @@ def read_definitions(text: object) -> dict[str, dict[str, Named]]:
 
 
 def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Named]]:
-    """What the user had defined, by parameter and name, from the attributes of a Dataset."""
+    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
     return read_definitions(attributes.get("definitions", "[]"))
 
 

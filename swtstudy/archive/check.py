@@ -1,4 +1,4 @@
-"""Whether what was read from a file is a sound archive of a study."""
+"""Check that what was read from a file is a sound archive of a study."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ _GROUP = "check_sums"
 
 
 def has_its_own(variable: xr.Variable | xr.DataArray) -> bool:
-    """Whether HDF5 can keep check sums of the chunks of the values."""
+    """Return whether HDF5 can keep check sums of the chunks of the values."""
     return bool(variable.ndim) and variable.dtype.kind in "biuf"
 
 

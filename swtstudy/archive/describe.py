@@ -26,7 +26,7 @@ _LISTED = 8
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
-    """What results are: their study and versions, how complete and how accurate; line by line.
+    """Describe results line by line: their study and versions, how complete and how accurate they are.
 
     Those of `swtstudy.solve` have neither study nor versions.
     """
@@ -95,7 +95,7 @@ def _quantities(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _figure_words(layout: FigureLayout) -> str:
-    """What the study's figure shows: "s over phase, a line for each normal_amplitude"."""
+    """Describe the figure of the study: "s over phase, a line for each normal_amplitude"."""
     parts = [f"{', '.join(layout.y)} over {layout.x}"]
     parts += [f"upwards {layout.vertical}"] * bool(layout.vertical)
     parts += [f"a line for each {layout.hue}"] * bool(layout.hue)
@@ -104,7 +104,7 @@ def _figure_words(layout: FigureLayout) -> str:
 
 
 def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
-    """How many computed points have each regime that there is."""
+    """Count the computed points of each regime that there is."""
     meanings = dataset.regime.attrs["flag_meanings"].split()
     computed = (dataset.status == COMPUTED if "status" in dataset else dataset.regime.notnull()).values
     counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
@@ -128,7 +128,7 @@ def _failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
-    """What the results of a study with units say of its contacts, beside the values of parameters."""
+    """List the facts of the contacts of a study with units, besides the values of parameters."""
     if has_units(dataset):
         given, _ = read_contact(dataset.attrs[CONTACT])
         yield "units", ", ".join(vars(given.units).values())
@@ -177,7 +177,7 @@ def _range_words(name: str, values: np.ndarray) -> str:
 
 
 def completeness(dataset: xr.Dataset) -> str:
-    """How many points are computed, failed, missing."""
+    """Count the points that are computed, failed, missing."""
     counts = np.bincount(dataset.status.values.astype(int).ravel(), minlength=len(STATES))
     return ", ".join(f"{count} {state}" for count, state in zip(counts, STATES, strict=False) if count)
 
@@ -189,7 +189,7 @@ def relative_errors(dataset: xr.Dataset) -> FloatArray:
 
 
 def accuracy(dataset: xr.Dataset) -> str:
-    """How large the estimated errors of s are."""
+    """Say how large the estimated errors of s are."""
     relative = relative_errors(dataset)
     if not relative.size:
         return "no value of s"

@@ -51,7 +51,7 @@ def refuse_link(folder: Path) -> None:
 
 
 def is_locked(path: Path) -> bool:
-    """Whether a program has a file open for writing: HDF5 then holds a lock on it."""
+    """Return whether a program has a file open for writing: HDF5 then holds a lock on it."""
     if fcntl is None:
         return False
     try:

@@ -94,7 +94,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
 
 
 def _asked(datasets: Sequence[xr.Dataset], items: tuple[str, ...], axis: bool) -> Request:
-    """What the archives have together; distances of real contacts are lengths."""
+    """Return the request that the archives have in common; distances of real contacts are lengths."""
     if not has_units(datasets[0]):
         return Request.of(items, axis)
     own = [request_of(dataset, made_by(read_runs(dataset.attrs["runs"]))) for dataset in datasets]

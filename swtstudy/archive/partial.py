@@ -15,7 +15,7 @@ from swtstudy.study.definition import Study
 
 
 def partial_results(path: Path) -> xr.Dataset | None:
-    """What the latest run for the archive at `path` has saved so far; None if there are no parts."""
+    """Open what the latest run for the archive at `path` has saved so far; None if there are no parts."""
     parts = read_parts(parts_folder(path))
     if not parts.runs:
         return None

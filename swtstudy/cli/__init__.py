@@ -83,7 +83,7 @@ class _Commands(click.Group):
 
 
 def _first_sentence(command: click.Command) -> str:
-    """What a command does, uncut."""
+    """First paragraph of a command's help, uncut."""
     return " ".join(str(command.help).split("\n\n")[0].split())
 
 

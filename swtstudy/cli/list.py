@@ -36,7 +36,7 @@ def list_studies() -> None:
 
 
 def _points(study: Study) -> str:
-    """How many points there are to be computed; those of random boxes are drawn."""
+    """Number of points to be computed; those of random boxes are drawn."""
     from swtstudy.points.unique import LARGEST_GRID
 
     return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"

@@ -43,7 +43,7 @@ class InSections(click.Command):
 
 
 def on_terminal() -> bool:
-    """Whether people read what is printed: not in a pipe or a file."""
+    """Return whether people read what is printed: not in a pipe or a file."""
     return sys.stdout.isatty()
 
 

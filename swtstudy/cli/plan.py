@@ -37,7 +37,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
-    """What a run would do, in lines."""
+    """Describe in lines what a run would do."""
     from swtstudy.points.unique import loads
     from swtstudy.runner.work import assess
 
@@ -81,7 +81,7 @@ def _again(work: Work) -> Iterator[str]:
 
 
 def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
-    """How long it takes, from a few points that are solved."""
+    """Estimate the time of a run from a few points that are solved."""
     from swtstudy.points.cost import duration
     from swtstudy.runner.chunk import solve_points
     from swtstudy.runner.estimate import estimate

@@ -1,4 +1,4 @@
-"""What real contacts give: their parameters, SWT, cycles, and results of both bodies."""
+"""Real contacts: their parameters, SWT, cycles, and results of both bodies."""
 
 from __future__ import annotations
 
@@ -118,12 +118,12 @@ class PhysicalContact(InUnits):
 
     @property
     def moduli(self) -> Moduli:
-        """Those of the two bodies."""
+        """Elastic constants of the two bodies."""
         return next(iter(self.grid.seats.contacts.flat)).moduli
 
     @property
     def shape(self) -> dict[str, Any]:
-        """What the profile has of flat_radius, waviness_amplitude and wavelength, lengths, and exponent."""
+        """The shape of the profile: flat_radius, waviness_amplitude and wavelength, lengths, and exponent."""
         profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 

@@ -1,4 +1,4 @@
-"""What is said of one contact in lengths, forces and stresses: its stress, its SWT, what happens at it."""
+"""One contact in lengths, forces and stresses: its stress, its SWT, its cycle."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ class Measured:
 
 
 class InUnits(ABC):
-    """What there is of one contact in lengths, forces and stresses."""
+    """Fields and inspection of one contact in lengths, forces and stresses."""
 
     @abstractmethod
     def parameters(self, body: int = 1) -> dict[str, Any]:

@@ -96,7 +96,7 @@ def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
-    """How far the contacts are from where the model ends, as far as that is known before they are solved."""
+    """Say how far the contacts are from where the model ends, as far as that is known without solving."""
     for name, values in margins(unique_points(grid), grid).items():
         if name != "bulk_shift" and np.isfinite(values).any():
             yield "margin", name, f"up to {_value(float(np.nanmax(values)))}", ATTRIBUTES[name]["comment"]

@@ -35,7 +35,7 @@ class Course:
 
 
 def course(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Course:
-    """What is prescribed and what answers it over the cycle.
+    """The prescribed loads and the responses over the cycle.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ _RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, digits=8.0), 72
 
 
 def inspect_point(**parameters: object) -> xr.Dataset:
-    """What happens at one parameter point over its stationary cycle, and why s is what it is.
+    """The stationary cycle of one parameter point, with the reason why s is what it is.
 
     Parameters
     ----------

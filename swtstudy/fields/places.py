@@ -116,7 +116,7 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
 
 
 def turns(scene: Scene) -> int:
-    """What ω1 t is over the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
+    """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
     two = _harmonic(scene)
     return 1 if two is None else two.q
 

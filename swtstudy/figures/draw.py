@@ -169,7 +169,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
 
 
 def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
-    """The borders of regimes, and what is outside of the model."""
+    """Mark the borders of regimes, and what is outside of the model."""
     if layout.regimes:
         mark_borders(axes, panel.regime)
     if layout.validity:
@@ -181,7 +181,7 @@ def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
-    """What is drawn of a quantity: its values, their errors, and marks where known, with attributes."""
+    """Collect what is drawn of a quantity: values, errors, and marks where known, with attributes."""
     import xarray as xr
 
     # Of the whole results: a part may lack the place that normalises the quantity.

@@ -55,7 +55,7 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
 
 
 def fit_lines(fitted: xr.Dataset, math: bool = False) -> list[str]:
-    """What was fitted, with its intervals, and how well; ``math`` for matplotlib's math text."""
+    """Caption of a fit: its results with their intervals, and its scatter; ``math`` for math text."""
     lines = []
     level = f"{100 * fitted.attrs['confidence']:g} %"
     for name in ("critical_distance", "friction"):

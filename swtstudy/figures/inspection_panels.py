@@ -212,7 +212,7 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
 
 
 def _is_finite(dataset: xr.Dataset) -> bool:
-    """Whether there is a critical point; otherwise the point shown is that of the largest swt sampled."""
+    """Return whether there is a critical point; otherwise the point shown has the largest swt sampled."""
     return math.isfinite(float(dataset.s))
 
 

@@ -89,7 +89,7 @@ def draw_lines(
 
 
 def may_jump(name: str) -> bool:
-    """Whether a quantity belongs to the place of a maximum, which jumps where another one takes over.
+    """Return whether a quantity belongs to the place of a maximum, which jumps where another one takes over.
 
     Places and planes themselves, and what is found about a place: means over a volume or a line.
     """

@@ -1,4 +1,4 @@
-"""What the panels of one parameter point have in common: guide lines, limits, marks of instants."""
+"""Marks that the panels of one parameter point share: guide lines, limits, instants."""
 
 from __future__ import annotations
 

@@ -48,12 +48,12 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
 
 
 def _is_unfamiliar(name: str) -> bool:
-    """Whether a symbol alone says too little: lives, means of SWT, places."""
+    """Return whether a symbol alone says too little: lives, means of SWT, places."""
     return name.startswith(("cycles", "SWT_", "critical_")) and name not in ("critical_angle",)
 
 
 def _meaning(values: xr.DataArray) -> str:
-    """What an unfamiliar symbol stands for, in a few words."""
+    """Explain an unfamiliar symbol in a few words."""
     if is_life(values.attrs):
         return "rounds to a crack"
     nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
@@ -70,7 +70,7 @@ def title_words(values: xr.DataArray, y: str) -> str:
 
 
 def part_words(part: xr.Dataset, name: str) -> str:
-    """What a part of results is at one value of a parameter; of a profile with its shape where that is fixed.
+    """Label a part of results by the value of a parameter; a profile with its shape where that is fixed.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def part_words(part: xr.Dataset, name: str) -> str:
 
 
 def is_life(attributes: Mapping[Any, Any]) -> bool:
-    """Whether a quantity with these attributes is a number of cycles, which people read in decades."""
+    """Return whether a quantity with these attributes is a number of cycles, which people read in decades."""
     return str(attributes.get("symbol", "")).startswith("N")
 
 

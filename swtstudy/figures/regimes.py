@@ -85,7 +85,7 @@ def shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]]) 
 
 
 def in_equal_ratios(x: NDArray[Any]) -> bool:
-    """Whether ascending values have equal ratios, but for a few among them, and a long range."""
+    """Return whether ascending values have equal ratios, but for a few among them, and a long range."""
     if len(x) < 3 or x[0] <= 0.0 or x[-1] < _DECADE * x[0]:
         return False
     ratio = x[1:] / x[:-1]

@@ -65,7 +65,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
 
 
 def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
-    """How many points have which values of the quantities, with percentiles."""
+    """Draw the distribution of the quantities over the points, with percentiles."""
     panels = _by(dataset, layout.panels)
     sheet = Sheet(len(layout.y), len(panels), width)
     figure = sheet.figure()

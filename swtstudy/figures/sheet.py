@@ -29,7 +29,7 @@ PANEL = (4.0, 3.2)
 
 @dataclass(frozen=True)
 class Sheet:
-    """What a figure is made for, and the panels that it has.
+    """The medium and the panels of a figure.
 
     Attributes
     ----------

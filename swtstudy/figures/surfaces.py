@@ -94,12 +94,12 @@ def _colours(surface: xr.DataArray) -> str:
 
 
 def is_ratio(surface: xr.DataArray) -> bool:
-    """Whether a quantity is s over s at one place."""
+    """Return whether a quantity is s over s at one place."""
     return str(surface.attrs.get("symbol", "")) == "s/s_0"
 
 
 def _in_common(surfaces: list[xr.DataArray]) -> bool:
-    """Whether every panel fills enough of a common scale of colours to be read."""
+    """Return whether every panel fills enough of a common scale of colours to be read."""
     ends = np.array([[float(surface.min()), float(surface.max())] for surface in surfaces])
     whole = np.nanmax(ends) - np.nanmin(ends) if np.isfinite(ends).any() else 0.0
     return bool(np.all(~(ends[:, 1] - ends[:, 0] < _COMMON * whole)))

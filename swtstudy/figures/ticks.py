@@ -78,7 +78,7 @@ class _Cells(Locator):
         return max(map(len, self.words[::step]))
 
     def _fits(self, step: int) -> bool:
-        """Whether labels have room; matplotlib counts 3 em for each across, and 2 upwards."""
+        """Return whether labels have room; matplotlib counts 3 em for each across, and 2 upwards."""
         axis: Any = self.axis
         count = -(-len(self.words) // step)
         if axis.axis_name == "y":

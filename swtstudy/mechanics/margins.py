@@ -1,4 +1,4 @@
-"""How far points are from where the model ends, as far as the load alone says it: no contact is solved."""
+"""Margins of points, as far as the load alone gives them: how far they are from where the model ends."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Margins:
 
     @classmethod
     def of(cls, points: Points) -> Margins:
-        """Those of points of one profile family and control."""
+        """Margins of points of one profile family and control."""
         found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
         for index in alike(points):
             load = load_of(points.take(index))
@@ -59,7 +59,7 @@ class Margins:
 
 
 def _of_alike(points: Points, prescribed: Load) -> Margins:
-    """Those of points whose loads are alike, of profiles of one roughness."""
+    """Margins of points whose loads are alike, of profiles of one roughness."""
     load, coordinate = diagram(points.control, points.profile, points.shape, prescribed)
     stick = stick_coordinate(load)
     ends = np.maximum(np.stack([stick, load.largest_normal], axis=1), 0.0)

@@ -1,1 +1,1 @@
-"""What checks the paper and this package: statements, an audit, the textbook method."""
+"""Checks of the paper and of this package: statements, an audit, the textbook method."""

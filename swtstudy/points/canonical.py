@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def _numbers(part: str) -> tuple[str, ...]:
-    """Those numbers of a part that have a column; one that takes another's place is in its column."""
+    """Return the numbers of a part that have a column; one that takes another's place is in its column."""
     rows = PARAMETERS.items()
     return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
 

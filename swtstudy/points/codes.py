@@ -39,5 +39,5 @@ def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.b
 
 
 def control_of(code: float) -> Control:
-    """What is prescribed, from its number."""
+    """Control of a number; see `code_of_control`."""
     return Control(bool(int(code) & 1), bool(int(code) & 2))

@@ -1,4 +1,4 @@
-"""What is asked of the distinct points of a grid, and what each of its own points has of it."""
+"""Columns of the quantities that are asked of the distinct points, spread to all points of the grid."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str,
 def columns_at(
     grid: Grid, asked: Request, points: UniquePoints, known: Callable[[str], FloatArray]
 ) -> dict[str, FloatArray]:
-    """What the points of a grid have, by `columns_of` what is asked, each of shape (grid.size,).
+    """Spread columns of distinct points to the points of a grid, each of shape (grid.size,).
 
-    What the distinct points have is known by the names of columns. Points that are mirrored have places with
-    the other sign.
+    ``known`` gives a column of the distinct points by its name. Points that are mirrored have places with the
+    other sign.
     """
     found = {name: known(name)[points.index] for name in columns_of(asked.same)}
     items, at = grid.items(asked)

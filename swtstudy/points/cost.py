@@ -1,4 +1,4 @@
-"""What points cost to compute, and such times in words."""
+"""Computing times of points, and such times in words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes with which criterion."""
+"""Rules on what a criterion can be combined with."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a user can define, by the parameter that takes it."""
+"""Classes of the definitions that a user may give, by the parameter that takes them."""
 
 from __future__ import annotations
 

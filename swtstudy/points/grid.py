@@ -70,23 +70,23 @@ class Grid:
 
     @property
     def control(self) -> Control:
-        """What is prescribed."""
+        """The control: what is prescribed."""
         return Control.given((*self.fixed, *self.axes, *self.samples))
 
     @property
     def definitions(self) -> dict[float, Named]:
-        """What the user has defined, by its code in canonical rows."""
+        """The user's definitions, by their codes in canonical rows."""
         return {each.code: each for each in self.given}
 
     @property
     def given(self) -> tuple[Named, ...]:
-        """What the user has defined, as it was given: several may be the same but for their names."""
+        """The user's definitions as they were given: several may be the same but for their names."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
         return tuple(dict.fromkeys(value for value in values if isinstance(value, Named)))
 
     @property
     def of_bodies(self) -> Mapping[str, tuple[float, float]]:
-        """What differs from body to body."""
+        """The parameters that differ from body to body."""
         return {}
 
     def row(self, name: str) -> Parameter:
@@ -125,7 +125,7 @@ class Grid:
 
     @property
     def margins(self) -> tuple[str, ...]:
-        """What results say of how far their points are from where the model ends."""
+        """Data variables that say how far the points are from where the model ends."""
         pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
         shift = ("bulk_shift", "bulk_shift_ratio") * pulled
         return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)

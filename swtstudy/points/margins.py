@@ -1,4 +1,4 @@
-"""How far the points of a grid are from where the model ends, as data variables."""
+"""Margins of the points of a grid, as data variables: how far they are from where the model ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is prescribed of plane contacts: forces alone."""
+"""Plane contacts have forces alone prescribed."""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ def read_values(
     known: Known = NOTHING_KNOWN,
     rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> tuple[dict[str, Value], dict[str, tuple[Value, ...]]]:
-    """Those fixed values and axes that are sound one by one; see `read_grid`, and ``rows`` says what is."""
+    """Return the fixed values and axes that are sound one by one; see `read_grid`."""
     good_fixed: dict[str, Value] = {}
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
@@ -171,7 +171,7 @@ def _too_many(
     report: Report,
     rows: Mapping[str, Parameter],
 ) -> bool:
-    """Whether axes that are not too long one by one are so together: to read them takes a minute."""
+    """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [
         raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
         for name, raw in axes.items()
@@ -246,7 +246,7 @@ def _read_axis(
         if value is None:
             continue
         values.append(value)
-        # Two of one name could not be told apart.
+        # Definitions with the same name cannot be distinguished in results.
         own = str(value) if isinstance(value, Named) else value
         first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
         if first != own_key:

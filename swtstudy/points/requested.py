@@ -30,7 +30,7 @@ CONTACT = "contact"
 
 
 def has_units(dataset: xr.Dataset) -> bool:
-    """Whether results are those of real contacts."""
+    """Return whether results are those of real contacts."""
     return CONTACT in dataset.attrs
 
 
@@ -74,7 +74,7 @@ def coordinates(asked: Request, row: Parameter) -> dict[str, Any]:
 
 
 def request_of(dataset: xr.Dataset, items: Iterable[str]) -> Request:
-    """What was asked for a Dataset whose points have these items; of real contacts distances are lengths."""
+    """Return the request behind a Dataset whose points have these items; real contacts have lengths."""
     own = Request.of(items, DISTANCE in dataset.dims)
     if not own.distances or not has_units(dataset):
         return own

@@ -125,7 +125,7 @@ def _shapes_of(grid: Grid, profile: str) -> Grid:
 
 
 def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
-    """How many of the shapes are not admissible; the first of these, and its largest depth."""
+    """Number of shapes that are not admissible; the first of these, and its largest depth."""
     from swtstudy.mechanics.indenter import compact_shapes
 
     names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")

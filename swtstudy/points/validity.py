@@ -139,7 +139,7 @@ def _without_s(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
-    """What there is too much of at points in no equilibrium."""
+    """Say which force is too large at points in no equilibrium."""
     ratio = np.zeros(lost.shape)
     if "prescribed_force_ratio" in dataset:
         ratio = np.where(lost, _over_points(dataset, dataset.prescribed_force_ratio), 0.0)
@@ -201,7 +201,7 @@ def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> NDArray[np.float6
 
 
 def _count(out: NDArray[np.bool_]) -> str:
-    """How many of how many points."""
+    """Say how many of how many points."""
     if out.size == 1:
         return "the point is"
     words = "all" if out.all() else f"{int(out.sum())} of"

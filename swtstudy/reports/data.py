@@ -66,7 +66,7 @@ def _rounded(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def about(dataset: xr.Dataset, table: pd.DataFrame) -> dict[str, Any]:
-    """What the scripts of a page must know: the dimensions of the rows, and the columns; symbols as HTML."""
+    """Data for the scripts of a page: the dimensions of the rows, and the columns; symbols as HTML."""
     dims = rows_of(dataset)
     return {
         "dims": [_dimension(dataset, name) for name in dims],

@@ -1,4 +1,4 @@
-"""What matters in results, from their extrema: which parameter moves swt by how much, and where."""
+"""Findings in results, from their extrema: which parameter moves swt by how much, and where."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Lever:
 
     @property
     def chosen(self) -> bool:
-        """Whether it is of the load, of which there may be a better and a worse one."""
+        """True if it is a parameter of the load, of which there may be a better and a worse one."""
         return AXES[self.name].part == "load"
 
 
@@ -85,7 +85,7 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
 
 
 def sentences(dataset: xr.Dataset) -> list[str]:
-    """What matters, as HTML; the most important sentence first."""
+    """List the findings as HTML; the most important sentence first."""
     swt = symbol_of(measured(dataset)) if "SWT" in dataset else "<i>s</i>"
     said = [_sentence(lever, swt) for lever in levers(dataset) if lever.ratio > _MOVES]
     return [*said, *_ranges(dataset, swt, bool(said))]

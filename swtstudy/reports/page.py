@@ -91,7 +91,7 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
 
 
 def _meaning(dataset: xr.Dataset) -> str:
-    """What s is; by criteria other than SWT the results say it."""
+    """Say what s is; by criteria other than SWT the results say it."""
     if CRITERION not in dataset.coords:
         return _MEANING
     return f"<i>s</i> by its criterion: {escape(str(dataset.s.attrs.get('comment', '')))}."
@@ -124,7 +124,7 @@ def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], s
 
 
 def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
-    """What goes where, in symbols."""
+    """Caption of a figure: its quantities and parameters in symbols."""
     names = [y if "/" in y else symbol_of(dataset[y]) for y in layout.y]
     words = f"{', '.join(escape(each) if '/s(' in each else each for each in names)}"
     along = {"x": "over", "vertical": "and", "hue": "a line for each", "panels": "a panel for each"}
@@ -138,7 +138,7 @@ def _validity(dataset: xr.Dataset) -> list[str]:
 
 
 def _paper(dataset: xr.Dataset, name: str) -> Section:
-    """What the paper says of its own study, checked."""
+    """List the statements of the paper on its own study, checked."""
     rows = []
     for outcome in about_archive(name, dataset):
         if outcome.finding is not None:
@@ -170,6 +170,6 @@ def _origin(dataset: xr.Dataset, name: str) -> Section:
 
 
 def _is_shipped(text: str, name: str) -> bool:
-    """Whether a study comes with the package, so that its name is enough."""
+    """Return whether a study comes with the package, so that its name is enough."""
     path = shipped_studies().get(name)
     return path is not None and path.read_text("utf-8") == text

@@ -106,7 +106,7 @@ def points_section(dataset: xr.Dataset) -> Section:
 
 
 def _point_line(one: xr.Dataset) -> str:
-    """What results say of one point, in a line."""
+    """Describe the results of one point in a line."""
     said = [f"<i>s</i> = {number_words(float(one.s))} ± {number_words(float(one.s_error), 2)}"]
     names = ("SWT", "cycles", "critical_x", "critical_angle")
     said += [place_html(one[name]) for name in names if name in one and not one[name].ndim]

@@ -108,7 +108,7 @@ def _write_several(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, 
 
 
 def entry(dataset: xr.Dataset, name: str) -> Entry:
-    """What a list says of an archive."""
+    """Summarise an archive for a list."""
     picture = thumbnail(dataset) if "figure" in dataset.attrs else None
     return Entry(name, str(dataset.attrs["title"]), next(iter(sentences(dataset)), ""), picture)
 

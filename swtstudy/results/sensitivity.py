@@ -131,7 +131,7 @@ def _design(dataset: xr.Dataset) -> tuple[list[str], int]:
 
 
 def _mistakes(name: str, values: xr.DataArray, dataset: xr.Dataset) -> list[Mistake]:
-    """What stands against a quantity: that it is no number, or not everywhere."""
+    """Say why a quantity cannot be analysed: it is no number, or not known everywhere."""
     if SAMPLE not in values.dims or "flag_values" in values.attrs or values.dtype.kind not in "fiu":
         return [
             Mistake("y", f"{literal(name)}, which is no number over the sample", "a quantity such as 's'")

@@ -25,7 +25,7 @@ _FEW = 8
 
 @dataclass(frozen=True)
 class Asked:
-    """What is asked of points: s, and quantities beside it.
+    """The values that are asked of points: s, and quantities beside it.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Asked:
         return _FEW if any(of_body) else None
 
     def at(self, rows: IntArray | slice) -> Asked:
-        """What is asked of the points at the given rows."""
+        """Return the values asked of the points at the given rows."""
         return self if self.known is None else Asked(self.quantities, solution_at(self.known, rows))
 
 
@@ -151,7 +151,7 @@ def solve_points(points: Points, rtol: float) -> Solution:
 
 
 def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
-    """What points that failed have."""
+    """Return the results of a chunk whose points failed: NaN in every column."""
     values = {name: np.full(len(chunk), np.nan) for name in columns_of(chunk.asked.quantities)}
     return blank(len(chunk)), values
 

@@ -1,4 +1,4 @@
-"""How long a study will take, estimated from the timing of a few points."""
+"""Estimate of the time that a study takes, from the timing of a few of its points."""
 
 from __future__ import annotations
 

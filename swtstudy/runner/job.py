@@ -137,7 +137,7 @@ def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
 
 
 def _words(work: Work) -> str:
-    """What a run does, in the past tense, for the history."""
+    """The action of a run in the past tense, for the history."""
     words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
     more = int(work.incomplete.sum())
     return f"{words}, and quantities that {more} others lacked" if more else words
@@ -184,7 +184,7 @@ def _compute(
 
 
 def _history(what: str, path: Path) -> str:
-    """What was done, followed by the history of the archive that is replaced."""
+    """Return the line of this run, followed by the history of the archive that is replaced."""
     from swtstudy.archive.archive import history_line
     from swtstudy.archive.read import read_archive
 

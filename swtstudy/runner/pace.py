@@ -1,4 +1,4 @@
-"""How long points take, and from that how many of them make a chunk."""
+"""The pace of a run: seconds per point, and from that the size of its chunks."""
 
 from __future__ import annotations
 

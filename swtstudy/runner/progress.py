@@ -131,7 +131,7 @@ def bar(share: float, width: int) -> str:
 
 
 def words(done: int, total: int, seconds: float) -> str:
-    """How far a run has got, in words.
+    """Say in words how far a run has got.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What is left to do for a study: the points it needs, and which of them are known."""
+"""The work that is left of a study: the points it needs, and which of them are known."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Work:
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
-    """What is left to do for a study whose archive is at `path`; computes nothing."""
+    """Find the work that is left of a study whose archive is at `path`; this computes no point."""
     from swtstudy.archive.known import known_records
 
     points = unique_points(study.grid)

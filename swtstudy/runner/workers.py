@@ -43,7 +43,7 @@ class LocalPool:
 
     @property
     def started(self) -> bool:
-        """Whether the processes have been started."""
+        """True if the processes have been started."""
         return self._executor is not None
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:

@@ -29,7 +29,7 @@ SEPARATORS, DECIMALS = (",", ";", "\t", " ", "|"), (".", ",")
 
 @dataclass(frozen=True)
 class Form:
-    """How a table is written.
+    """The form of a table: its separator, its decimal sign, its headers.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Form:
     headers: Mapping[str, str] = field(default_factory=dict)
 
     def header(self, name: str) -> str:
-        """What stands above a column."""
+        """Return the header of a column."""
         return self.headers.get(name, name)
 
 
@@ -60,7 +60,7 @@ def form_of(given: Mapping[str, Any]) -> Form:
 
 
 def wrong_form(given: Mapping[str, Any], names: Sequence[str]) -> list[Mistake]:
-    """What is wrong with a form, of which there may be headers of columns of these names."""
+    """Return the mistakes in a form, of which there may be headers of columns of these names."""
     mistakes = []
     for key, allowed in (("separator", SEPARATORS), ("decimal", DECIMALS)):
         if given.get(key) is not None and given[key] not in allowed:
@@ -156,7 +156,7 @@ def _cells(text: str, line: int, width: int, form: Form, source: str) -> pd.Data
 
 
 def _unreadable(error: str, width: int, source: str) -> Mistake:
-    """What pandas could not read."""
+    """Say in our words what pandas could not read."""
     counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", error)
     if counts:
         return _too_long(int(counts[2]), width, int(counts[1]), source)
@@ -171,7 +171,7 @@ def _too_long(found: int, width: int, line: int, source: str) -> Mistake:
 def _wrong_header(
     header: list[str], names: Sequence[str], optional: Sequence[str], form: Form
 ) -> tuple[str, str] | None:
-    """What was found in a header and what is allowed, if it lacks a column or leaves one in doubt."""
+    """Return what was found in a header and what is allowed, if it lacks a column or leaves one in doubt."""
     for own, other in form.headers.items():
         if other not in header:
             return f"no column {literal(other)}, which is to be {own}", nearest(other, header, {})

@@ -1,4 +1,4 @@
-"""What a study with units says of its contacts, beside the values of their parameters."""
+"""Facts of the contacts of a study with units, besides the values of their parameters."""
 
 from __future__ import annotations
 

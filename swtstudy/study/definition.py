@@ -223,7 +223,7 @@ def _with_loads(
 
 
 def _names_files(raw: Mapping[str, Any]) -> bool:
-    """Whether a sound study has parts in files of their own."""
+    """Return whether a sound study has parts in files of their own."""
     defined = [table for kind in ("loads", "profiles") for table in raw.get(kind, {}).values()]
     return any("file" in table for table in (raw.get("sample", {}), raw.get("material", {}), *defined))
 
@@ -253,7 +253,7 @@ def _sample(
 def _definitions(
     raw: Mapping[str, Any], folder: Path, source: str
 ) -> tuple[dict[str, dict[str, Named]], list[Mistake]]:
-    """What the study defines, by parameter and name, as far as its structure is sound."""
+    """Return the definitions of the study, by parameter and name, as far as its structure is sound."""
     known: dict[str, dict[str, Named]] = {}
     mistakes: list[Mistake] = []
     for parameter in ("load", "profile"):

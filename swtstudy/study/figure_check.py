@@ -31,7 +31,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 
 
 def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
-    """What does not go with the kind of figure."""
+    """Find mistakes in what is combined with the kind of figure."""
     kind = f'kind = "{layout.kind}"'
     surface = layout.kind in ("contour", "heatmap")
     if surface and layout.vertical is None:

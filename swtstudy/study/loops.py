@@ -68,7 +68,7 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
 
 
 def _kind(table: Mapping[str, Any]) -> str | Mistake:
-    """Whether a loop has vertices, a file, or harmonics of which "normal" is the first."""
+    """Key that defines a loop: its vertices, a file, or harmonics of which "normal" is the first."""
     given = [each for each in ("vertices", "file", *COLUMNS, BULK) if table.get(each) is not None]
     if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
         allowed = "vertices, file, or normal and tangential, with or without bulk"

@@ -1,4 +1,4 @@
-"""What a rig records, put together to cycles: pure functions on arrays."""
+"""Averages of the cycles that a rig records: pure functions on arrays."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def period_of(time: FloatArray, recorded_cycles: int) -> float:
 
 
 def whole_cycles(time: FloatArray, period: float) -> int:
-    """How many whole cycles a record holds."""
+    """Number of whole cycles in a record."""
     step = (time[-1] - time[0]) / (len(time) - 1)
     return int((time[-1] - time[0] + step * (1.0 + ROUNDING)) / period)
 

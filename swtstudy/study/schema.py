@@ -197,7 +197,7 @@ def _material() -> dict[str, Any]:
 
 
 def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:
-    """What holds for parameters in a study without units only: ranges, and which ones it has not."""
+    """Rules for parameters that hold in a study without units only: ranges, and which ones it has not."""
     limits: dict[str, Any] = {name: _range_of(row) for name, row in given.items() if name not in CONTACT_AXES}
     several: dict[str, Any] = {name: {"items": limit} for name, limit in limits.items()}
     others = dict.fromkeys(CONTACT_AXES, False)

@@ -18,7 +18,7 @@ _USED = ("normal_amplitude", "phase")
 
 
 def _head(title: str, results: str) -> str:
-    """What every template begins with."""
+    """Return the head of every template."""
     return f"""\
 {SCHEMA_LINE.strip()}
 # Editors that know TOML schemas (Even Better TOML, Taplo) complete and explain this file.

@@ -52,7 +52,7 @@ def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
 
 
 def _in_range(grid: PhysicalGrid, column: str, keys: Keys, report: Report) -> bool:
-    """Whether a parameter is in its range everywhere; the first that is not is reported."""
+    """Return whether a parameter is in its range everywhere; report the first value that is not."""
     row, values = PARAMETERS[column], grid.numbers[column]
     source = grid.control.given_for(column)
     if column == "bulk_stress_mean" and grid.values("bulk_stress_ratio"):

@@ -103,7 +103,7 @@ class Contact:
 
     @property
     def plane(self) -> bool:
-        """Whether it is a strip."""
+        """True if it is a strip."""
         return is_plane(self.profile)
 
     @property

@@ -58,7 +58,7 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[Value]) -> tupl
 
 
 def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
-    """What is wrong with a number of rounds."""
+    """Return the mistake in a number of rounds."""
     sound = 0.0 < plain_number(rounds) < np.inf
     return [] if sound else [Mistake(key, literal(rounds), ROUNDS)]
 

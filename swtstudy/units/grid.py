@@ -74,7 +74,7 @@ class PhysicalGrid(Grid):
 
     @property
     def of_loads(self) -> str | None:
-        """What each load has a mean of, "depth" or "normal_force", where it is not given by itself."""
+        """The mean that each load gives, "depth" or "normal_force"; None where it is given by itself."""
         return mean_of_loads({*self.fixed, *self.axes, *self.samples}, super().values("load"))
 
     def values(self, name: str) -> tuple[Value, ...]:
@@ -94,12 +94,12 @@ class PhysicalGrid(Grid):
 
     @property
     def plane(self) -> bool:
-        """Whether all its contacts are plane ones."""
+        """True if all its contacts are plane ones."""
         return all(map(is_plane, self.values("profile")))
 
     @property
     def about(self) -> dict[str, Any]:
-        """What there is to know beside the values of the parameters."""
+        """The facts of the contacts besides the values of the parameters."""
         names = (
             *("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks"),
             *("yield_strengths", "body_names"),
@@ -127,7 +127,7 @@ class PhysicalGrid(Grid):
 
     @property
     def definitions(self) -> dict[float, Named]:
-        """What the user has defined, by its code in canonical rows: tables in a_H and δ0."""
+        """The user's definitions, by their codes in canonical rows: tables in a_H and δ0."""
         tables = (contact.pure_profile for contact in self.seats.contacts.flat)
         loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Named)}

@@ -173,7 +173,7 @@ def _rounds(
 
 
 def not_negative(name: str, values: object) -> NDArray[np.float64]:
-    """What a user gave as numbers ≥ 0, or NaN; a StudyError if it is none."""
+    """Read numbers ≥ 0, or NaN, that a user gave; a StudyError if any is negative."""
     numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
         raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
@@ -183,7 +183,7 @@ def not_negative(name: str, values: object) -> NDArray[np.float64]:
 def at_cycles(
     level: NDArray[np.float64], slopes: NDArray[np.float64], cycles: ArrayLike
 ) -> NDArray[np.float64]:
-    """What a specimen stands for N cycles: two powers of 2N, by the logarithms of their factors."""
+    """Strength at N cycles: the sum of two powers of 2N, by the logarithms of their factors."""
     with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
         logarithm = np.log(2.0 * not_negative("cycles", cycles))
         return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))

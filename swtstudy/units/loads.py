@@ -15,7 +15,7 @@ ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]], 1.0)
 
 
 def are_measured(loads: Sequence[Value]) -> bool:
-    """Whether there are loads, of which each is a loop that knows its mean normal load."""
+    """Return whether there are loads, of which each is a loop that knows its mean normal load."""
     known = [isinstance(load, Loop) and load.mean_normal is not None for load in loads]
     return bool(known) and all(known)
 
@@ -28,7 +28,7 @@ def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
 
 
 def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[str, float]:
-    """What the columns of measured loads are multiplied by unless it is given: they are loads themselves.
+    """Factors of the columns of measured loads, unless they are given: the columns are loads themselves.
 
     Forces, if not told otherwise; beside a depth also a displacement.
     """

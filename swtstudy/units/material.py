@@ -1,4 +1,4 @@
-"""What is known of the materials of a study's bodies, given there or by name from a file."""
+"""Materials of the bodies of a study, given there or by name from a file."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _BOTH = 2
 
 @dataclass(frozen=True)
 class Materials:
-    """What is known of both bodies.
+    """The constants of the materials of both bodies.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Materials:
 def read_material(
     raw: Mapping[str, Any], young: tuple[object, object] | None, units: Units, folder: Path, report: Report
 ) -> Materials:
-    """What is said of both bodies, as far as it has no mistakes, which are reported.
+    """Read the materials of both bodies, as far as they are sound; mistakes are reported.
 
     Parameters
     ----------

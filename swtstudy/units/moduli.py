@@ -14,7 +14,7 @@ class Moduli:
 
     @property
     def alike(self) -> bool:
-        """Whether the two bodies are elastically the same."""
+        """True if the two bodies are elastically the same."""
         return self.young[0] == self.young[1] and self.poisson[0] == self.poisson[1]
 
     @property

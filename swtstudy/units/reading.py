@@ -45,7 +45,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 
 @dataclass(frozen=True)
 class Given:
-    """What is given of contacts beside the values of their parameters; see `PhysicalGrid`."""
+    """The facts that are given of contacts besides the values of their parameters; see `PhysicalGrid`."""
 
     units: Units = field(default_factory=Units)
     materials: tuple[FatigueConstants, ...] = ()
@@ -157,7 +157,7 @@ def completed(
 def _body_names(
     single: dict[str, object], given: tuple[str, ...], keys: Callable[[str], str], report: Report
 ) -> tuple[str, ...]:
-    """What the bodies are called, taken from the fixed values, in which a name becomes 1 or 2."""
+    """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
     raw = single.pop(NAMES_KEY, given or None)
     if raw is None:
         return ()
@@ -191,7 +191,7 @@ def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
 
 
 def _differ(grid: PhysicalGrid) -> bool:
-    """Whether the two bodies have different s, SWT or cycles."""
+    """Return whether the two bodies have different s, SWT or cycles."""
     bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
     pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
     return bool(grid.pairs) or pulled or len({*grid.materials}) > 1 or len({*grid.yield_strengths}) > 1
@@ -200,7 +200,7 @@ def _differ(grid: PhysicalGrid) -> bool:
 def _pairs(
     fixed: Mapping[str, object], own: Mapping[str, Parameter], keys: Callable[[str], str], report: Report
 ) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
-    """What is given for each body, and the other fixed values; an empty pair for one that is wrong."""
+    """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
     for name in OF_BODIES:
         raw = fixed.get(name)
@@ -229,7 +229,7 @@ def _check_given(
     keys: Callable[[str], str],
     report: Report,
 ) -> None:
-    """What a contact needs, and what cannot be given together."""
+    """Report which values a contact lacks, and which exclude one another."""
     tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
@@ -288,7 +288,7 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
 
 
 def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
-    """What the attribute of results says: see `swtstudy.units.grid.PhysicalGrid`.
+    """Read the attribute of results; see `swtstudy.units.grid.PhysicalGrid`.
 
     Raises
     ------

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
-    """Whether a data variable is a life for which no strain cycles have been counted."""
+    """Return whether a data variable is a life for which no strain cycles have been counted."""
     return has_units(dataset) and name in LIVES and "counted" not in dataset
 
 

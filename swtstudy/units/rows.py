@@ -41,7 +41,7 @@ REST_DEPENDS_ON = (
 
 
 def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
-    """What was found and what is allowed, unless one of `MEAN_LOADS` is among the names given."""
+    """Return what was found and what is allowed, unless just one of `MEAN_LOADS` is among the names given."""
     found = [name for name in MEAN_LOADS if name in given]
     if len(found) == 1:
         return None
@@ -89,7 +89,7 @@ def rows(units: Units) -> dict[str, Parameter]:
 
 
 def kind_of(name: str) -> str | None:
-    """Whether a parameter is a "length", a "force" or a "stress"; None if it is none of them."""
+    """Dimension of a parameter: "length", "force" or "stress"; None if it has none of them."""
     scale = AXES[name].scale
     return SCALES[scale].kind if scale else _KINDS.get(name)
 

@@ -1,4 +1,4 @@
-"""What lengths, forces and stresses of a real contact are measured in, and the way there and back."""
+"""Scales of a real contact: the units of its lengths, forces and stresses, and the way there and back."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ SCALES: dict[str, Scale] = {
 
 
 def may_vanish(row: Parameter) -> bool:
-    """Whether a parameter may be 0 in a real contact: nothing else is measured in it."""
+    """Return whether a parameter may be 0 in a real contact: nothing else is measured in it."""
     return not row.open_lower and all(scale.made_of != row.name for scale in SCALES.values())
 
 

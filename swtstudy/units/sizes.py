@@ -1,4 +1,4 @@
-"""How large a quantity with a unit may be."""
+"""Bounds on the size of numbers with a unit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What plane contacts with units differ in: loads are per length, unless their length is given."""
+"""Plane contacts with units: their loads are per length, unless their length is given."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class CriticalDistance:
         return (self.intensity / self.limit) ** 2 / math.pi
 
     def words(self, units: Units) -> tuple[bool, str]:
-        """Whether a metal may have it, and what came out."""
+        """Check whether a metal may have a critical distance, and describe it."""
         ratio = "one load ratio, which load_ratio would name"
         if self.load_ratio is not None:
             ratio = f"the load ratio {self.load_ratio:g}"

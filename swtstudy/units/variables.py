@@ -184,7 +184,7 @@ def _swt_of(asked: Request) -> Iterator[tuple[str, str]]:
 
 
 def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
-    """What a contact at rest has."""
+    """Variables of a contact at rest."""
     rest: tuple[tuple[str, str, str, str, Callable[[Contact], float]], ...] = (
         ("contact_radius", "a_0", "contact radius at the mean depth", "length", lambda c: c.contact_radius),
         ("peak_pressure", "p_0", "largest pressure at the mean depth", "stress", lambda c: c.peak_pressure),

@@ -1,1 +1,1 @@
-"""What all rooms speak of: parameters and quantities by name, mistakes, words; how files are written."""
+"""Words that all rooms share: parameters and quantities by name, mistakes, wording; writing of files."""

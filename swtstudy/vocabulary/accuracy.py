@@ -16,5 +16,5 @@ ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
 
 
 def is_rtol(raw: object, smallest: float = SMALLEST_RTOL) -> bool:
-    """Whether a value is allowed as relative accuracy."""
+    """Return whether a value is allowed as relative accuracy."""
     return smallest <= plain_number(raw) <= LARGEST_RTOL

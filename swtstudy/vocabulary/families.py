@@ -56,7 +56,7 @@ PLAIN_OF = {AXISYMMETRIC: PLAIN, PLANE: PLAIN_STRIP}
 
 
 def is_profile(raw: object) -> TypeGuard[str]:
-    """Whether something is the name of a profile."""
+    """Return whether something is the name of a profile."""
     return isinstance(raw, str) and raw in FAMILIES
 
 
@@ -66,7 +66,7 @@ def family_of(profile: object) -> Family:
 
 
 def is_plane(profile: object) -> bool:
-    """Whether a profile, or that of a name, is that of a plane contact."""
+    """Return whether a profile, or that of a name, is that of a plane contact."""
     return getattr(profile, "geometry", family_of(profile).geometry) == PLANE
 
 

@@ -80,7 +80,7 @@ STORABLE = "a text that an archive can hold, without a null character"
 
 
 def storable(text: str) -> bool:
-    """Whether an archive gives a text back: netCDF ends it at a null character, and holds UTF-8 alone."""
+    """Return whether an archive gives a text back: netCDF ends it at a null character, and holds UTF-8."""
     return "\0" not in text and not any("\ud800" <= c <= "\udfff" for c in text)
 
 
@@ -94,7 +94,7 @@ def plain(value: object) -> object:
 
 
 def is_number(value: object) -> TypeGuard[Real | Decimal]:
-    """Whether a value is a real number, and not a truth value or a time."""
+    """Return whether a value is a real number, and not a truth value or a time."""
     # Python's bool and NumPy's timedelta64 are registered as Real; the latter is detected without importing
     # NumPy.
     is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
@@ -115,7 +115,7 @@ def plain_number(value: object) -> float:
 
 
 def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
-    """What is allowed in place of an unknown name, beginning with the one that was probably meant.
+    """Say which names are allowed in place of an unknown one; the one that was probably meant comes first.
 
     Examples
     --------

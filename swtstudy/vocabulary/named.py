@@ -1,4 +1,4 @@
-"""What a user defines and names, such as a loop of loads: its content counts, its name is for people."""
+"""Base of the definitions with names that users give, such as a loop of loads; the content counts."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CONTENT_BITS = 40
 
 
 def wrong_name(name: object, parameter: str) -> Mistake | None:
-    """What is wrong with the name of something that a user defines, as a value of a parameter."""
+    """Return the mistake in the name of a definition, as a value of a parameter."""
     if not isinstance(name, str) or not name.strip():
         return Mistake("name", literal(name), "a text that is not empty")
     if not storable(name):
@@ -43,7 +43,7 @@ class Named(ABC):
 
     @abstractmethod
     def content(self) -> dict[str, Any]:
-        """What it consists of, as JSON can hold it to the last digit."""
+        """The content, as JSON can hold it to the last digit."""
 
     @classmethod
     @abstractmethod
@@ -75,7 +75,7 @@ class Named(ABC):
         return float((self.cost << CONTENT_BITS) + content)
 
     def notes(self) -> dict[str, Any]:
-        """What archives say of it besides its content, as JSON can hold it."""
+        """Facts that archives keep beside the content, as JSON can hold them."""
         return {}
 
     def __eq__(self, other: object) -> bool:

@@ -1,4 +1,4 @@
-"""What one named parameter is."""
+"""One named parameter: its symbols, meaning, default and range."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Parameter:
     note: str = ""
 
     def goes_without_saying(self, value: object) -> bool:
-        """Whether a value means that the scene lacks what the parameter is about."""
+        """Return whether a value means that the scene lacks the parameter's subject."""
         return self.optional and value == self.default
 
     @property

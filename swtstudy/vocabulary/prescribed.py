@@ -1,4 +1,4 @@
-"""What is prescribed in each direction, a displacement or a force, and which parameter says so."""
+"""Control: a displacement or a force is prescribed in each direction; the names of parameters say which."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def replaced_by(names: Iterable[str]) -> set[str]:
 
 @dataclass(frozen=True)
 class Control:
-    """What is prescribed in each direction: a displacement, or a force.
+    """The quantities prescribed in the two directions, each a displacement or a force.
 
     A normal force is in units of that at the depth δ0, a tangential one in μ times that.
 
@@ -41,7 +41,7 @@ class Control:
 
     @property
     def mixed(self) -> bool:
-        """Whether a force and a displacement are prescribed."""
+        """True if one direction has a force and the other a displacement."""
         return self.normal_force != self.tangential_force
 
     @property

@@ -186,7 +186,7 @@ ALLOWED = f"a list of {', '.join(NAMED)}"
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked of every point beside s.
+    """A request: the quantities to be computed at every point beside s.
 
     Attributes
     ----------
@@ -215,7 +215,7 @@ class Request:
 
     @property
     def items(self) -> tuple[str, ...]:
-        """What is computed, each by itself, and which runs say they have: the same ones, single distances."""
+        """The items that are computed one by one, as runs record them: distances are single ones."""
         return (*self.same, *map(item_of, self.distances))
 
     @property
@@ -259,7 +259,7 @@ def distance_of(item: str) -> float | None:
 
 
 def is_item(raw: object) -> bool:
-    """Whether something is an item of a request."""
+    """Return whether something is an item of a request."""
     return isinstance(raw, str) and (raw in NAMED or raw == COUNTS or distance_of(raw) is not None)
 
 
@@ -286,7 +286,7 @@ def columns_of(items: Iterable[str]) -> tuple[str, ...]:
 
 
 def columns_in(row: Quantity, variable: str, item: str) -> tuple[str, ...]:
-    """Those of one data variable of a quantity, along its own dimensions but the critical distance."""
+    """Return the columns of a data variable, along its own dimensions but the critical distance."""
     if item in NAMED:
         return (variable,)
     if item == COUNTS:

@@ -68,7 +68,7 @@ class Cycle:
         return self.forward, self.backward
 
     def slips(self) -> NDArray[np.bool_]:
-        """Whether any spring slips somewhere in the cycle, shape (n,)."""
+        """True where any spring slips somewhere in the cycle, shape (n,)."""
         interval = np.arange(self.begin.shape[1])
         middle = self.states(interval, 0.5 * (self.begin + self.end))
         slips = middle.front < (1.0 - NO_SLIP) * middle.edge

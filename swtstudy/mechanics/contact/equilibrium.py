@@ -1,4 +1,4 @@
-"""Whether prescribed forces can be carried at all: otherwise the body slides away or falls apart."""
+"""Equilibrium of prescribed forces: where it is lost, the body slides away or falls apart."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ROUNDING = 1e-12
 
 
 def out_of_equilibrium(load: Load, control: Control) -> NDArray[np.bool_]:
-    """Whether there is no state of equilibrium at some instant, so that there is no stationary cycle.
+    """True where there is no equilibrium at some instant, so that there is no stationary cycle.
 
     A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.
 

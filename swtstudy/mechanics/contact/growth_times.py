@@ -52,7 +52,7 @@ class GrowthTimes:
         return cls(np.arange(len(load)), table)
 
     def take(self, index: NDArray[np.intp]) -> GrowthTimes:
-        """Those of the loads at ``index``, repetitions allowed."""
+        """Return the times of the loads at ``index``, repetitions allowed."""
         return replace(self, row=self.row[index])
 
     def slip_line_brackets(self, sense: float, row: NDArray[np.intp], number: IntArray) -> Brackets:

@@ -115,7 +115,7 @@ def _or_none(coordinate: FloatArray) -> FloatArray:
 
 
 def _grow(stack: Memory, course: _Course, i: int) -> None:
-    """What is gained in stick remembers the tangential load at touch-down."""
+    """Push a piece that remembers the tangential load at touch-down, where springs are gained in stick."""
     before, now, number = course.edge[:, i], course.edge[:, i + 1], np.full(len(course.grows), i)
     piece = Memory(before, course.tangential[:, i], course.growth[:, i], now, course.branch[:, i], number)
     _push(stack, course.grows[:, i], piece)
@@ -126,7 +126,7 @@ def _lose_contact(stack: Memory, course: _Course, i: int) -> None:
 
 
 def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
-    """What has slipped lies on a slip line."""
+    """Push a piece along a slip line, where springs have slipped."""
     row = np.zeros((len(load), 1), dtype=np.intp)
     senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
     states = slip_states(load, stack, senses, course.times, row, course.instant[:, i + 1 : i + 2])

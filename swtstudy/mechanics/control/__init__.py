@@ -1,1 +1,1 @@
-"""What is prescribed: the coordinate in which the memory diagram is drawn, one name of the contact radius."""
+"""Control by displacements or forces: each has the coordinate in which its memory diagram is drawn."""

@@ -1,4 +1,4 @@
-"""What is prescribed makes the memory diagram: the load in its coordinate, and that coordinate."""
+"""The memory diagram from what is prescribed: the load in its coordinate, and that coordinate."""
 
 from __future__ import annotations
 
@@ -82,6 +82,6 @@ def _mapped_polygon(load: Load, normal_map: NormalMap) -> Load:
 
 
 def _waves(profile: Profile) -> float:
-    """How many waves of the profiles the edge passes at most."""
+    """Largest number of waves of the profiles that the edge passes."""
     reach = profile.radius(profile.largest_depth)
     return float(np.max(reach / profile.feature_length, initial=0.0))

@@ -30,7 +30,7 @@ class StripDisplacement:
     profile: PlaneProfile
 
     def take(self, index: NDArray[np.intp]) -> StripDisplacement:
-        """Those at ``index``, repetitions allowed."""
+        """Return the displacements at ``index``, repetitions allowed."""
         return StripDisplacement(cast(PlaneProfile, self.profile.take(index)))
 
     def of(self, radius: FloatArray) -> FloatArray:

@@ -31,7 +31,7 @@ OFFSETS = np.arange(-STEPS, STEPS + 1) / STEPS
 #: Number of the last sample.
 LAST = 2 * STEPS
 #: Where the first sample is in a layer, in α over that of the layer's thickness, and the share of an even
-#: step below which a layer is thin. Without: 6e-4 at a point of tests/test_narrow_maxima.py.
+#: step below which a layer is thin. Without: 6e-4 at a point of tests/mechanics/test_narrow_maxima.py.
 IN_LAYER, THIN = 2.0 / 3.0, 1.0 / 3.0
 
 

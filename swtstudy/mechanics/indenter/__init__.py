@@ -76,7 +76,7 @@ def resolved_shape(
 def compact_shapes(
     profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
 ) -> NDArray[np.bool_]:
-    """Whether `check_shape` has nothing against each of n shapes up to a depth, each of shape (n,)."""
+    """True where `check_shape` accepts a shape up to a depth, each of shape (n,)."""
     own, given = _class_of(profile, shape)
     return own.compact(largest_depth, **given)
 

@@ -1,4 +1,4 @@
-"""What a profile must know: its MDR profile g, and the integrals of the surface stress over it.
+"""Base of all profiles: the MDR profile g, and the integrals of the surface stress over it.
 
 Lengths are in a_H, which is √(R δ0) unless a family says otherwise, depths in δ0. A batch of n profiles of
 one family is one object; its methods take arrays of shape (n, …).
@@ -50,7 +50,7 @@ class Primitives(ABC):
 
 @dataclass(frozen=True)
 class Tables:
-    """How to tabulate depths and forces of n profiles.
+    """Layout of the tables of depths and forces of n profiles.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Profile(ABC):
 
     @classmethod
     def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
-        """How finely g′ must be resolved, in whole steps: points that differ are not batched together."""
+        """Resolution that g′ needs, in whole steps: points that differ are not batched together."""
         return np.zeros(len(largest_depth), dtype=np.int64)
 
     @classmethod
@@ -101,7 +101,7 @@ class Profile(ABC):
 
     @classmethod
     def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
-        """Whether the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
+        """True where the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 
     @classmethod
@@ -153,7 +153,7 @@ class Profile(ABC):
         return np.zeros((len(self.largest_depth), 0))
 
     def tables(self) -> Tables | None:
-        """How depths and forces are tabulated against each other, None where formulas are as fast."""
+        """Layout of the tables of depths against forces, None where formulas are as fast."""
         return None
 
     def extra_nodes(self, digits: float) -> int:

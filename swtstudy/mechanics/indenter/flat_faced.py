@@ -15,7 +15,7 @@ from swtstudy.mechanics.indenter.tables import OuterTable
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
-#: Chebyshev nodes of the tables for each digit, for any width of the face (tests/test_profiles.py). Half:
+#: Chebyshev nodes of the tables for each digit, for any width of the face (test_profiles.py). Half:
 #: 3e-10 at 128 points at rtol 1e-5, no faster; twice: 5e-14.
 NODES_PER_DIGIT = 4.5
 #: Distance from the singular r = b up to which positions are looked at, over the face or the ring beside it.

@@ -117,7 +117,7 @@ class PiecePrimitives(Primitives):
         return np.asarray(first), np.asarray(second)
 
     def _offset_outside(self, knots: FloatArray) -> FloatArray:
-        """What the antiderivatives of each piece have too much, where the integral begins at r."""
+        """Offsets of the outer antiderivatives of each piece, where the integral begins at r."""
         start = self.pieces.piece(self.low)
         at_start = np.stack(
             self._outside(self.low[..., None], lambda k: self._over_radius[k].take(start)[..., None])

@@ -100,12 +100,12 @@ class TabulatedProfile(Named):
 
     @property
     def geometry(self) -> str:
-        """What the contact is, as of a ``Family``."""
+        """The noun for its contact, as of a ``Family``."""
         return self._geometry
 
     @property
     def plane(self) -> bool:
-        """Whether it is that of a plane contact."""
+        """True if it is a profile of a plane contact."""
         return self._geometry == PLANE
 
     def __repr__(self) -> str:
@@ -236,7 +236,7 @@ def _every_other(values: FloatArray) -> FloatArray:
 
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:
-    """What is wrong with a table."""
+    """Return the mistakes in a table."""
     if mistake := wrong_name(name, "profile"):
         yield mistake
         name = "profile"

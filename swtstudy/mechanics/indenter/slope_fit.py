@@ -210,7 +210,7 @@ class SlopePieces:
 
 
 def resolved(f: PPoly, coarse: PPoly, slope_of: SlopeOf = exact_slope) -> float:
-    """What may be missed of g′, from the splines through all points and through every other one."""
+    """Estimate the error of g′, from the splines through all points and through every other one."""
     radius = np.linspace(max(f.x[0], coarse.x[0]), min(f.x[-1], coarse.x[-1]), COMPARED)
     fine = slope_of(f, radius)
     differs = np.abs(slope_of(coarse, radius) - fine)

@@ -41,7 +41,7 @@ class InnerTable:
         self.integrals = chebyshev.RunningIntegrals(self.densities(weight, radius2, position))
 
     def densities(self, weight: FloatArray, radius2: FloatArray, position: FloatArray) -> FloatArray:
-        """What is integrated over α, from 2 m/r and the squares of the radii at the nodes."""
+        """Integrand over α, from 2 m/r and the squares of the radii at the nodes."""
         return np.stack([weight, weight * radius2 / position[..., None] ** 2])
 
     def __call__(self, radius: FloatArray) -> FloatArray:

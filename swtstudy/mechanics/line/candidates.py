@@ -14,13 +14,12 @@ from swtstudy.mechanics.line.accuracy import Accuracy
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.positions import Pieces
-from swtstudy.mechanics.line.round import climb_round
-from swtstudy.mechanics.line.value import refine
+from swtstudy.mechanics.line.round import climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Relative accuracy of swt there, and rounds of the climbs at most.
-TOLERANCE, ROUNDS = 1e-4, 16
+#: Relative accuracy of swt there.
+TOLERANCE = 1e-4
 #: Maxima of a point nearer to one another than this share of the contact radius are one.
 SAME = 1e-5
 
@@ -50,15 +49,9 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(TOLERANCE)
     positions, seen = resolved(scene, Pieces.of(split))
     climb = Climb.start(split, positions, seen, accuracy.search, least)
-    for _ in range(ROUNDS):
-        going = np.flatnonzero(~climb.settled)
-        if not going.size:
-            break
-        moved, _ = climb_round(split, positions, climb.take(going), accuracy)
-        climb = Climb.joined([climb.take(climb.settled), moved])
-    r = positions.take(climb.place).around(climb.centre[:, None])
-    value, angle = refine(split.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
-    found = Candidates(climb.point, climb.side * r[:, 0], angle[:, 0], value[:, 0])
+    climb = climb_to_tops(split, positions, climb, accuracy)
+    position, swt, angle = looked_at_once_more(split, positions, climb, accuracy)
+    found = Candidates(climb.point, position, angle, swt)
     return _apart(found, SAME * scene.largest_radius)
 
 

@@ -21,7 +21,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
 #: Planes on which swt is looked at where climbs may start, and where more are tried beside the summits, 2θ
-#: in rad: those for other instants may be close by (tests/test_narrow_maxima.py); nearer, two are one.
+#: in rad: those for other instants may be close by (tests/mechanics/test_narrow_maxima.py); nearer, two are
+#: one.
 PLANES, BESIDE, SAME_PLANE = 48, np.array([0.0, -0.25, -0.05, 0.05, 0.25]), 0.01
 
 

@@ -26,12 +26,12 @@ SHARE = 0.05
 #: largest needs no more.
 STEPS, MOST_STEPS, LOW = 2, 256, 0.5
 #: A layer is thin if it is shorter than this share of a piece. Without: 1.4e-4 at a point of
-#: tests/test_overlooked.py.
+#: tests/mechanics/test_overlooked.py.
 THIN = 1.0 / 12.0
 #: Planes that are tried, and instants, which leave such a share unseen.
 PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
 #: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
-#: of tests/test_overlooked.py.
+#: of tests/mechanics/test_overlooked.py.
 OTHER_PLANE = 0.08
 #: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
 #: what is looked at stays in the processor's cache.

@@ -14,20 +14,16 @@ from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
-from swtstudy.mechanics.line.round import climb_round
-from swtstudy.mechanics.line.value import refine
+from swtstudy.mechanics.line.round import climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.passing import arrival
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import told_by_fronts
 
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
-#: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/test_narrow_maxima.py); 0.9 throughout: no gain.
+#: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/mechanics/test_narrow_maxima.py); 0.9 throughout:
+#: no gain.
 SHARES = 0.97, 0.995, 0.999
-#: Rounds of the climbs at most. Half or twice: no change at 128 points.
-LARGEST_ROUND_COUNT = 16
-#: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
-PART_SIZE = 100_000
 #: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
 #: sharp tip, lost contact and large friction miss s_error.
 SLOWNESS = 3.0
@@ -164,27 +160,14 @@ def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
 
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
-    """The maxima of the points to which climbs belong, in their order, looked at once more at the top."""
-    largest_part = max(PART_SIZE // split.cycle.begin.shape[1] ** 2, 1)
-    for turn in range(LARGEST_ROUND_COUNT):
-        going = np.flatnonzero(~climb.settled)
-        if not going.size:
-            break
-        parts = np.array_split(going, -(-going.size // largest_part))
-        rounds = [climb_round(split, positions, climb.take(part), accuracy) for part in parts]
-        moved = Climb.joined([climb.take(climb.settled), *(same for same, _ in rounds)])
-        before = np.concatenate([climb.place[climb.settled], climb.place[going]])
-        others = [other for _, other in rounds]
-        climb = Climb.joined([moved.without_followers(moved.place != before), *others])
-        climb = climb.leading(climb.top, SHARES[min(turn, len(SHARES) - 1)])
+    """The maxima of the points to which climbs belong, in their order."""
+    climb = climb_to_tops(split, positions, climb, accuracy, SHARES)
     # What is still on its way counts for what was seen of it.
     climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])
-    r = positions.take(climb.place).around(climb.centre[:, None])
-    value, angle = refine(split.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
-    order = np.lexsort((-value[:, 0], climb.point))
+    position, value, angle = looked_at_once_more(split, positions, climb, accuracy)
+    order = np.lexsort((-value, climb.point))
     best = order[np.unique(climb.point[order], return_index=True)[1]]
-    swt = value[best, 0]
-    error = np.abs(swt - climb.top[best]) + climb.remaining[best]
+    error = np.abs(value[best] - climb.top[best]) + climb.remaining[best]
     # Nothing finer than this was looked at.
-    error = np.maximum(error, accuracy.tolerance * swt)
-    return Maximum(swt, error, climb.side[best] * r[best, 0], angle[best, 0])
+    error = np.maximum(error, accuracy.tolerance * value[best])
+    return Maximum(value[best], error, position[best], angle[best])

@@ -1,4 +1,4 @@
-"""One round of the climbs: look at a few positions around each centre, move to the vertex, narrow.
+"""Rounds of the climbs: look at a few positions around each centre, move to the vertex, narrow.
 
 Each climb looks at `OFFSETS` around its best position and fits parabolas or a polynomial, until a further
 round would change too little. A round may find other maxima between the same neighbours, which get climbs of
@@ -7,6 +7,7 @@ their own.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -40,6 +41,10 @@ POLYNOMIAL_SHARE = 0.3
 JUMP = 0.15
 #: Values closer than this are equal, relative. 0: no change at 128 points.
 TIE = 1e-12
+#: Rounds at most. Half or twice: no change at 128 points.
+LARGEST_ROUND_COUNT = 16
+#: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
+PART_SIZE = 100_000
 
 
 @dataclass(frozen=True)
@@ -99,7 +104,43 @@ class _Vertex:
     clear: NDArray[np.bool_]
 
 
-def climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> tuple[Climb, Climb]:
+def climb_to_tops(
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float] = ()
+) -> Climb:
+    """Climb until all have settled, or long enough.
+
+    Parameters
+    ----------
+    shares
+        Local maxima below these shares of the largest of their point are not followed further, after each
+        round; the last one is that of all further rounds. Without them all are.
+    """
+    largest_part = max(PART_SIZE // scene.cycle.begin.shape[1] ** 2, 1)
+    for turn in range(LARGEST_ROUND_COUNT):
+        going = np.flatnonzero(~climb.settled)
+        if not going.size:
+            break
+        parts = np.array_split(going, -(-going.size // largest_part))
+        rounds = [_climb_round(scene, positions, climb.take(part), accuracy) for part in parts]
+        moved = Climb.joined([climb.take(climb.settled), *(same for same, _ in rounds)])
+        before = np.concatenate([climb.place[climb.settled], climb.place[going]])
+        others = [other for _, other in rounds]
+        climb = Climb.joined([moved.without_followers(moved.place != before), *others])
+        if shares:
+            climb = climb.leading(climb.top, shares[min(turn, len(shares) - 1)])
+    return climb
+
+
+def looked_at_once_more(
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Signed x, swt and 2θ of the critical plane at the tops of climbs, (m,) each, in the closer check."""
+    r = positions.take(climb.place).around(climb.centre[:, None])
+    swt, angle = refine(scene.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
+    return climb.side * r[:, 0], swt[:, 0], angle[:, 0]
+
+
+def _climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> tuple[Climb, Climb]:
     """One round of m climbs.
 
     Returns

@@ -14,7 +14,7 @@ from swtstudy.mechanics.points import FloatArray
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew: for all, and at most
 #: where swt still rises, since the extremes move with the plane. 2 at most: 4e-4 at rtol 1e-4 at 1 of 1,001
-#: points (tests/test_narrow_maxima.py).
+#: points (tests/mechanics/test_narrow_maxima.py).
 ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS = 2, 16
 
 

@@ -1,1 +1,1 @@
-"""What the bodies are made to do: the two components of the load over the cycle."""
+"""Loads of the two bodies: their two components over the cycle."""

@@ -89,7 +89,7 @@ class BimodalLoad(Load):
         return np.sort(np.concatenate([self.normal_turning_instants(), *slip_lines], axis=1), axis=1)
 
     def normal_turning_instants(self) -> FloatArray:
-        """Those of `turning_instants` at which the normal load turns, or contact is made or lost."""
+        """The `turning_instants` at which the normal load turns, or contact is made or lost."""
         q, d = self.q, self.normal_amplitude
         quarter = np.pi * (np.arange(2 * q) + 0.5)
         columns = [np.mod((quarter - self.phase[:, None]) / q, PERIOD)]

@@ -55,7 +55,7 @@ class HarmonicSum:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it never changes."""
+        """True if the sum never changes."""
         return not np.any(self.amplitude[self.order > 0])
 
     @cached_property

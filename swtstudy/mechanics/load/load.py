@@ -1,4 +1,4 @@
-"""What a load must know: a closed loop in the plane of the normal and the tangential load.
+"""Base of all loads: a closed loop in the plane of the normal and the tangential load.
 
 Both components are measured in the coordinate of the memory diagram: the normal one is 1 at the reference
 depth δ0, the tangential one is scaled so that friction reads |tangential| ≤ normal for each spring. Time is
@@ -83,12 +83,12 @@ class Load(ABC):
     @property
     @abstractmethod
     def oscillations(self) -> tuple[int, int]:
-        """How often the normal and the tangential load oscillate in a period."""
+        """Numbers of oscillations of the normal and the tangential load in a period."""
 
     @property
     @abstractmethod
     def mirrored_half(self) -> bool:
-        """Whether half a period later the normal load is the same and the tangential one has changed sign."""
+        """True if half a period later the normal load is the same and the tangential one has changed sign."""
 
     @property
     def same_cusp(self) -> float:
@@ -97,7 +97,7 @@ class Load(ABC):
 
     @property
     def grows_in_lines(self) -> bool:
-        """Whether the ratio of both rates is constant between turning instants."""
+        """True if the ratio of both rates is constant between turning instants."""
         return False
 
     @abstractmethod

@@ -1,4 +1,4 @@
-"""What a loop of the load must know that a user defines and names."""
+"""Base of the loops of load that a user defines and names."""
 
 from __future__ import annotations
 
@@ -62,13 +62,13 @@ class Loop(Named):
 
     @property
     def is_steady(self) -> bool:
-        """Whether the normal load is constant."""
+        """True if the normal load is constant."""
         low, high = self.normal_ends
         return low == high
 
     @property
     def is_absolute(self) -> bool:
-        """Whether c_n looks like a load itself, not like its deviation from the mean: it stays far from 0."""
+        """True if c_n looks like a load itself, not like its deviation from the mean."""
         low, high = self.normal_ends
         return abs(low + high) > FAR * (high - low)
 
@@ -84,7 +84,7 @@ class Loop(Named):
     @property
     @abstractmethod
     def turn_count(self) -> int:
-        """How many turning instants its loads have, about."""
+        """Number of turning instants of its loads, about."""
 
     @abstractmethod
     def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
@@ -109,7 +109,7 @@ def checked_mean(mean: object, name: str) -> float | None:
 
 
 def mean_of(loop: Loop) -> dict[str, float]:
-    """What the content of a loop says of its mean normal load."""
+    """Read the mean normal load from the content of a loop."""
     return {} if loop.mean_normal is None else {"mean_normal": loop.mean_normal}
 
 

@@ -37,7 +37,7 @@ def largest_normal(points: Points) -> FloatArray:
 
 
 def largest_turn_count(points: Points) -> int:
-    """How many turning instants the load of points that are alike has at most."""
+    """Largest number of turning instants that the load of points with equal shared columns can have."""
     if points.path is not None:
         return points.path.turn_count
     return 6 * int(max(points.p[0], points.q[0]))

@@ -198,7 +198,7 @@ class PolygonLoad(Load):
 
 @dataclass(frozen=True)
 class PolygonCourse:
-    """What goes through values at the vertices of a polygon in straight lines, at the instants of its loads.
+    """A course through values at the vertices of a polygon in straight lines, at the instants of its loads.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What two harmonic loads may differ in and have the same s."""
+"""Symmetries of harmonic loads: phases that differ and give the same s."""
 
 from __future__ import annotations
 

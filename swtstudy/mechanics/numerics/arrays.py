@@ -40,7 +40,7 @@ def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
 
 
 def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) -> NDArray[np.intp]:
-    """How many of the values in its row are below each level.
+    """Count the values in a row that are below each level.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
 
 
 def place_in_row(row: NDArray[np.intp]) -> NDArray[np.intp]:
-    """How many entries of its row stand before each, shape (m,), of entries listed row by row."""
+    """Count the entries of the same row that stand before each, shape (m,), of entries listed row by row."""
     return np.arange(row.size) - np.searchsorted(row, row)
 
 

@@ -25,7 +25,7 @@ LARGEST_STEP = 0.4
 #: batch: 1.4 times the time; 8: 1.5 times.
 BLOCK = 64
 #: Share of a point's largest swt below which the planes of a coarse look are not improved: what is followed
-#: is far above (`swtstudy.mechanics.line.first_look.CANDIDATE_SHARE`). 0: no change, 3 % slower.
+#: is within `swtstudy.mechanics.line.first_look.SHARE`. 0: no change, 3 % slower.
 IMPROVED_SHARE = 0.6
 
 

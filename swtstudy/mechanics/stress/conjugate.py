@@ -77,7 +77,7 @@ class Conjugate:
         return cls(scene.cycle, scene.coordinate, other, by_force, unit, nodes)
 
     def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
-        """Those at ``index``, with so many nodes."""
+        """Return the tables at ``index``, with so many nodes."""
         return replace(
             self,
             cycle=self.cycle.take(index),
@@ -88,7 +88,7 @@ class Conjugate:
         )
 
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Conjugate:
-        """Those at ``index`` over one interval each, arrays of shape (m,)."""
+        """Return the integrals at ``index`` over one interval each, arrays of shape (m,)."""
         cycle = self.cycle.take_intervals(index, interval[:, None])
         return replace(self.take(index, self.nodes), cycle=cycle)
 

@@ -79,7 +79,7 @@ class GrowthIntegrals:
         self.outer = _OverRanges(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
 
     def take(self, index: NDArray[np.intp]) -> GrowthIntegrals:
-        """Those of the cycles at ``index``, repetitions allowed."""
+        """Return the growths of the cycles at ``index``, repetitions allowed."""
         taken = copy(self)
         if self.count:
             taken.index, taken.position, taken.flat = (
@@ -162,7 +162,7 @@ class _OverRanges:
             self.groups.append((same.ravel(), self._integrals(at, density, int(nodes))))
 
     def take(self, index: NDArray[np.intp]) -> _OverRanges:
-        """Those at ``index`` of the first axis."""
+        """Return the growths at ``index`` of the first axis."""
         taken, shape = copy(self), self.span.shape
         taken.low, taken.span, taken.column = self.low[index], self.span[index], self.column[index]
         taken.groups = [(same.reshape(shape)[index].ravel(), integrals) for same, integrals in self.groups]

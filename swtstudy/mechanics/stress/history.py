@@ -40,12 +40,12 @@ class History:
 
     @classmethod
     def of_strip(cls, pressure: FloatArray, tangential: FloatArray, traction: FloatArray) -> History:
-        """Those of a plane contact."""
+        """Make the history of a plane contact."""
         return cls(pressure, None, tangential, None, traction)
 
     @property
     def plane(self) -> bool:
-        """Whether they are those of a plane contact."""
+        """True if they are stresses of a plane contact."""
         return self.mean_pressure is None
 
     def take(self, *index: NDArray[np.intp] | int) -> History:

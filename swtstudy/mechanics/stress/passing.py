@@ -31,7 +31,7 @@ COORDINATE, INSTANT = 2e-15, 2.5e-15
 def arrival(
     load: Load, coordinate: Coordinate, position: FloatArray, at: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """How far from ``at``, the coordinate of r, shape (n, X), rounding leaves that of what arrives there.
+    """Distance from ``at``, the coordinate of r, shape (n, X), at which rounding leaves what arrives there.
 
     The stress shows the square root of this distance.
 
@@ -50,7 +50,7 @@ def arrival(
 
 @dataclass(frozen=True)
 class Passing:
-    """What passes n × X positions.
+    """Edges and fronts that pass n × X positions.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the stress depends on: contact, indenter, Poisson ratio and friction."""
+"""A scene holds all that the stress depends on: contact, indenter, Poisson ratio and friction."""
 
 from __future__ import annotations
 
@@ -95,7 +95,7 @@ class Scene:
 
     @property
     def critical_everywhere(self) -> bool:
-        """Whether places in mere pressure may be critical, or those outside of the contact."""
+        """True if places in mere pressure may be critical, or those outside of the contact."""
         return self.bulk is not None or not self.criterion.needs_tension
 
     @property
@@ -105,7 +105,7 @@ class Scene:
 
     @property
     def mirrored_half(self) -> bool:
-        """Whether half a period later the stress is the same at −x."""
+        """True if half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
     def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:

@@ -21,7 +21,7 @@ from swtstudy.mechanics.points import FloatArray
 
 @dataclass(frozen=True)
 class Slowness:
-    """How the load is slowed down.
+    """The rule by which the load is slowed down.
 
     Attributes
     ----------
@@ -53,12 +53,12 @@ OF_LEAST_EDGE, OF_AMPLITUDE, LEAST_REACH = 1e5, 1e2, 1e-3
 
 
 def reach_of_edges(load: Load) -> FloatArray:
-    """What the coordinates of `OF_EDGE` are over, shape (n,): 0 unless edges come to the tip."""
+    """Reference of the coordinates of `OF_EDGE`, shape (n,): 0 unless edges come to the tip."""
     return np.where(load.least_normal <= 0.0, load.largest_normal, 0.0)
 
 
 def reach_of_fronts(cycle: Cycle) -> FloatArray:
-    """What the coordinates of `OF_FRONT` are over, shape (n,): 0 unless fronts come to the tip."""
+    """Reference of the coordinates of `OF_FRONT`, shape (n,): 0 unless fronts come to the tip."""
     load = cycle.load
     amplitude = load.motion - load.normal_motion
     edge = np.maximum(OF_LEAST_EDGE * load.least_normal, OF_AMPLITUDE * amplitude)
@@ -93,7 +93,7 @@ class SlowerTime:
         return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, 1e-300)))
 
     def take(self, index: NDArray[np.intp]) -> SlowerTime:
-        """Those at ``index`` of the first axis."""
+        """Return the times at ``index`` of the first axis."""
         return SlowerTime(*(values[index] for values in vars(self).values()))
 
     def put(self, radius: FloatArray, own: NDArray[np.bool_] | None = None) -> None:

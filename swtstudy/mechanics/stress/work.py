@@ -1,4 +1,4 @@
-"""What may be asked of a whole cycle: dissipated work, largest force ratio, radii."""
+"""Quantities of a whole cycle: dissipated work, largest force ratio, radii."""
 
 from __future__ import annotations
 

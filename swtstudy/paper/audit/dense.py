@@ -14,13 +14,16 @@ from swtstudy.mechanics.line.positions import cusps
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Steps of each smooth part of the cycle, at first and in the closer looks: twice and six times the search's.
-INSTANTS, CLOSER_INSTANTS = 4, 12
-#: Digits of tables and series: stresses may be 1e4 times those that make swt. 9: 3e-6 too high at 3 of 1,473.
-DIGITS = 12.0
+#: Steps of each smooth part of the cycle, at first and in the first closer look: four and six times the
+#: search's. Each further look has twice as many. With 4 at first it was itself 7e-4 low at a point, with 12
+#: in each closer look 6e-4 at 1 of 66.
+INSTANTS, CLOSER_INSTANTS = 8, 12
+#: Digits of tables and series, at first and in the closer looks: stresses may be 1e4 times those that make
+#: swt. 9 in the closer ones: 3e-6 too high at 3 of 1,473 points.
+DIGITS, CLOSER_DIGITS = 6.0, 12.0
 #: Local maxima that are looked at closer: so many, and this share of the highest. Each time on so many places
-#: and planes, between the neighbours of the best ones.
-KEPT, HIGH, ROUNDS, CLOSER = 8, 0.9, 4, 17
+#: and planes about the best ones, NARROWER from one time to the next, until one stays below the share LOW.
+KEPT, HIGH, ROUNDS, CLOSER, NARROWER, LOW = 8, 0.9, 5, 17, 0.25, 0.98
 #: Pieces shorter than this share of the range are none.
 NO_LENGTH = 1e-13
 #: Positions times instants that are held at a time.
@@ -56,19 +59,20 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
     found.sort(reverse=True)
     for height, side, k, plane in found[:KEPT]:
         if height >= HIGH * found[0][0]:
-            closer = _closer(scene, r[max(k - 1, 0) : k + 2], r[k], side, plane, turn)
+            around = r[[max(k - 2, 0), k, min(k + 2, r.size - 1)]]
+            closer = _closer(scene, ends, around, side, plane, turn, LOW * best)
             best, position = max((best, position), closer)
     return best, position
 
 
 def _highest(
-    scene: Scene, r: FloatArray, side: float, angles: FloatArray, count: int
+    scene: Scene, r: FloatArray, side: float, angles: FloatArray, count: int, digits: float = DIGITS
 ) -> tuple[FloatArray, FloatArray]:
     """Largest swt at each r over the planes at 2θ, and 2θ of that plane, both (X,)."""
     swt, best = np.zeros(r.size), np.zeros(r.size)
     size = max(BLOCK // (3 * count * scene.cycle.begin.shape[1]), 1)
     for part in (slice(first, first + size) for first in range(0, r.size, size)):
-        history = scene.planes(Look.at(scene, r[None, part], count, DIGITS).history, side)
+        history = scene.planes(Look.at(scene, r[None, part], count, digits).history, side)
         for angle in angles:
             of_swt = history.criterion.curves(*history.on_plane(np.full((1, r[part].size), angle)))
             value = history.criterion.of_maxima(*(curve.max(axis=-1) for curve in of_swt))[0]
@@ -78,20 +82,32 @@ def _highest(
 
 
 def _closer(
-    scene: Scene, around: FloatArray, centre: float, side: float, plane: float, turn: float
+    scene: Scene, ends: FloatArray, around: FloatArray, side: float, plane: float, turn: float, least: float
 ) -> tuple[float, float]:
-    """The largest swt between neighbours, and signed x there, on ever closer grids of places and planes."""
+    """The largest swt near a place, and signed x there, on ever closer grids of places, planes and instants.
+
+    Parameters
+    ----------
+    ends
+        Shape (k,): the cusps, which are looked at themselves.
+    around
+        Shape (3,): from where, about which place and up to where to look at first.
+    """
     best, position = 0.0, np.nan
-    low, high = around[0], around[-1]
+    down, up = np.diff(around)
+    centre, count, half = around[1], CLOSER_INSTANTS, CLOSER // 2 + 1
     for _ in range(ROUNDS):
-        half = CLOSER // 2 + 1
-        places = np.unique(np.append(np.linspace(low, centre, half), np.linspace(centre, high, half)))
-        swt, planes = _highest(
-            scene, places, side, plane + turn * np.linspace(-1.0, 1.0, CLOSER), CLOSER_INSTANTS
-        )
+        low, high = max(centre - down, ends[0]), min(centre + up, ends[-1])
+        within = ends[(ends > low) & (ends < high)]
+        places = np.concatenate([np.linspace(low, centre, half), np.linspace(centre, high, half), within])
+        places = np.unique(places)
+        angles = plane + turn * np.linspace(-1.0, 1.0, CLOSER)
+        swt, planes = _highest(scene, places, side, angles, count, CLOSER_DIGITS)
         k = int(swt.argmax())
         if swt[k] > best:
             best, position = float(swt[k]), float(side * places[k])
-        low, centre, high = places[max(k - 1, 0)], places[k], places[min(k + 1, places.size - 1)]
-        plane, turn = planes[k], 0.25 * turn
+        centre, plane = places[k], planes[k]
+        if best < least:
+            break
+        down, up, turn, count = NARROWER * down, NARROWER * up, NARROWER * turn, 2 * count
     return best, position

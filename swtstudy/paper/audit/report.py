@@ -90,7 +90,7 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator[str]:
-    """How far the solver's own s_surface finds what exceeds s."""
+    """Report how far the solver's own s_surface finds what exceeds s."""
     remainder, verdict = dataset["remainder"].values, dataset["verdict"].values
     finite = np.isfinite(dataset["excess"].values)
     flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * dataset["s"].values)
@@ -118,7 +118,7 @@ def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator
 
 
 def _overlooked(dataset: xr.Dataset) -> Iterator[str]:
-    """What a dense look at the surface line says of the search."""
+    """Report how the search compares with a dense look at the surface line."""
     short = dataset["shortfall"].values
     low = short > 0.0
     yield ""

@@ -90,7 +90,7 @@ class _Course(NamedTuple):
         return self.u0 * np.sin(self.p * time)
 
     def rates(self, time: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Those of the displacement and of the depth."""
+        """Rates of the displacement and of the depth."""
         pull = self.p * self.u0 * np.cos(self.p * time)
         return pull, self.q * self.d * np.cos(self.q * time + self.psi)
 

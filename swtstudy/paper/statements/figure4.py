@@ -21,7 +21,7 @@ PROMINENT = (0.25, 0.5, 1.5)
 
 
 def prominent_among_all(figure4: xr.Dataset) -> Finding:
-    """Whether every other ratio of the figure stays below the three prominent ones."""
+    """Check whether every other ratio of the figure stays below the three prominent ones."""
     return _prominent(figure4)
 
 

@@ -18,17 +18,17 @@ WEAK, NEGLIGIBLE = 0.1, 0.01
 
 
 def rounded_punch_falls(figure5: xr.Dataset) -> Finding:
-    """Whether s of the rounded punch falls with b at every phase."""
+    """Check whether s of the rounded punch falls with b at every phase."""
     return _monotone(figure5, "rounded_punch", -1)
 
 
 def truncated_paraboloid_rises(figure5: xr.Dataset) -> Finding:
-    """Whether s of the truncated paraboloid rises with b at every phase."""
+    """Check whether s of the truncated paraboloid rises with b at every phase."""
     return _monotone(figure5, "truncated_paraboloid", 1)
 
 
 def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
-    """Whether s rises (sense 1) or falls (-1) with b at every phase, up to its estimated error."""
+    """Check whether s rises (sense 1) or falls (-1) with b at every phase, up to its estimated error."""
     curves = with_dims(at(figure5, profile=profile), "flat_radius", "phase").sortby("flat_radius")
     curves = curves.transpose("flat_radius", "phase")
     s, error = curves.s.values, curves.s_error.values

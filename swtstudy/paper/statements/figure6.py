@@ -18,7 +18,7 @@ _LINE = 0.02
 
 
 def all_curves_fall(figure6: xr.Dataset) -> Finding:
-    """Whether s falls with b for every load."""
+    """Check whether s falls with b for every load."""
     rise = largest_rise(with_dims(figure6, "flat_radius"), "flat_radius")
     ordered = figure6.s.sortby("flat_radius")
     end = ordered.isel(flat_radius=-1) / ordered.isel(flat_radius=0)

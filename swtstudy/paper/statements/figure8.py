@@ -31,7 +31,7 @@ def loads_couple_weakly(figure8: xr.Dataset) -> Finding:
 
 
 def trends_are_similar(figure8: xr.Dataset) -> Finding:
-    """Whether every curve oscillates with periods and swings that grow with h."""
+    """Check whether every curve oscillates with periods and swings that grow with h."""
     found = oscillations(with_dims(figure8, "phase", "frequency_ratio"))
     alike = sum(as_a_rule(longer_periods([one])) and as_a_rule(larger_swings([one])) for one in found)
     curves = figure8.s.transpose(..., "waviness_amplitude").values.reshape(len(found), -1)

@@ -1,4 +1,4 @@
-"""What the paper says of each parameter's influence on s, beside the measured share of the variance."""
+"""The paper's words on the influence of each parameter, beside the measured share of the variance."""
 
 from __future__ import annotations
 

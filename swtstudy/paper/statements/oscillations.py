@@ -1,4 +1,4 @@
-"""How s oscillates with the amplitude of the waviness."""
+"""Oscillations of s with the amplitude of the waviness."""
 
 from __future__ import annotations
 
@@ -54,5 +54,5 @@ def _growing(changes: list[FloatArray]) -> tuple[int, int]:
 
 
 def as_a_rule(count: tuple[int, int]) -> bool:
-    """Whether most of the steps follow a trend; False without any step."""
+    """Return whether most of the steps follow a trend; False without any step."""
     return count[1] > 0 and count[0] >= AS_A_RULE * count[1]

@@ -49,7 +49,7 @@ def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:
 
 
 def poisson_ratio_is_intricate(poisson: xr.Dataset) -> Finding:
-    """Whether s(ν) is anything but monotone in one and the same sense at every friction coefficient."""
+    """Measure whether s(ν) is anything but monotone in one sense at every friction coefficient."""
     s = with_dims(poisson, "poisson_ratio", "friction").s.sortby("poisson_ratio")
     rising = (s.diff("poisson_ratio") > 0).mean("poisson_ratio")
     return Finding(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Finding:
-    """What was measured.
+    """A measurement, and whether the statement holds by it.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What is made least: a quantity of the solver's, over the unit cube."""
+"""The objective that is minimised: a quantity of the solver's, over the unit cube."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
 def mistakes_in(
     minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
 ) -> list[Mistake]:
-    """What is wrong with how an optimum is asked for; ``known`` may be minimised."""
+    """Report mistakes in how an optimum is asked for; ``known`` may be minimised."""
     found = []
     if minimise not in known:
         found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), known)))

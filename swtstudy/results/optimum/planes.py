@@ -43,7 +43,7 @@ class Planes:
         )
 
     def within(self, centre: FloatArray, distance: float) -> Planes:
-        """Those of points within a distance along each axis."""
+        """Return the planes of points within a distance along each axis."""
         near = (np.abs(self.points - centre) <= distance).all(axis=1)
         return Planes(self.points[near], self.values[near], self.gradients[near])
 

@@ -22,7 +22,7 @@ _SPREAD = 0.01
 
 @dataclass(frozen=True)
 class Found:
-    """What a search has found.
+    """The result of a search.
 
     Attributes
     ----------

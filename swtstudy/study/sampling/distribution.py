@@ -1,4 +1,4 @@
-"""How a sampled parameter is distributed: from points of the unit interval to its values."""
+"""Distributions of sampled parameters: from points of the unit interval to values."""
 
 from __future__ import annotations
 

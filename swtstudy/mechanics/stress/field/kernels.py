@@ -1,4 +1,4 @@
-"""What is superposed over the springs beneath the surface: the fields of discs, or of strips."""
+"""Kernels that are superposed over the springs beneath the surface: the fields of discs, or of strips."""
 
 from __future__ import annotations
 
@@ -50,5 +50,5 @@ STRIP = Kernels(
 
 
 def kernels_of(profile: Profile) -> Kernels:
-    """Those of a profile's contact."""
+    """Return the kernels of a profile's contact."""
     return STRIP if profile.plane else DISC

@@ -1,0 +1,217 @@
+"""Damaged files are detected; results that a user changed and saved do not count as damaged."""
+
+import random
+import re
+import shutil
+import struct
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+import stand_in
+import xarray as xr
+from click.testing import CliRunner
+from folders import DATA
+
+from swtstudy import Study, open_results, run
+from swtstudy.archive.check_sums import has_its_own, write_check_sums
+from swtstudy.archive.error import ArchiveError
+from swtstudy.archive.merge import merge
+from swtstudy.archive.read import load_file
+from swtstudy.cli import main
+
+NAMED = (
+    'title = "t"\nrtol = 1e-2\n[fixed]\nfriction = 0.37\nnormal_amplitude = 0.71\nflat_radius = 0.53\n'
+    '[axes]\nprofile = ["rounded_punch", "truncated_paraboloid"]\nphase = [0.11, 1.3]\n'
+)
+ONE = (
+    'title = "t"\nrtol = 1e-2\n[fixed]\nfriction = 0.37\nnormal_amplitude = 0.71\nflat_radius = 0.53\n'
+    'profile = "rounded_punch"\nphase = 1.3\n'
+)
+
+
+def flipped(content: bytes, sought: bytes) -> Iterator[bytes]:
+    """The content with one bit flipped in every place of what is sought."""
+    assert sought in content
+    for found in re.finditer(re.escape(sought), content):
+        changed = bytearray(content)
+        changed[found.start() + len(sought) // 2] ^= 0x10
+        yield bytes(changed)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("friction", 0.37), ("flat_radius", 0.53), ("phase", 1.3), ("profile", "rounded_punch"), ("s", None)],
+)
+@pytest.mark.parametrize("single", [False, True])
+def test_a_flipped_bit_is_noticed(tmp_path, name, value, single):
+    path = tmp_path / "small.nc"
+    text = NAMED.replace("[axes]\n", "").replace(
+        '["rounded_punch", "truncated_paraboloid"]', '"rounded_punch"'
+    )
+    text = text.replace("[0.11, 1.3]", "1.3") if single else NAMED
+    dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    if value is None and not single:
+        with netCDF4.Dataset(path) as file:
+            assert all(
+                v.filters()["fletcher32"] for v in file.variables.values() if v.ndim and v.dtype != str
+            )
+        return
+    value = dataset.s.item() if value is None else value
+    content = path.read_bytes()
+    for changed in flipped(content, value.encode() if isinstance(value, str) else struct.pack("<d", value)):
+        path.write_bytes(changed)
+        with pytest.raises(ArchiveError, match=f"^{path}: ") as caught:
+            open_results(path)
+        named = f"damaged file: wrong check sum of {name}" in str(caught.value)
+        assert isinstance(value, str) or named
+
+
+def test_damaged_values_are_named(tmp_path):
+    text = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = {start = 0.1, stop = 1, num = 300}\n'
+    path = tmp_path / "small.nc"
+    dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    content = path.read_bytes()
+    damaged = set()
+    for position in range(0, len(content), 397):
+        changed = bytearray(content)
+        changed[position] ^= 0xFF
+        path.write_bytes(changed)
+        try:
+            xr.testing.assert_identical(open_results(path), dataset)
+        except ArchiveError as error:
+            damaged.update(re.findall(r"damaged file: wrong check sum of (\w+)", str(error)))
+    assert damaged
+    assert damaged <= {*dataset.variables}
+
+
+def index_of(content: bytes) -> list[int]:
+    """The places of HDF5's index of the chunks of arrays of two axes in a file."""
+    places = []
+    for node in re.finditer(rb"TREE\x01", content):
+        entries = int.from_bytes(content[node.start() + 6 : node.start() + 8], "little")
+        places += range(node.start(), node.start() + 24 + 48 * (entries + 1))
+    return places
+
+
+def test_a_flip_in_the_index_of_the_chunks_opens_with_no_other_value(tmp_path):
+    """HDF5 itself has no check sum of it."""
+    path = tmp_path / "small.nc"
+    text = NAMED.replace("[0.11, 1.3]", "{start = 0, stop = 3, num = 30}")
+    text += "friction = {start = 0.1, stop = 1, num = 20}\n"
+    study = Study.from_text(text.replace("friction = 0.37\n", ""))
+    dataset = run(study, path, solver=partial(stand_in.fail_at, 0.1), workers=1)
+    assert 0 < int(np.isnan(dataset.s).sum()) < dataset.s.size
+    content = path.read_bytes()
+    places, draw, refused = index_of(content), random.Random(6), 0
+    for _ in range(60):
+        changed = bytearray(content)
+        changed[draw.choice(places)] ^= draw.randrange(1, 256)
+        path.write_bytes(changed)
+        try:
+            xr.testing.assert_identical(open_results(path), dataset)
+        except ArchiveError as error:
+            refused += bool(re.search("wrong check sum of|not a readable", str(error)))
+    assert refused > 10
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda ds: ds.assign(s=ds.s.where(ds.phase > 0.2)),  # a value is NaN
+        lambda ds: ds.assign(s_error=ds.s_error.fillna(0.0)),  # a NaN is a value
+        lambda ds: ds.assign(s=("phase", ds.s.values[::-1])),  # in another place
+        lambda ds: ds.assign(regime=0 * ds.regime),
+        lambda ds: ds.assign(s=ds.s.astype("float32")),
+        lambda ds: ds.assign_coords(phase=ds.phase + 1.0),
+        lambda ds: ds.drop_vars("critical_angle"),
+    ],
+)
+def test_every_variable_and_axis_has_a_check_sum(tmp_path, change):
+    path = tmp_path / "small.nc"
+    text = 'title = "t"\nrtol = 1e-2\n[axes]\nphase = [0.11, 1.3, 2]\n'
+    run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    with xr.open_dataset(path) as opened:
+        dataset = opened.load()
+    dataset["s_error"][1] = np.nan
+    write_check_sums_of(dataset, dataset, path)
+    xr.testing.assert_identical(load_file(path), dataset)
+    write_check_sums_of(dataset, change(dataset), path)
+    with pytest.raises(ArchiveError, match="a damaged file: wrong check sum of"):
+        load_file(path)
+
+
+def write_check_sums_of(dataset: xr.Dataset, saved: xr.Dataset, path: Path) -> None:
+    """A file of one Dataset with the check sums of another."""
+    saved.to_netcdf(path)
+    write_check_sums(path, dataset)
+
+
+def test_an_archive_with_check_sums_of_single_values_alone_opens_as_ever(tmp_path):
+    """They were the only ones once."""
+    path = tmp_path / "small.nc"
+    dataset = run(Study.from_text(NAMED), path, solver=stand_in.smooth, workers=1)
+    with netCDF4.Dataset(path, "a") as file:
+        group = file.groups["check_sums"]
+        assert {*group.ncattrs()} == {*dataset.variables}
+        for name in group.ncattrs():
+            if has_its_own(dataset[name]):
+                group.delncattr(name)
+        assert {"friction", "profile"} <= {*group.ncattrs()}
+    xr.testing.assert_identical(open_results(path), dataset)
+
+
+def test_an_archive_without_check_sums_opens_as_ever(tmp_path):
+    path = DATA / "without_check_sums.nc"
+    dataset = open_results(path)
+    assert dataset.s.dims == ("profile", "phase")
+    np.testing.assert_array_equal(dataset.phase, [0.0, np.pi / 2])
+    np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
+    assert dataset.run.attrs["long_name"].startswith("run that made the value")
+    xr.testing.assert_equal(merge([path]), dataset)
+
+
+def test_an_archive_that_does_not_say_what_is_prescribed_opens_as_ever(tmp_path):
+    """It is from before forces could be; its points are those of today."""
+    path = tmp_path / "old.nc"
+    shutil.copy(DATA / "without_control.nc", path)
+    with netCDF4.Dataset(path) as file:
+        assert "control" not in file.variables
+    dataset = open_results(path)
+    assert dataset.control.item() == "displacements"
+    np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
+    xr.testing.assert_equal(merge([path]), dataset)
+    again = run(Study.from_text(dataset.attrs["study"]), path, workers=1)
+    np.testing.assert_allclose(again.s, dataset.s, rtol=1e-6)
+    assert again.control.item() == "displacements"
+
+
+def test_what_xarray_makes_of_results_can_be_saved_and_opened(small, tmp_path):
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
+    for changed in (
+        dataset.assign(s=dataset.s * 1.5),
+        dataset.isel(phase=0),
+        dataset.isel(phase=0, normal_amplitude=1),
+        dataset.isel(phase=slice(2, 5)).transpose(),
+        dataset.assign_coords(friction=0.5),
+        dataset.assign_coords(phase=dataset.phase + 0.1),
+        dataset.assign_coords(note="mine", temperature=20.0),
+    ):
+        changed.to_netcdf(tmp_path / "changed.nc")
+        xr.testing.assert_equal(open_results(tmp_path / "changed.nc"), changed)
+        assert CliRunner().invoke(main, ["info", str(tmp_path / "changed.nc")]).exit_code == 0
+
+
+def test_a_single_point_changed_by_plain_xarray_opens_with_what_it_was_changed_to(tmp_path):
+    path = tmp_path / "point.nc"
+    run(Study.from_text('title = "t"\nrtol = 1e-2\n'), path, solver=stand_in.smooth)
+    with xr.open_dataset(path) as opened:
+        dataset = opened.load()
+    dataset["s"] = dataset.s * 1.5
+    dataset["phase"] = dataset.phase + 0.5
+    dataset.to_netcdf(path)
+    changed = open_results(path)
+    assert (changed.s.item(), changed.phase.item()) == (dataset.s.item(), 0.5)

@@ -1,0 +1,68 @@
+"""Names that no archive can have are refused before anything is computed."""
+
+import re
+from pathlib import Path
+
+import pytest
+import stand_in
+from click.testing import CliRunner
+from folders import DATA
+
+from swtstudy import StudyError, run
+from swtstudy.cli import main
+
+
+@pytest.mark.parametrize(
+    ("stem", "words"),
+    [
+        ("back\\slash", "found a backslash"),
+        ("no\udcffutf8", "found bytes that are not UTF-8"),
+        ("n" * 242, "found a name of 245 bytes; allowed: at most 244"),
+        ("ν" * 121, "found a name of 245 bytes; allowed: at most 244"),
+        ("null\0", "found a null character"),
+    ],
+)
+def test_a_name_that_no_archive_can_have_is_found_out_before(
+    small, small_text, tmp_path, monkeypatch, stem, words
+):
+    counting = stand_in.Counting()
+    with pytest.raises(StudyError, match=re.escape(words)):
+        run(small, tmp_path / f"{stem}.nc", solver=counting)
+    assert counting.points == 0
+    if "\0" in stem:
+        return  # no command is given that
+    monkeypatch.chdir(tmp_path)
+    Path(f"{stem}.toml").write_text(small_text)
+    Path("good.nc").write_bytes((DATA / "without_check_sums.nc").read_bytes())
+    before = sorted(tmp_path.iterdir())
+    for arguments in (
+        ["validate", f"{stem}.toml"],
+        ["plan", f"{stem}.toml"],
+        ["run", f"{stem}.toml"],
+        ["audit", f"{stem}.toml"],
+        ["merge", "good.nc", "-o", f"{stem}.nc"],
+    ):
+        result = CliRunner().invoke(main, arguments)
+        assert result.exit_code == 2
+        (line,) = result.stderr.splitlines()
+        assert words.split(" of ")[0] in line
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_the_longest_name_leaves_archive_and_figure(small_text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    stem = "n" * 241
+    Path(f"{stem}.toml").write_text(small_text)
+    monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)
+    result = CliRunner().invoke(main, ["run", f"{stem}.toml"])
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in Path("results").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
+
+
+def test_a_file_in_place_of_the_results_is_found_out_by_plan(small_text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("small.toml").write_text(small_text)
+    Path("results").write_text("")
+    result = CliRunner().invoke(main, ["plan", "small.toml", "--results", "results/deeper"])
+    assert result.exit_code == 2
+    assert "which is a file; allowed: a folder for archives" in result.stderr

@@ -1,0 +1,643 @@
+import json
+import re
+import signal
+import subprocess
+import sys
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stand_in
+from click.testing import CliRunner
+from curves import curves, whole
+from folders import STUDIES
+
+import swtstudy
+from swtstudy import Study, run
+from swtstudy.archive.write import save
+from swtstudy.cli import main
+from swtstudy.points.records import MISSING
+from swtstudy.study.schema import study_schema
+from swtstudy.study.template import template, template_with_units
+from swtstudy.vocabulary.families import FAMILIES, is_plane
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+STUDY_FILES = sorted(STUDIES.glob("*.toml"))
+
+
+@pytest.fixture
+def study(small_text, tmp_path):
+    path = tmp_path / "small.toml"
+    path.write_text(small_text)
+    return path
+
+
+def call(*arguments):
+    return CliRunner().invoke(main, list(map(str, arguments)))
+
+
+def test_run_leaves_archive_and_figures(study, tmp_path):
+    result = call("run", study, "--results", tmp_path / "results", "--format", "png", "--format", "pdf")
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in (tmp_path / "results").iterdir()} == {"small.nc", "small.png", "small.pdf"}
+    dataset = swtstudy.open_results(tmp_path / "results" / "small.nc")
+    assert (dataset.s > 0).all()
+    assert f"{dataset.s.size} points in " in result.output
+    again = call("run", study, "--results", tmp_path / "results")
+    assert f"{dataset.s.size} points already computed" in again.output
+
+
+def test_plot_needs_the_archive_alone(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    study.unlink()
+    assert call("plot", tmp_path / "small.nc", "-o", tmp_path / "other.svg").exit_code == 0
+    assert (tmp_path / "other.svg").stat().st_size > 1000
+
+
+@pytest.fixture
+def merged(tmp_path):
+    """Two archives as one, whose axes no figure of theirs has a place for."""
+    for friction in (0.1, 0.2):
+        text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n[figure]\nx = "phase"\n'
+        run(Study.from_text(text), tmp_path / f"{friction}.nc", solver=stand_in.smooth)
+    assert call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", tmp_path / "both.nc").exit_code == 0
+    return tmp_path / "both.nc"
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--x", "phase", "--hue", "friction", "--y", "critical_x", "--y", "regime"),
+        ("--x", "phase", "--panels", "friction", "--title", "critical", "--regimes"),
+        ("--x", "phase", "--vertical", "friction", "--kind", "contour", "--y", "critical_angle"),
+        ("--x", "friction", "--vertical", "phase", "--kind", "heatmap", "--y", "regime"),
+    ],
+)
+def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, options, monkeypatch):
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    result = call("plot", merged, *options)
+    assert result.exit_code == 0, result.output
+    own: dict = {"y": []}
+    for key, value in zip(options[::2], (*options[1::2], True), strict=False):
+        name = key.removeprefix("--")
+        own[name] = [*own["y"], value] if name == "y" else value
+    expected = swtstudy.open_results(merged).swt.panels(**{**own, "y": own["y"] or "s"})
+    pictures = []
+    for figure in (drawn[0], expected):
+        picture = BytesIO()
+        figure.savefig(picture, format="png", dpi=50)
+        pictures.append(picture.getvalue())
+    assert pictures[0] == pictures[1]
+
+
+def test_options_change_the_figure_of_an_archive(study, tmp_path, monkeypatch):
+    call("run", study, "--results", tmp_path)
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    assert call("plot", tmp_path / "small.nc", "--y", "critical_x", "--title", "Where").exit_code == 0
+    (figure,) = drawn
+    dataset = swtstudy.open_results(tmp_path / "small.nc")
+    for line, values in zip(curves(figure.axes[0]), dataset.critical_x, strict=True):
+        np.testing.assert_array_equal(whole(line)[1], values)
+    assert figure.get_suptitle() == "Where"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ((), "have no figure of a study; allowed: a layout of your own, with x one of phase, friction"),
+        (("--y", "critical_x"), "have no figure of a study"),
+        (("--x", "fase", "--hue", "friction"), "figure.x: found 'fase', not an axis of these results; "),
+        (("--x", "phase"), "no place for the axis friction"),
+        (("--x", "phase", "--hue", "friction", "--y", "speed"), "figure.y: found 'speed' (not a quantity)"),
+        (("--x", "phase", "--hue", "friction", "--kind", "pie"), "figure.kind: found 'pie'"),
+        (("--x", "phase", "--hue", "friction", "--title", "$x^2^3$"), "figure.title: "),
+    ],
+)
+def test_a_layout_that_cannot_be_drawn_is_one_line(merged, options, words):
+    result = call("plot", merged, *options)
+    assert result.exit_code == 2
+    assert words in result.stderr
+    assert "Traceback" not in result.stderr
+    assert not merged.with_suffix(".png").exists()
+
+
+def test_plot_says_what_an_unfinished_archive_lacks(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    archive = tmp_path / "small.nc"
+    assert call("plot", archive).stderr == ""
+    dataset = swtstudy.open_results(archive)
+    dataset.s[0], dataset.status[0] = np.nan, MISSING
+    save(dataset, archive)
+    result = call("plot", archive)
+    assert result.exit_code == 0
+    lacking = dataset.s[0].size
+    assert result.stderr == f"{archive}: {lacking} of {dataset.s.size} points are missing\n"
+    assert result.stdout == f"{archive.with_suffix('.png')}\n"
+
+
+def test_solve_prints_a_table():
+    result = call("solve", "--phase", "0, pi/2", "--rtol", "1e-2")
+    assert result.exit_code == 0, result.output
+    lines = result.output.splitlines()
+    assert lines[0].split("\t")[:3] == ["phase", "s", "s_error"]
+    assert len(lines) == 3
+
+
+def test_a_study_without_finite_values_says_so(tmp_path):
+    path = tmp_path / "edge.toml"
+    path.write_text(
+        'title = "t"\n[fixed]\nprofile = "truncated_paraboloid"\nflat_radius = 1\nnormal_amplitude = 1.2\n'
+        "tangential_amplitude = 1\n[axes]\nphase = [1, 2]\n"
+    )
+    result = call("run", path, "--results", tmp_path)
+    assert result.exit_code == 0, result.output
+    assert "s finite and positive at none of them" in result.output
+    assert "nan" not in result.output
+
+
+def test_a_style_is_the_users(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    (tmp_path / "own.mplstyle").write_text("figure.facecolor: red\n")
+    plain, own = (tmp_path / f"{name}.svg" for name in ("plain", "own"))
+    assert call("plot", tmp_path / "small.nc", "-o", plain).exit_code == 0
+    style = tmp_path / "own.mplstyle"
+    assert call("plot", tmp_path / "small.nc", "-o", own, "--style", style).exit_code == 0
+    assert "#ff0000" in own.read_text()
+    assert "#ff0000" not in plain.read_text()
+    result = call("plot", tmp_path / "small.nc", "--style", "no_such_style")
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("--mu", "--friction"),
+        ("--psi=0", "--phase"),
+        ("--frictoin", "--friction"),
+        ("--u-a", "--tangential-amplitude"),
+    ],
+)
+def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
+    result = call("solve", typed)
+    assert result.exit_code == 2
+    assert "Usage: swtstudy solve" in result.stderr.replace("main", "swtstudy")
+    assert f"'{typed.removesuffix('=0')}'. Did you mean '{meant}'?" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (
+            ["solve", "--friction", "0.3", "--friction=0.6"],
+            "--friction: found 2 times; allowed: once, with values separated by commas",
+        ),
+        (["show", "--phase", "0", "--phase", "0"], "--phase: found 2 times; allowed: once"),
+        (["show", "-o", "a.png", "--output", "b.png"], "--output: found 2 times; allowed: once"),
+        (["run", "figure3", "--workers", "1", "--workers", "2"], "--workers: found 2 times; allowed: once"),
+        (["schema", "-o", "a.json", "-o", "b.json"], "--output: found 2 times; allowed: once"),
+    ],
+)
+def test_an_option_given_twice_is_refused(tmp_path, monkeypatch, arguments, line):
+    monkeypatch.chdir(tmp_path)
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert result.stderr == f"Error: {line}\n"
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+def test_show_draws_one_point(tmp_path):
+    target = tmp_path / "point.pdf"
+    result = call("show", "--phase", "pi/6", "--frequency-ratio", "3/2", "-o", target)
+    assert result.exit_code == 0, result.output
+    assert target.read_bytes().startswith(b"%PDF")
+    assert "phase: found '0,1'" in call("show", "--phase", "0,1").stderr
+    assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
+
+
+@pytest.mark.slow
+def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    drawn = []
+    own = swtstudy.draw_profile
+    monkeypatch.setattr(
+        "swtstudy.figures.profile.draw_profile", lambda **given: drawn.append(given) or own(**given)
+    )
+    rows = "".join(f"{r / 10},{(r / 10) ** 2 / 2}\n" for r in range(20))
+    Path("worn.csv").write_text(f"radius,height\n{rows}")
+    for words in (["rounded_punch", "--flat-radius", "0.5"], ["worn.csv"]):
+        result = call("show", "--profile", *words, "-o", "profile.svg")
+        assert result.exit_code == 0, result.output
+        assert "<svg" in Path("profile.svg").read_text()
+    assert drawn[0]["flat_radius"] == "0.5"
+    assert drawn[1]["profile"].name == "worn"
+    assert call("show", "--profile", "rounded_punch", "--flat-radius", "0.5", "--phase", "1").exit_code == 0
+    assert len(drawn) == 2
+    assert "flat_radius: found nothing" in call("show", "--profile", "rounded_punch").stderr
+
+
+def test_plan_counts_and_writes_nothing(study, tmp_path):
+    result = call("plan", study, "--results", tmp_path / "results")
+    assert result.exit_code == 0, result.output
+    assert "distinct points    8 (10 saved by symmetry)" in result.output
+    assert "to be computed     8" in result.output
+    assert "points timed" in result.output
+    assert not (tmp_path / "results").exists()
+    call("run", study, "--results", tmp_path / "results")
+    assert "already computed   8" in call("plan", study, "--results", tmp_path / "results").output
+
+
+def test_info_says_what_an_archive_is(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    result = call("info", tmp_path / "small.nc")
+    assert result.exit_code == 0, result.output
+    for words in (
+        "A small study",
+        "18 computed",
+        "rtol 0.001",
+        "solver version",
+        "normal_amplitude: 0.25, 8/9",
+    ):
+        assert words in result.output
+
+
+def test_a_reader_that_has_enough_is_no_mistake():
+    command = [sys.executable, "-m", "swtstudy", "list"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 1
+
+
+def test_merge_writes_one_archive(study, tmp_path):
+    call("run", study, "--results", tmp_path)
+    result = call("merge", tmp_path / "small.nc", tmp_path / "small.nc", "-o", tmp_path / "merged.nc")
+    assert result.exit_code == 0, result.output
+    assert swtstudy.open_results(tmp_path / "merged.nc").s.size == 18
+
+
+def test_merge_leaves_gaps_only_when_told(tmp_path):
+    for name, axis in (("one", "friction = [0.1, 0.2]"), ("two", "phase = [1, 2, 3]")):
+        (tmp_path / f"{name}.toml").write_text(f'title = "t"\nrtol = 1e-2\naxes.{axis}\n')
+        assert call("run", tmp_path / f"{name}.toml", "--results", tmp_path).exit_code == 0
+    arguments = ("merge", tmp_path / "one.nc", tmp_path / "two.nc", "-o", tmp_path / "merged.nc")
+    result = call(*arguments)
+    assert result.exit_code == 2
+    assert "7 of 12 points in none of them" in result.stderr
+    assert "--sparse" in result.stderr
+    assert not (tmp_path / "merged.nc").exists()
+    result = call(*arguments, "--sparse")
+    assert result.exit_code == 0, result.output
+    assert "12 points, 7 of them missing" in result.output
+
+
+def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
+    from functools import partial
+
+    from swtstudy import mechanics
+
+    study.write_text(
+        study.read_text().replace("[axes]", "[axes]\nfriction = [0.2, 0.3]\n").split("[figure]")[0]
+    )
+    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 3
+    assert "8 points failed" in result.stderr
+    assert "an injected failure" in result.stderr
+    assert "friction=0.2" in result.stderr
+    monkeypatch.setattr(mechanics, "solve_points", stand_in.smooth)
+    assert call("run", study, "--results", tmp_path).exit_code == 3
+    assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
+
+
+def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
+    from swtstudy import mechanics
+
+    monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 130
+    assert "0 of 8 distinct points are saved" in result.stderr
+    assert "the same command continues" in result.stderr
+
+
+def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
+    from swtstudy import mechanics
+    from swtstudy.runner import job
+
+    def ctrl_c(*_):
+        signal.raise_signal(signal.SIGINT)
+
+    def saved(*arguments):
+        ctrl_c()  # where the words of the first are made
+        return before(*arguments)
+
+    before = job._saved
+    monkeypatch.setattr(mechanics, "solve_points", ctrl_c)
+    monkeypatch.setattr(job, "_saved", saved)
+    result = call("run", study, "--results", tmp_path)
+    assert result.exit_code == 130
+    assert "0 of 8 distinct points are saved" in result.stderr
+
+
+def test_a_scheduler_that_is_not_there(study, tmp_path):
+    pytest.importorskip("distributed")
+    code = (
+        # The command has the name of its module.
+        "from importlib import import_module\nfrom swtstudy.cli import main\n"
+        "import_module('swtstudy.cli.run').CONNECT_SECONDS = 0.2\n"
+        f"main(['run', {str(study)!r}, '--results', {str(tmp_path)!r}, '--scheduler', 'tcp://127.0.0.1:9'])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "Error: no dask scheduler at tcp://127.0.0.1:9" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_version_and_help():
+    assert swtstudy.__version__ in call("--version").output
+    for name, command in main.commands.items():
+        assert name in call("--help").output
+        assert call(name, "-h").output == call(name, "--help").output
+        assert command.epilog is None or "  Examples:\n    swtstudy " in call(name, "--help").output
+
+
+@pytest.mark.parametrize("path", STUDY_FILES, ids=lambda path: path.stem)
+def test_the_studies_of_the_paper_are_valid(path):
+    result = call("validate", path)
+    assert result.exit_code == 0, result.output
+    assert "valid" in result.output
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ('title = "t"\n[fixed]\nfriction = nan', 1),
+        ('title = "t"\n[fixed]\nfriction = -1\npoisson_ratio = 0.7', 2),
+        ('title = "t"\n[fixed]\nfrequency_ratio = "3/0"', 1),
+        ('title = "t"\n[fixed]\nfrequency_ratio = "pi"', 1),
+        ('title = "t"\n[axes]\nfrction = [1, 2]', 1),
+        ("title = ", 1),
+    ],
+)
+@pytest.mark.parametrize("command", ["run", "validate"])
+def test_bad_studies_end_with_a_line_each(tmp_path, monkeypatch, command, text, lines):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    result = call(command, path)
+    assert result.exit_code == 2
+    assert len(result.stderr.splitlines()) == lines
+    assert all(line.startswith(f"Error: {path}: ") for line in result.stderr.splitlines())
+    assert [entry.name for entry in tmp_path.iterdir()] == ["bad.toml"]
+
+
+def test_missing_files_and_unwritable_folders(study, tmp_path):
+    (tmp_path / "file").write_text("")
+    for arguments in (
+        ("run", tmp_path / "absent.toml"),
+        ("plot", tmp_path / "absent.nc"),
+        ("plot", study),
+        ("run", study, "--results", tmp_path / "file"),
+        ("run", study, "--results", tmp_path / "file" / "deeper"),
+        ("solve", "--friction", "x"),
+    ):
+        result = call(*arguments)
+        assert result.exit_code == 2, arguments
+        assert len(result.stderr.splitlines()) == 1
+        assert isinstance(result.exception, SystemExit)
+
+
+def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
+    (tmp_path / "other").mkdir()
+    twin = tmp_path / "other" / study.name
+    twin.write_text(study.read_text())
+    result = call("run", study, twin, "--results", tmp_path / "results")
+    assert result.exit_code == 2
+    assert "the same name as" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        ("normal_amplitude", "amplitude of the normal oscillation, δA/δ0"),
+        ("normal_force_amplitude", "amplitude of the normal force, FA/F0"),
+        ("tangential_amplitude", "amplitude of the tangential oscillation, G*uA/(μE*δ0)"),
+        ("tangential_force_amplitude", "amplitude of the tangential force, QA/(μF0)"),
+        ("flat_radius", "radius of the punch face, b/a_H"),
+        ("waviness_amplitude", "amplitude of the waviness, h/δ0"),
+        ("wavelength", "wavelength of the waviness, λ/√(hR)"),
+        ("bulk_stress_mean", "mean of the bulk stress, σBm/(E*δ0/a_H)"),
+        ("phase", "phase of the normal oscillation, ψ"),
+        ("critical_distance", "critical distance of the nonlocal values, ℓ/a_H"),
+    ],
+)
+def test_every_mention_says_over_what_a_number_is(name, number):
+    helps = [call("solve", "--help").stdout]
+    if name in PARAMETERS:
+        fixed = study_schema()["properties"]["fixed"]["properties"]
+        helps += [call("show", "--help").stdout, fixed[name]["description"]]
+    if name not in ("normal_amplitude", "phase"):  # with values of their own there
+        helps.append(template("mine"))
+    for text in helps:
+        assert number in " ".join(text.split())
+
+
+def test_the_template_says_of_each_parameter_what_is_allowed():
+    text = template("mine")
+    assert "# Poisson ratio, ν: a number in [0, 0.5]\n# poisson_ratio = 0.3\n" in text
+    assert (
+        ": a number in [0, 100]; along an axis of friction it stays, so that uA itself moves with μ\n" in text
+    )
+
+
+def test_the_template_with_units_names_its_units_and_no_others():
+    text = template_with_units("mine")
+    assert {*re.findall(r"(?:length|stress|force|modulus) in (\w+)", text)} == {"mm", "N", "MPa"}
+    assert 'length = "mm"' in text
+    assert 'stress = "MPa"' in text
+
+
+def test_help_imports_nothing_heavy():
+    code = (
+        "import sys; from swtstudy.cli import main; main(['-h'], standalone_mode=False); print(*sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    modules = set(done.stdout.split())
+    assert not modules & {"numpy", "scipy", "xarray", "pydantic", "dask", "matplotlib", "netCDF4"}
+
+
+def test_a_command_exits_without_looking_through_all_objects():
+    code = (
+        "import atexit, gc; from swtstudy.cli import main\n"
+        "atexit.register(lambda: print(gc.get_freeze_count() > 1000))\n"
+        "main(['list'])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "True"
+
+
+def test_python_m(tmp_path):
+    done = subprocess.run([sys.executable, "-m", "swtstudy", "--version"], capture_output=True, text=True)
+    assert swtstudy.__version__ in done.stdout
+
+
+@pytest.fixture
+def suite(small_text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("swtstudy.study.shipped.shipped_folder", lambda: tmp_path / "studies")
+    (tmp_path / "studies").mkdir()
+    for name in ("one", "two"):
+        (tmp_path / "studies" / f"{name}.toml").write_text(small_text)
+    return tmp_path
+
+
+def test_all_studies_in_one_go(suite):
+    result = call("run", "--all", "--workers", 1)
+    assert result.exit_code == 0, result.output
+    names = {path.name for path in (suite / "results").iterdir()}
+    assert names == {"one.nc", "one.png", "two.nc", "two.png"}
+    again = swtstudy.run_suite(formats=["svg"], workers=1)
+    assert list(again) == ["one", "two"]
+    assert (suite / "results" / "two.svg").is_file()
+
+
+def test_a_folder_stands_for_its_studies(suite):
+    result = call("validate", "studies")
+    assert result.exit_code == 0, result.output
+    assert [line.split(":")[0] for line in result.output.splitlines()] == [
+        "studies/one.toml",
+        "studies/two.toml",
+    ]
+    (suite / "empty").mkdir()
+    assert "a folder without studies" in call("validate", "empty").stderr
+
+
+def test_a_study_of_the_paper_has_a_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    listed = call("list").output
+    for name in ("figure3", "figure8"):
+        assert name in listed
+        assert "valid" in call("validate", name).output
+    result = call("validate", "figur3")
+    assert result.exit_code == 2
+    assert "did you mean figure3?" in result.stderr
+    # What is here comes first.
+    (tmp_path / "figure3").mkdir()
+    assert "a folder without studies" in call("validate", "figure3").stderr
+
+
+def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert call("new", "my_first").exit_code == 0
+    study = swtstudy.Study.from_toml("my_first.toml")
+    assert study.title == "my first"
+    assert study.figure is not None
+    assert (tmp_path / "study.schema.json").is_file()
+    assert call("new", "").stderr == "Error: NAME: found ''; allowed: a name for the study, such as mine\n"
+    assert not (tmp_path / ".toml").exists()
+    (tmp_path / "my_first.toml").write_text("mine")
+    result = call("new", "my_first.toml")
+    assert result.exit_code == 2
+    assert "already exists" in result.stderr
+    assert (tmp_path / "my_first.toml").read_text() == "mine"
+
+
+@pytest.mark.parametrize("profile", [name for name in FAMILIES if not is_plane(name)])
+def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
+    monkeypatch.chdir(tmp_path)
+    call("new", "full")
+    text = Path("full.toml").read_text().replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
+    names = {name for name, row in PARAMETERS.items() if row.default is not None}
+    names |= {*FAMILIES[profile].shape}
+    # It goes with other criteria.
+    names -= {"normal_sensitivity"}
+    for name in PARAMETERS:
+        value = PARAMETERS[name].default or {"wavelength": 7, "exponent": 3}.get(name, 0.01)
+        lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
+        assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
+        for line in lines if name in names else ():
+            text = text.replace(line, f"{name} = {json.dumps(value)}")
+    study = swtstudy.Study.from_text(text)
+    assert set(study.grid.fixed) | set(study.grid.axes) == names | {"normal_sensitivity"}
+
+
+def test_a_new_study_of_a_cylinder_has_forces(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    call("new", "rig")
+    text = Path("rig.toml").read_text()
+    assert '"cylinder" (plane: forces alone)' in text
+    text = text.replace('profile = "paraboloid"', 'profile = "cylinder"')
+    text = text.replace("# tangential_force_amplitude = …", "tangential_force_amplitude = 0.2")
+    text = text.replace("normal_amplitude", "normal_force_amplitude")
+    study = swtstudy.Study.from_text(text)
+    assert study.grid.control.name == "forces"
+
+
+@pytest.mark.parametrize(
+    ("words", "typed", "offered"),
+    [
+        ("swtstudy run", "fig", {"plain,figure3", "plain,figure8"}),
+        ("swtstudy validate", "mi", {"plain,mine.toml"}),
+        ("swtstudy info", "", {"plain,results/mine.nc"}),
+        ("swtstudy plan", "elsewhere/", {"file,elsewhere/"}),
+        ("swtstudy", "me", {"plain,merge"}),
+    ],
+)
+def test_the_shell_completes(tmp_path, monkeypatch, words, typed, offered):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "results").mkdir()
+    for name in ("mine.toml", "results/mine.nc"):
+        (tmp_path / name).write_text("")
+    variables = {
+        "_SWTSTUDY_COMPLETE": "bash_complete",
+        "COMP_WORDS": f"{words} {typed}",
+        "COMP_CWORD": str(len(words.split())),
+    }
+    result = CliRunner().invoke(main, env=variables, prog_name="swtstudy")
+    assert offered <= set(result.output.split())
+
+
+@pytest.mark.parametrize("command", ["run", "plan"])
+def test_a_study_too_large_to_compute_is_refused(tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    result = call(command, "parameter_box")
+    assert result.exit_code == 2
+    assert "too many to compute" in result.stderr
+
+
+def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
+    def refuse(*_):
+        raise MemoryError("Unable to allocate 4.85 GiB")
+
+    monkeypatch.setattr("swtstudy.runner.work.assess", refuse)
+    result = call("plan", "figure3")
+    assert result.exit_code == 2
+    assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"
+
+
+def test_run_says_what_it_needs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = call("run")
+    assert result.exit_code == 2
+    assert "or --all" in result.stderr
+
+
+def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
+    from functools import partial
+
+    from swtstudy import mechanics
+
+    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    study = tmp_path / "failing.toml"
+    phases = "phase = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]"
+    study.write_text(f'title = "t"\n[fixed]\nfriction = 0.2\n[axes]\n{phases}\n')
+    result = call("run", study, "--results", tmp_path, "--workers", "1")
+    failed = [line for line in result.stderr.splitlines() if line.startswith("failed: ")]
+    assert len(failed) == 6
+    assert all("ZeroDivisionError: an injected failure" in line for line in failed[:5])
+    assert failed[5] == f"failed: 2 more, see swtstudy info {tmp_path / 'failing.nc'}"
+    assert "7 points failed; --retry-failed recomputes them" in result.stderr

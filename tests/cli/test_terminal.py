@@ -1,0 +1,176 @@
+"""What the commands print: aligned on a terminal, parted by tabs elsewhere, in lines that are not broken."""
+
+from __future__ import annotations
+
+import io
+import re
+from importlib import import_module
+
+import pytest
+import xarray as xr
+from click.testing import CliRunner
+from folders import RESULTS
+
+import swtstudy
+from swtstudy.cli import _SECTIONS, main
+from swtstudy.cli.list import cut
+from swtstudy.cli.solve import WHY, aligned
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S
+from swtstudy.runner.progress import ProgressBar, line
+from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
+from swtstudy.study.template import template_with_units
+from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def lines_of(*arguments: str) -> list[str]:
+    return CliRunner().invoke(main, list(arguments)).stdout.splitlines()
+
+
+def test_columns_are_aligned_and_nothing_is_lost() -> None:
+    parted = [each.split("\t") for each in lines_of("solve", "--phase", "0,pi/2", "--rtol", "1e-2")]
+    printed = aligned(parted)
+    assert [each.split() for each in printed] == parted
+    ends = [[found.end() for found in re.finditer(r"\S+", each)] for each in printed]
+    assert ends[0][:-1] == ends[1][:-1] == ends[2][:-1]  # numbers; the last column is words
+    assert len({each.index(words[-1]) for each, words in zip(printed, parted, strict=True)}) == 1
+
+
+def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch) -> None:
+    arguments = ["solve", "--friction", "0.1,0.2", "--rtol", "1e-2"]
+    piped = CliRunner().invoke(main, arguments).stdout
+    assert piped.splitlines()[0].startswith("friction\ts\t")
+    monkeypatch.setattr(import_module("swtstudy.cli.solve"), "on_terminal", lambda: True)
+    shown = CliRunner().invoke(main, arguments)
+    assert "\t" not in shown.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        (["--profile", "truncated_paraboloid", "--flat-radius", "1", "--poisson-ratio", "0.3"], None),
+        (["--tangential-force-amplitude", "2"], "no_equilibrium"),
+    ],
+)
+def test_a_regime_without_s_is_explained(arguments: list[str], name: str | None) -> None:
+    outcome = CliRunner().invoke(main, ["solve", "--rtol", "1e-2", *arguments])
+    assert outcome.exit_code == 0
+    assert outcome.stderr == ("" if name is None else f"{name}: {WHY[name]}\n")
+
+
+def test_every_regime_without_s_has_an_explanation() -> None:
+    assert {*WHY} == {*WITHOUT_S}
+    assert {*WHY} <= {*REGIMES}
+
+
+def test_every_command_is_in_one_section_and_says_a_whole_sentence() -> None:
+    listed = [name for names in _SECTIONS.values() for name in names]
+    assert sorted(listed) == sorted(main.commands)
+    text = " ".join(" ".join(lines_of("--help")).split())
+    assert "..." not in text.split("Examples:")[0].replace("[ARGS]...", "")
+    for name in listed:
+        assert " ".join(str(main.commands[name].help).split("\n\n")[0].split()) in text
+
+
+def test_parameters_are_listed_by_what_they_are_a_part_of() -> None:
+    text = CliRunner().invoke(main, ["solve", "--help"]).stdout
+    places = [text.index(f"\n{title}:") for title in ("The load", "The profile and its shape", "The bodies")]
+    assert places == sorted(places)
+    assert places[0] < text.index("--phase") < places[1] < text.index("--flat-radius") < places[2]
+    for name in PARAMETERS:
+        assert text.count(f"\n  --{name.replace('_', '-')} ") == 1
+
+
+def test_studies_are_listed_in_groups_each_once() -> None:
+    names = [name for group in GROUPS.values() for name in group]
+    assert sorted(names) == sorted(shipped_studies())
+    assert in_groups(["figure4", "mine", "figure3"]) == {
+        "The paper": ["figure3", "figure4"],
+        OTHERS: ["mine"],
+    }
+    listed = lines_of("list")
+    assert [each for each in listed if each in GROUPS] == [*GROUPS]
+
+
+@pytest.mark.parametrize("columns", [20, 40, 80])
+def test_titles_are_cut_to_the_width(columns: int) -> None:
+    assert all(len(cut(each, columns)) <= columns for each in lines_of("list"))
+    assert cut("short", columns) == "short"
+
+
+@pytest.mark.parametrize("columns", [10, 30, 45, 60, 80, 200])
+@pytest.mark.parametrize("name", ["", "figure3", "a_very_long_name_of_a_study_of_somebody"])
+def test_a_line_of_progress_is_never_broken(columns: int, name: str) -> None:
+    said = "12345 of 20000 points (62 %), 1234/s, 6.2 s left"
+    shown = line(name, 0.62, said, columns)
+    assert len(shown) < columns
+    if columns > len(said) + 12:
+        assert shown.endswith(said)
+        assert shown.startswith(name[:6])
+
+
+def test_progress_is_shown_before_the_first_point(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    terminal = Terminal()
+    progress = ProgressBar(10, terminal, name="figure3")
+    assert re.fullmatch(r"\rfigure3 .* 0 of 10 points\x1b\[K", terminal.getvalue())
+    progress.close()
+    assert terminal.getvalue().endswith("\n")
+    nothing = Terminal()
+    ProgressBar(0, nothing, name="figure3").close()
+    assert nothing.getvalue() == ""
+
+
+@pytest.fixture(scope="module")
+def results() -> xr.Dataset:
+    return swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2)
+
+
+def test_results_say_what_they_are(results: xr.Dataset) -> None:
+    said = repr(results.swt)
+    for words in ("normal_amplitude: 0.25, 1.5", "friction: 0.3", "rtol 0.01", "1 partial_slip, 1 lift_off"):
+        assert words in said
+    assert repr(results.drop_vars("s").swt) == "<no results of swtstudy>"
+
+
+def test_an_archive_says_what_info_prints(results: xr.Dataset) -> None:
+    archive = f"{RESULTS}/loops.nc"
+    assert repr(swtstudy.open_results(archive).swt).splitlines() == lines_of("info", archive)
+    assert not [each for each in lines_of("info", archive) if each.endswith("yes")]
+
+
+def test_flags_are_words_in_one_call_that_their_attributes_name(results: xr.Dataset) -> None:
+    assert ".swt.words()" in results.regime.attrs["comment"]
+    assert results.swt.words().values.tolist() == ["partial_slip", "lift_off"]
+    lacking = results.assign(regime=results.regime.where(results.normal_amplitude < 1))
+    lacking.regime.attrs = results.regime.attrs
+    assert lacking.swt.words().values.tolist() == ["partial_slip", ""]
+    with pytest.raises(StudyError, match="name: found 's'; allowed: a variable of flags: regime"):
+        results.swt.words("s")
+
+
+def test_the_axes_of_the_template_with_units_do_something(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    text = template_with_units("mine").replace("num = 13", "num = 3").replace("rtol = 0.0001", "rtol = 0.01")
+    dataset = swtstudy.run(swtstudy.Study.from_text(text), tmp_path / "mine.nc")
+    for dim in dataset.s.dims:
+        assert float(dataset.swt.extrema(str(dim)).ratio.max()) > 1.1, dim
+
+
+def test_directions_are_columns_and_make_no_rows() -> None:
+    dataset = swtstudy.open_results(f"{RESULTS}/life.nc")
+    table = dataset.swt.to_table()
+    assert len(table) == dataset.sizes["tangential_amplitude"] * dataset.sizes["critical_distance"]
+    assert not table.duplicated(["tangential_amplitude", "critical_distance"]).any()
+    along = dataset.s_point.sel(direction="critical_plane").values.ravel()
+    assert table["s_point[critical_plane]"].to_numpy() == pytest.approx(along)
+
+
+def test_coordinates_of_extrema_keep_their_units() -> None:
+    dataset = swtstudy.open_results(f"{RESULTS}/sphere_on_flat.nc")
+    extremes = dataset.swt.extrema("phase")
+    assert extremes.normal_force.attrs == dataset.normal_force.attrs

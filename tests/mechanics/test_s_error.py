@@ -1,0 +1,108 @@
+"""s_error: an upper bound of the error of s that is not far above it."""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from folders import RESULTS
+from numpy.typing import NDArray
+from scenes import PROFILE_NAMES, points
+
+from swtstudy.mechanics import solve_points
+
+#: Made by studies/checks/reference_values.py.
+with (RESULTS / "reference_values.csv").open(encoding="utf-8") as file:
+    ROWS = list(csv.DictReader(file))
+
+
+@lru_cache
+def errors(rtol: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """What is missed of the reference values, s_error, and s; what the references miss is taken off."""
+    missed, claimed, values = [], [], []
+    for profile in PROFILE_NAMES:
+        rows = [row for row in ROWS if row["profile"] == profile]
+        names = [name for name in rows[0] if name not in ("profile", "s", "s_error") and rows[0][name]]
+        columns = {name: np.array([float(row[name]) for row in rows]) for name in names}
+        columns |= {name: columns[name].astype(int) for name in "pq"}
+        found = solve_points(points(profile, **columns), rtol)
+        s, s_error = (np.array([float(row[name]) for row in rows]) for name in ("s", "s_error"))
+        missed.append(np.maximum(np.abs(found.s - s) - s_error, 0.0))
+        claimed.append(found.s_error)
+        values.append(s)
+    return np.concatenate(missed), np.concatenate(claimed), np.concatenate(values)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_s_error_bounds_the_error(rtol: float) -> None:
+    missed, claimed, _ = errors(rtol)
+    assert len(missed) >= 100
+    assert np.mean(missed <= claimed) >= 0.99
+    assert np.all(missed <= 3.0 * claimed)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_s_error_is_not_far_above_the_tolerance(rtol: float) -> None:
+    _, claimed, s = errors(rtol)
+    # The tolerance is the least that is claimed: nothing closer was looked at.
+    assert np.median(claimed / s) == pytest.approx(rtol)
+    assert np.mean(claimed <= (1.0 + 1e-9) * rtol * s) >= 0.85
+
+
+# Profile, ν, μ, δA/δ0, amplitude, ψ, p, q, lengths: what arrives at the critical point does so within a few
+# roundings of its place there, or its tension is far below the largest pressure.
+ROUNDED = [
+    ("paraboloid", (0.493942436601859, 0.10258408356447156, 0.002155720006299617, 1.5049506881416092e-05)),
+    ("paraboloid", (0.4990045562237181, 0.18235865140373503, 0.0, 2.6467850489703402e-05)),
+    ("paraboloid", (0.49966131938480884, 0.005776507271744697, 0.8261278989805596, 0.01659111293389111)),
+    ("truncated_paraboloid", (0.5, 0.008153294916441173, 0.5674980506579675, 0.008763884720723513)),
+    ("truncated_paraboloid", (0.0, 0.0015699502976126802, 1.689804700483817e-05, 0.0)),
+]
+PHASES = [
+    (5.497787143782138, 2, 7),
+    (0.7679145853425319, 4, 3),
+    (2.5481532291081543, 1, 1),
+    (6.110340634191094, 1, 4),
+    (1.1545366519989295, 3, 2),
+]
+LENGTHS = [{}, {}, {}, {"flat_radius": 20.0}, {"flat_radius": 6.581116694018547}]
+
+
+@pytest.mark.parametrize("case", range(len(ROUNDED)))
+def test_s_error_bounds_what_rounding_and_tables_make_of_s(case: int) -> None:
+    profile, values = ROUNDED[case]
+    point = points(profile, *values, *PHASES[case], **LENGTHS[case])
+    closest = solve_points(point, 1e-8).s[0]
+    for rtol in (1e-5, 1e-6):
+        found = solve_points(point, rtol)
+        assert abs(found.s[0] - closest) <= found.s_error[0]
+        # Not any bound will do.
+        assert found.s_error[0] <= 0.01 * closest
+
+
+# Where contact is lost next to a sharp tip, extremes come ever nearer to events the closer one looks.
+AT_TIPS = [
+    (
+        1.012556547076617,
+        (0.10358559404050062, 9.68708278753638, 2.769670606236335, 2.170775444169296),
+        5.354193871662883,
+        1,
+    ),
+    (
+        1.0219556409988106,
+        (0.04282458357181218, 5.317155311610475, 2.922988007704258, 0.9593574293587765),
+        0.0770479856463665,
+        2,
+    ),
+]
+
+
+@pytest.mark.parametrize(("exponent", "values", "phase", "p"), AT_TIPS)
+def test_s_error_next_to_a_sharp_tip_where_contact_is_lost(exponent, values, phase, p) -> None:
+    point = points("power_law", *values, phase, p, 1, exponent=exponent)
+    found, closest = solve_points(point, 1e-4), solve_points(point, 1e-8)
+    assert abs(found.s[0] - closest.s[0]) <= found.s_error[0]
+    assert found.s_error[0] <= 1e-4 * found.s[0]
+    assert closest.s_error[0] <= 2e-7 * closest.s[0]

@@ -1,0 +1,393 @@
+"""The numbers that the README and the pages say are those of the files in results."""
+
+import csv
+import re
+import tomllib
+from collections.abc import Callable
+from decimal import Decimal
+
+import numpy as np
+import pytest
+import shown
+import xarray as xr
+from folders import RESULTS, ROOT, STUDIES
+
+from swtstudy import Study, open_results, solve
+from swtstudy.cli.run import POINTS_FAILED
+from swtstudy.mechanics.indenter.flat_faced import NEAREST, SMALLEST_FACE
+from swtstudy.mechanics.line.singular_edge import LEFT_OUT
+from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
+from swtstudy.mechanics.points import REGIMES
+from swtstudy.paper.audit.point import TOLERANCE
+from swtstudy.reports.data import LARGEST_TABLE
+from swtstudy.units.rows import SIMILAR
+
+PAGES = {
+    str(page.relative_to(ROOT)): " ".join(page.read_text(encoding="utf-8").split()) for page in shown.PAGES
+}
+NUMBER = r"(\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"
+
+
+class AtMost(float):
+    """A value that is rounded up where it is said."""
+
+
+def says(phrase: str, *values: float) -> None:
+    """Hold a ``phrase``, with a number for each {}, against values as it rounds them, wherever it stands."""
+    pattern = re.compile(NUMBER.join(map(re.escape, phrase.split("{}"))))
+    found = [(page, each) for page, text in PAGES.items() for each in pattern.finditer(text)]
+    assert found, f"{phrase!r} stands nowhere"
+    for page, each in found:
+        for word, value in zip(each.groups(), values, strict=True):
+            shown_as = Decimal(word.replace(",", ""))
+            unit = 10.0 ** shown_as.as_tuple().exponent
+            away = float(shown_as) - value
+            low, high = (0.0, unit) if isinstance(value, AtMost) else (-0.5 * unit, 0.5 * unit)
+            message = f"{page}: {phrase!r}: {word}, found {value:.4g}"
+            assert low - 1e-9 * unit <= away <= high + 1e-9 * unit, message
+
+
+def lines(name: str) -> list[str]:
+    return (RESULTS / name).read_text(encoding="utf-8").splitlines()
+
+
+def tables(name: str) -> list[list[list[str]]]:
+    """The tables of a Markdown file: rows of cells, the head among them."""
+    found: list[list[list[str]]] = [[]]
+    for line in lines(name):
+        if not line.startswith("|"):
+            found.append([])
+        elif not line.startswith("|---"):
+            found[-1].append([cell.strip() for cell in line.strip("|").split("|")])
+    return [table for table in found if table]
+
+
+def numbers(name: str, phrase: str) -> list[float]:
+    """The numbers in the first line of a file that has the phrase, at its {}."""
+    pattern = re.compile(r"\s*" + r"\s*".join(map(re.escape, phrase.split())).replace(r"\{\}", NUMBER))
+    found = next(found for line in lines(name) if (found := pattern.search(line)))
+    return [float(word.replace(",", "")) for word in found.groups()]
+
+
+def suite() -> None:
+    values, _ = numbers("suite.txt", "all: {} values in {} s")
+    seconds, each = numbers("suite.txt", "processor time: {} s, {} ms a value")
+    says("{} values at rtol 1e-4 with their archives, take {} s of processor time", values, seconds)
+    says("(`python studies/checks/suite.py`): {} ms a value", each)
+    archives = [open_results(RESULTS / f"figure{number}.nc") for number in range(3, 9)]
+    assert sum(archive.s.size for archive in archives) == values
+
+
+def plane_cost() -> None:
+    (coarse,), (fine,) = (numbers("plane_cost.txt", f"rtol {rtol}: {{}}, ") for rtol in ("0.0001", "1e-06"))
+    assert max(coarse, fine) <= 1.0
+    says("A cylinder's value costs {} of the paraboloid's under the same forces, at 1e-6 {}", coarse, fine)
+
+
+def scaling() -> None:
+    points, rtol, q, p, memory, start = tables("scaling.md")
+    cost = [dict(zip(*table, strict=True)) for table in (points, q, p)]
+    alone, many, quarter = float(cost[0]["1"]), float(cost[0]["4096"]), float(cost[1]["4"])
+    says("A point of Table 1 takes {} ms alone and {} ms among {}:", alone, many, 4096)
+    powers = [float(line.split()[-1].rstrip(".")) for line in lines("scaling.md") if "power" in line]
+    says("Ten times the accuracy costs {} times the time (the power {} of", 10 ** powers[1], powers[1])
+    assert rtol[0][0] == "1/rtol"
+    long = [1e-3 * float(each) for each in (cost[1]["32"], cost[1]["64"], cost[2]["64"])]
+    says("{} ms at ω2/ω1 = 1/4, {} s at 1/32, {} s at 1/64, but {} s at 64", quarter, *long)
+    says("grows like the power {} of q and {} of p", powers[2], powers[3])
+    gigabytes = {row[0]: 1e-3 * float(row[1]) for row in memory[1:]}
+    said = "{} points in a call take {} GB, two at ω2/ω1 = 32 take {} GB"
+    says(said, 4096, gigabytes["4096, 1, 1"], gigabytes["2, 32, 1"])
+    seconds = [float(row[1]) for row in start[2:]]
+    said = "`import swtstudy` takes {} s, with the first value {} s, `swtstudy --help` {} s"
+    says(said, seconds[1], seconds[2], seconds[0])
+
+
+def accuracy() -> None:
+    # After it there may be one of the points that miss s_error.
+    table, *_ = tables("accuracy.md")
+    (count,) = numbers("accuracy.md", "at {} random points a profile")
+    says("At {} random points a profile", count)
+    says("python studies/accuracy.py {}", count)
+    of = {rtol: [row[2:] for row in table if row[1] == rtol] for rtol in ("1e-04", "1e-06", "1e-07")}
+    largest = {rtol: AtMost(max(float(row[2]) for row in rows)) for rtol, rows in of.items()}
+    median = AtMost(max(float(row[0]) for row in of["1e-04"]))
+    said = "the error at rtol 1e-4 is {} at most and {} in the median, at 1e-6 {} at most"
+    says(said, largest["1e-04"], median, largest["1e-06"])
+    missed = {rtol: np.mean([float(row[3].rstrip("%")) for row in rows]) for rtol, rows in of.items()}
+    assert missed["1e-04"] == missed["1e-06"] == 0
+    says("At 1e-7, where rounding begins to show, it is {} at most and", largest["1e-07"])
+    says("exceeds s_error at {} %", missed["1e-07"])
+
+
+def chart() -> None:
+    with (RESULTS / "accuracy_speed.csv").open(encoding="utf-8") as file:
+        samples = [row for row in csv.DictReader(file) if row["scene"] != "Table 1"]
+
+    def at(method: str, resolution: str, column: str = "relative error") -> list[float]:
+        chosen = [row for row in samples if method in row["method"] and row["resolution"] == resolution]
+        assert len(chosen) == len({row["scene"] for row in samples}) >= 3
+        return [float(row[column]) for row in chosen]
+
+    grid = [100 * error for error in at("fixed grids", "480 instants")]
+    peers = [100 * error for error in at("half-space", "512² grid") + at("plane loop", "2° planes")]
+    says("{} instants on fixed grids still miss s by {} to {} %", 480, min(grid), max(grid))
+    said = "half-space and plane search at {} uniform instants by {} to {} %"
+    says(said, 64, min(peers), max(peers))
+    assert max(at("batches of 64", "rtol 1e-04")) < 1e-6
+    seconds = [1e3 * each for each in at("batches of 64", "rtol 1e-04", "seconds a value")]
+    said = "this solver asked for 1e-4 stays below 1e-6 there, in {} to {} ms a value"
+    says(said, min(seconds), max(seconds))
+    (table,) = tables("accuracy_speed.md")
+    away = [abs(float(row[-1])) for row in table[1:]]
+    says("a textbook grid of its own confirms it to {} to {}", min(away), max(away))
+
+
+def field() -> None:
+    table = {row[0].split(" (")[0]: row[1:] for row in tables("field_speed.md")[0]}
+    ours, hamilton = (float(table[name][0]) for name in ("this package", "Hamilton's closed form"))
+    says("The field takes about {} µs per point and instant, a little less than Hamilton's", ours)
+    assert ours < hamilton < 1.5 * ours
+    says("for Hertz contacts, which it equals to {} p0", float(table["Hamilton's closed form"][1]))
+    (coarse,) = numbers("field_speed.md", "256 planes take {} µs")
+    (refined,) = numbers("field_speed.md", "refined to rounding {} µs")
+    (plain,) = numbers("field_speed.md", "281 planes takes {} µs")
+    says("A coarse search over all planes takes less than half of the time of a plain vectorised one")
+    assert coarse < 0.5 * plain
+    says("the whole search, refined to rounding, twice that time")
+    assert round(refined / plain) == 2
+
+
+def audit() -> None:
+    found = xr.open_dataset(RESULTS / "audit_parameter_box.nc").load()
+    names = found.verdict.attrs["flag_meanings"].split()
+    looked = found.verdict != names.index("not_finite")
+    off = found.isel(sample=np.flatnonzero(found.verdict == names.index("symmetry_line")))
+    assert set(np.unique(found.verdict)) == {names.index(n) for n in ("none", "symmetry_line", "not_finite")}
+    angle = np.degrees(np.arctan2(abs(off.body_y), abs(off.body_x)))
+    says("solved {} random points of the parameter box", found.sizes["sample"])
+    says("ν ≤ {} ({} points looked at)", 0.4, int((looked & (found.poisson_ratio <= 0.4)).sum()))
+    assert (off.poisson_ratio > 0.4).all()
+    said = "ν > {} ({} points): at {} of them it is on the surface off the line, {}° to {}° along the circle"
+    high = int((looked & (found.poisson_ratio > 0.4)).sum())
+    says(said, 0.4, high, off.sizes["sample"], float(angle.min()), float(angle.max()))
+    says("swt is up to {} % higher", 100 * float(off.excess.max()))
+    says("where ν > {} it follows that circle", SAFE_POISSON_RATIO)
+    known = found.s_surface / found.s - 1 > 1e-3
+    assert (known == found.verdict.isin([names.index("symmetry_line")])).all()
+    says("It was greater at these {} points and at no other", int(known.sum()))
+    beyond = np.sort(100 * (found.s_body / found.s_surface - 1).where(known, drop=True))
+    said = "what the body exceeds it by is below {} %, but for one point at which the other side of the"
+    says(said, AtMost(beyond[-2]))
+    says("has the maximum ({} %)", beyond[-1])
+    says("At the {} audited points it missed none", int(looked.sum()))
+
+
+def audit_of_bulk_stress() -> None:
+    name = "audit_bulk_stress_box.md"
+    (points,) = numbers(name, "{} points, each solved")
+    says("there were {} more random points", points)
+    enough = numbers(name, "the surface line is enough at {} of {} points")
+    assert enough[0] == enough[1]
+    says("the line is enough at {} of {} points", *enough)
+    above = "The solver's s_surface is more than 0.1% above s at {} points: {} of the {} at which"
+    says("greater than s at {} of the {} points at which the line is not enough", *numbers(name, above)[1:])
+    said = "The body's maximum exceeds s_surface at {} points, by up to {}%"
+    says("may be too low, at {} points by up to {} %", *numbers(name, said))
+
+
+def audit_of_criteria() -> None:
+    found = xr.load_dataset(RESULTS / "audit_criteria_box.nc")
+    misses = found.s_body > 1.001 * found.s
+    inside = (found.friction >= 0.3) & (found.poisson_ratio >= 0.1) & (found.tangential_amplitude >= 0.1)
+    says("of shear](study_file.md#criteria-of-shear) there were {} random points", found.sizes["sample"])
+    assert not (misses & inside).any()
+    says("the line was enough at {} of these {} points", *2 * [int(inside.sum())])
+    says("it was not at {} of {} points", int(misses.sum()), int((~inside).sum()))
+    says("s being too low by up to a factor of {}", float((found.s_body / found.s).max()))
+    ((_, *rows),) = tables("criteria.md")
+    assert {row[3] for row in rows} == {"0"}
+    says("of {} random points none was lower by more than s_error", sum(int(row[2]) for row in rows))
+
+
+def stability() -> None:
+    names = ("stability", "stability_small_motion", "stability_friction", "stability_thin_annulus")
+    walks = {name: open_results(RESULTS / f"{name}.nc") for name in names}
+    lost = {name: walk.regime == REGIMES.index("not_finite") for name, walk in walks.items()}
+    for name, walk in walks.items():
+        assert (np.isnan(walk.s) == lost[name]).all()
+        elsewhere = (
+            lost[name].sel(profile=lost[name].profile != "truncated_paraboloid")
+            if lost[name].any()
+            else lost[name]
+        )
+        assert not elsewhere.any()
+    count, gone = sum(walk.s.size for walk in walks.values()), sum(int(each.sum()) for each in lost.values())
+    said = "Of their {} points {} have a number, and {}, all of truncated paraboloids, the flag"
+    says(said, count, count - gone, gone)
+    ends = {
+        "tangential_amplitude": "the tangential amplitude from {} to {}",
+        "friction": "μ from {} to {}",
+        "flat_radius": "b/a_H from {} to {}",
+    }
+    for (axis, phrase), name in zip(ends.items(), names[1:], strict=True):
+        says(phrase + ("," if axis != "flat_radius" else "."), *walks[name][axis].values[[0, -1]])
+    says("δA/δ0 through 1 to {},", float(walks["stability"].normal_amplitude.max()))
+    small = walks["stability_small_motion"]
+    relative = small.s_error / small.s
+    worst = relative.where(relative == relative.max(), drop=True)
+    rounded = small.tangential_amplitude.where((relative > 1.0001e-4).any("normal_amplitude"))
+    said = "but where rounding shows: at tangential amplitudes up to {}, {} at {}."
+    says(said, float(rounded.max()), float(relative.max()), float(worst.tangential_amplitude[0]))
+    others = [walks[name].s_error / walks[name].s for name in names if name != "stability_small_motion"]
+    assert max(float(each.max()) for each in others) < 1.0001e-4
+
+
+def thresholds() -> None:
+    text = lines("thresholds_35NCD16.txt")
+    first, second = text[2 : text.index("")], text[text.index("") + 3 :]
+    rows = {line.split()[0]: line.split()[1:] for line in first}
+    tests = {name: [float(v) for v in row] for name, row in rows.items() if name[:2] in ("PF", "FF")}
+    unshifted = {name: row[4] for name, row in tests.items() if name[:2] == "PF" or name in ("FF7", "FF8")}
+    assert len(tests) == 16
+    says("meet those of PF1 to PF8, FF7 and FF8 within {} %", 1)
+    assert max(abs(ratio - 1.0) for ratio in unshifted.values()) < 0.01
+    shifted = [100.0 * (1.0 - row[4]) for name, row in tests.items() if name not in unshifted]
+    says("they are low by {} to {} %, most", min(shifted), max(shifted))
+    mean, scatter = ([float(v) for v in rows[name]] for name in ("mean", "scatter"))
+    said = "At the surface they are at {} on average, with a scatter of {} %"
+    says(said, mean[-5], 100.0 * scatter[0])
+    says("beneath the edge the average is {}, with a scatter of {} %", mean[-3], 100.0 * scatter[2])
+    says("is {} of the published one on average", mean[2])
+    peaks = [float(value) for value in next(line for line in second if line.startswith("mean")).split()[1:]]
+    says(
+        "it falls from {} of the yield strength on average at the surface to {} at 20 µm", peaks[0], peaks[-1]
+    )
+    sizes = [row[0] for row in tests.values()]
+    says("half-widths from {} to {} mm", min(sizes), max(sizes))
+
+
+def polygons() -> None:
+    (table, _) = tables("loads.md")
+    count = int(table[0][-1].removeprefix("k = "))
+    worst = max(float(row[-1]) for row in table[1:]) / count**2
+    assert 0.5 / count < worst < 2.0 / count
+    says("{} % with {} points", 100 * worst, count)
+
+
+def lives() -> None:
+    rows = [line.split() for line in lines("physical.txt") if re.match(r"\s*\d+°", line)]
+    worst, mean = (np.array([float(row[column]) for row in rows]) for column in (2, 3))
+    says("the best phase gives six times the life of the worst")
+    assert round(worst.max() / worst.min()) == 6
+    times = mean / worst
+    said = "averaged over a radius of {} µm they are about {} to {} times as long there"
+    tens = round(times.min(), -1), round(times.max(), -1)
+    says(said, 50, *tens)
+    says("lives in the [example](from_rig_to_study.md#a-worked-example) are {} to {} times as long", *tens)
+
+
+def checks() -> None:
+    kills = [numbers("kills.txt", phrase)[0] for phrase in ("{} kills, each", "{} kills around")]
+    says("[{} kills of a run and {} of the archive's write]", *kills)
+    flips, other = (numbers("flips.txt", phrase)[0] for phrase in ("{} flips of", "{} other values"))
+    assert numbers("flips.txt", "{} a crash") == [0]
+    says(
+        "of [{} flips of a byte](../results/flips.txt) in the index of HDF5, which has none, {}", flips, other
+    )
+    assert any("and never a saved one" in line for line in lines("kills.txt"))
+    assert any("the whole old archive or the whole new one" in line for line in lines("kills.txt"))
+    (megabytes,) = next(
+        [float(line.split()[5])] for line in lines("million.txt") if line.startswith("1000000 ")
+    )
+    says("take {} GB; and the runner's", 1e-3 * megabytes)
+    says("of {} µs a point on 2 workers", *numbers("overhead.txt", "so 2 take {} µs of wall time"))
+
+
+def statements() -> None:
+    said = "over all of the paper's studies {} % of the points slide as a whole once a cycle"
+    says(said, *numbers("statements.md", "gross slip {}%"))
+    assert solve(rtol=1e-2).regime == REGIMES.index("partial_slip")  # Table 1's own point
+
+
+def extremes() -> None:
+    """What the curves of the studies miss of their extremes, in all that is drawn and measured."""
+    rows = [line.split() for line in lines("extremes.txt") if re.match(r"(figure|other)", line)]
+    assert [row[0] for row in rows] == [*(f"figure{number}" for number in range(3, 9)), "other_frequencies"]
+    for name, axis, points, missed, *_ in rows:
+        study = Study.from_toml(STUDIES / f"{name}.toml")
+        assert len(study.grid.axes[axis]) == int(points), name
+        assert float(missed) <= 1e-3, name
+    says(
+        "[miss their extremes](../results/extremes.txt) by {} % at most",
+        AtMost(max(100 * float(row[3]) for row in rows)),
+    )
+
+
+def best_load() -> None:
+    (table,) = tables("best_load.md")
+    change = {(row[0], row[1]): abs(float(row[5].split()[0])) for row in table[1:]}
+    of = {(row[0], row[1]): float(row[2]) for row in table[1:]}
+    assert of["1/2", "best"] == of["1/2", "worst"]
+    says("At ω2/ω1 = 1/2 the best one takes {} % off s", change["1/2", "best"])
+    says("the worst, which is as large, adds {} %", change["1/2", "worst"])
+    says("At 1 the best takes off {} %, and the worst adds {} %", change["1", "best"], change["1", "worst"])
+    assert change["3/2", "best"] == change["2", "best"] == 0.0
+    says("none helps, and the worst adds {} and {} %", change["3/2", "worst"], change["2", "worst"])
+
+
+def limits() -> None:
+    says("Dundurs' |β| above {}) are refused", SIMILAR)
+    says("contacts with \\|β\\| above {} are refused", SIMILAR)
+    says("(exit code {}, `--retry-failed`)", POINTS_FAILED)
+    says("never on an oblique plane ({} % of s left aside)", 100 * TOLERANCE)
+    says("at r = b, where it is never below {} s", LEFT_OUT)
+    says("is nearer to b than {} of the face or of the ring beside it", NEAREST)
+    says("but for faces below {} of the contact", SMALLEST_FACE)
+
+
+def versions() -> None:
+    with (ROOT / "pyproject.toml").open("rb") as file:
+        lowest = dict(each.split(">=") for each in tomllib.load(file)["project"]["dependencies"])
+    (said,) = re.findall(r"run together, on Python 3.11: (.*?\d)\. ", PAGES["docs/develop.md"])
+    tested = dict(each.split() for each in said.split(", "))
+    assert tested.keys() == lowest.keys()
+    for name, version in lowest.items():
+        assert f"{tested[name]}.".startswith(f"{version}."), name
+
+
+CLAIMS: tuple[Callable[[], None], ...] = (
+    suite,
+    plane_cost,
+    scaling,
+    accuracy,
+    chart,
+    field,
+    audit,
+    audit_of_bulk_stress,
+    audit_of_criteria,
+    stability,
+    lives,
+    thresholds,
+    checks,
+    extremes,
+    polygons,
+    best_load,
+    statements,
+    limits,
+    versions,
+)
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.__name__)
+def test_numbers_are_those_of(claim):
+    claim()
+
+
+def test_the_size_of_reports() -> None:
+    says("a table whose packed values are larger than {} MB", LARGEST_TABLE / 1e6)
+
+
+def test_the_first_screen() -> None:
+    figure4 = open_results(RESULTS / "figure4.nc")
+    says("the larger the sooner a crack, differs {} times", float(figure4.swt.extrema("phase").ratio.max()))

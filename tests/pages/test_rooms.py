@@ -1,0 +1,65 @@
+"""The rooms of the code: imports go one way, from a room to those above it, and never in a circle."""
+
+from __future__ import annotations
+
+from graphlib import TopologicalSorter
+from importlib import import_module
+
+import pytest
+from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
+from folders import ROOT, TESTS
+
+#: What may not be imported, although it is above: the planes know no contact, the contact knows no
+#: indenter, and the search over the body is a check of the line's.
+APART = {
+    "planes": {"load", "indenter", "control", "contact"},
+    "contact": {"indenter", "control"},
+    "body": {"line"},
+}
+ORACLE = "swtstudy.paper.reference"
+
+
+@pytest.mark.parametrize(
+    ("house", "types"), [(WHOLE, True), (MECHANICS, False)], ids=["types included", "of the mechanics"]
+)
+def test_a_file_imports_only_rooms_above(house: House, types: bool) -> None:
+    imports = [(own, other, house.room_of(own), house.room_of(other)) for own, other in house.imports(types)]
+    assert len(imports) > 50
+    order = house.rooms.index
+    assert not [f"{own} imports {other}" for own, other, mine, its in imports if order(its) > order(mine)]
+    assert not [f"{own} imports {other}" for own, other, mine, its in imports if its in APART.get(mine, ())]
+
+
+def test_nothing_uses_the_oracle() -> None:
+    users = [
+        name for name, path in MODULES.items() if any(o.startswith(ORACLE) for o in imported(path, True))
+    ]
+    assert not [name for name in users if not name.startswith(ORACLE)]
+
+
+def test_no_imports_go_in_a_circle() -> None:
+    graph = {name: imported(path) for name, path in MODULES.items()}
+    # A package's own file may gather what its modules offer.
+    graph = {
+        name: {other for other in others if not name.startswith(other + ".")}
+        for name, others in graph.items()
+    }
+    TopologicalSorter(graph).prepare()
+
+
+@pytest.mark.parametrize("house", [WHOLE, MECHANICS], ids=lambda house: house.name)
+def test_no_room_is_missing_in_the_lists(house: House) -> None:
+    assert {house.room_of(name) for name in MODULES} - {None} == {*house.rooms}
+
+
+@pytest.mark.parametrize("name", [name for name, path in MODULES.items() if "__all__" in path.read_text()])
+def test_what_a_module_offers_is_there(name: str) -> None:
+    offering = import_module(name)
+    for each in offering.__all__:
+        assert getattr(offering, each) is not None
+
+
+def test_tests_are_in_the_folder_of_a_room() -> None:
+    folders = {str(path.parent.relative_to(TESTS)) for path in TESTS.rglob("test_*.py")}
+    rooms = {room for room in WHOLE.rooms if (ROOT / "swtstudy" / room).is_dir()}
+    assert folders - {".", "pages"} == rooms

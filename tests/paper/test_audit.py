@@ -1,0 +1,286 @@
+"""The audit of a study."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from folders import STUDIES
+from made_up import made_up_audit, made_up_point
+
+from swtstudy.archive.write import save
+from swtstudy.cli import main
+from swtstudy.paper.audit.audit import audit_study
+from swtstudy.paper.audit.point import VERDICTS
+from swtstudy.paper.audit.report import report
+from swtstudy.paper.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
+from swtstudy.points.canonical import COLUMNS
+from swtstudy.study.definition import Study
+from swtstudy.study.sampling.drawn import drawn_rows
+
+PARAMETER_BOX = STUDIES / "audit" / "parameter_box.toml"
+STUDY = """
+title = "two points"
+[fixed]
+tangential_amplitude = 0.1
+normal_amplitude = 0.5
+[axes]
+poisson_ratio = [0.3, 0.5]
+phase = [0.6, "0.6 + 2*pi"]
+"""
+
+
+def test_points_are_distinct():
+    rows = drawn_rows(Study.from_text(STUDY).grid, points=10, seed=1)
+    assert rows.shape == (2, len(COLUMNS))
+
+
+def test_a_larger_sample_extends_a_smaller_one():
+    grid = Study.from_toml(PARAMETER_BOX).grid
+    few, many = (drawn_rows(grid, points, seed=0) for points in (5, 12))
+    assert many.shape == (12, len(COLUMNS))
+    np.testing.assert_array_equal(many[:5], few)
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({}, "none"),
+        ({"s_body": 1.1}, "line_search"),
+        ({"s_body": 1.1, "normal": np.array([0.8, 0.6, 0.0])}, "plane_through_y"),
+        ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.0])}, "symmetry_line"),
+        ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.1])}, "surface"),
+        ({"s_surface": np.nan}, "not_finite"),
+    ],
+)
+def test_verdicts(changes, verdict):
+    assert made_up_point(**changes).verdict == verdict
+
+
+def test_audited_points_are_read_as_they_were_written(tmp_path):
+    written = made_up_audit(on_line=2, off_line=1)
+    save(written, tmp_path / "audit.nc")
+    read = audited_points(open_audit(tmp_path / "audit.nc"))
+    again = audit_dataset(np.array(list(read)), list(read.values()), {})
+    for name in written.variables:
+        np.testing.assert_array_equal(again[name], written[name])
+    np.testing.assert_array_equal(list(read), canonical_rows(written))
+
+
+def test_other_files_are_not_taken_for_an_audit(tmp_path):
+    save(made_up_audit().drop_vars("s_body"), tmp_path / "other.nc")
+    with pytest.raises(ValueError, match="not an audit"):
+        audit_study(Study.from_text(STUDY), tmp_path / "other.nc")
+    with pytest.raises(ValueError, match=r"study: found 'figure3'; allowed: a Study"):
+        audit_study("figure3", tmp_path / "audit.nc")
+
+
+@pytest.mark.slow
+def test_a_dense_look_says_whether_a_maximum_was_overlooked(tmp_path):
+    path, study = tmp_path / "audit.nc", Study.from_text(STUDY)
+    assert np.isnan(audit_study(study, path, workers=1).s_dense).all()
+    # Points that were not looked at densely are audited again.
+    found = audit_study(study, path, workers=1, dense=True)
+    np.testing.assert_allclose(found.s_dense, found.s, rtol=2.5e-5)
+    assert (found.shortfall == 0.0).all()
+    assert "at 2 points: at 0 of them it is higher than s by more than s_error." in report(found)
+
+
+def test_what_is_overlooked_is_said():
+    points = [made_up_point(s_dense=1.5), made_up_point(s_dense=1.000009), made_up_point()]
+    assert [each.shortfall for each in points[:2]] == [pytest.approx((0.5 - 1e-5) / 1.5, rel=1e-12), 0.0]
+    assert np.isnan(points[2].shortfall)
+    rows = drawn_rows(Study.from_toml(PARAMETER_BOX).grid, points=3, seed=1)
+    words = report(audit_dataset(rows, points, {}).assign_attrs(title="three points"))
+    assert "at 2 points: at 1 of them it is higher than s by more than s_error, by up to 3.3e-01." in words
+    assert "dense look" not in report(
+        audit_dataset(rows, [made_up_point()] * 3, {}).assign_attrs(title="three")
+    )
+
+
+def test_an_audit_of_before_dense_looks_opens(tmp_path):
+    save(made_up_audit().drop_vars(["s_error", "s_dense", "shortfall"]), tmp_path / "old.nc")
+    points = audited_points(open_audit(tmp_path / "old.nc")).values()
+    assert all(np.isnan(each.s_dense) and np.isfinite(each.s) for each in points)
+
+
+def test_a_damaged_audit_is_named(tmp_path):
+    path = tmp_path / "audit.nc"
+    save(made_up_audit(), path)
+    content = path.read_bytes()
+    assert b"paraboloid" in content
+    path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
+    with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum of profile"):
+        open_audit(path)
+
+
+def test_report():
+    text = report(made_up_audit(on_line=3, off_line=1))
+    assert "| on the surface, off the line | 1 | 4.0% | 0.45 |" in text
+    assert "| 0.4–0.45 | 1 | 1 | 4.00% | 0.00% |" in text
+    assert "at 1 points: 1 of the 1" in text
+
+
+def test_command_goes_on_where_it_was(tmp_path):
+    study = tmp_path / "two.toml"
+    study.write_text(STUDY)
+    arguments = ["audit", str(study), "--workers", "1", "--results", str(tmp_path), "--points"]
+    assert CliRunner().invoke(main, [*arguments, "1"]).exit_code == 0
+    first = open_audit(tmp_path / "audit_two.nc")
+    # What is there already is taken as it is.
+    save(first.assign(s_body=first.s_body * 3.0), tmp_path / "audit_two.nc")
+    outcome = CliRunner().invoke(main, [*arguments, "2"])
+    assert outcome.exit_code == 0, outcome.output
+    dataset = open_audit(tmp_path / "audit_two.nc")
+    assert dataset.sizes["sample"] == 2
+    assert dataset.attrs["seed"] == 0
+    known = dataset.poisson_ratio == float(first.poisson_ratio[0])
+    np.testing.assert_allclose(dataset.s_body[known], 3.0 * first.s_body)
+    new = dataset.isel(sample=np.flatnonzero(~known))
+    expected = "symmetry_line" if float(new.poisson_ratio[0]) == 0.5 else "none"
+    assert VERDICTS[int(new.verdict[0])] == expected
+    assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
+    np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
+    assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")
+
+
+PLANE = """
+title = "plane contacts"
+[profiles.pad]
+geometry = "plane"
+radius = [0, 0.4, 0.8, 1.2, 1.6, 2, 2.4, 2.8, 3.2]
+height = [0, 0.08, 0.32, 0.72, 1.28, 2, 2.88, 3.92, 5.12]
+[fixed]
+flat_half_width = 0.4
+bulk_stress_amplitude = 0.05
+normal_force_amplitude = 0.3
+tangential_force_amplitude = 0.4
+[axes]
+profile = ["pad", "rounded_flat"]
+"""
+
+
+def test_command_on_plane_contacts(tmp_path):
+    """In the section: the body has s on the line, by the other route, and the dense look nothing more."""
+    study = tmp_path / "plane.toml"
+    study.write_text(PLANE)
+    given = ["audit", str(study), "--dense", "--workers", "1", "--results", str(tmp_path)]
+    outcome = CliRunner().invoke(main, given)
+    assert outcome.exit_code == 0, outcome.output
+    found = open_audit(tmp_path / "audit_plane.nc")
+    assert sorted(map(str, found.profile.values)) == ["pad", "rounded_flat"]
+    assert [VERDICTS[int(one)] for one in found.verdict] == ["none", "none"]
+    np.testing.assert_allclose(found.s_all_planes, found.s, rtol=1e-4)
+    np.testing.assert_array_equal(found.s_surface, found.s)
+    assert (found.s_dense <= found.s + found.s_error).all()
+    assert "| rounded flat | 1 | 0 | 0.00% | 0.00% |" in outcome.output
+
+
+@pytest.mark.parametrize(("excess", "verdict"), [(0.999e-3, "none"), (1.001e-3, "line_search")])
+def test_an_excess_counts_from_a_thousandth(excess, verdict):
+    point = made_up_point(s=2.0, s_surface=2.0, s_body=2.0 * (1.0 + excess))
+    assert point.verdict == verdict
+    assert point.excess == pytest.approx(excess)
+    assert point.remainder == pytest.approx(excess)
+
+
+@pytest.mark.parametrize(("size", "zero"), [(0.99e-6, True), (1.01e-6, False)])
+def test_what_counts_as_on_the_line(size, zero):
+    for sign in (1.0, -1.0):
+        for where, verdict in (
+            ({"position": np.array([0.5, sign * size, 0.0])}, "symmetry_line"),
+            ({"normal": np.array([1.0, sign * size, 0.0])}, "plane_through_y"),
+        ):
+            assert made_up_point(s_body=1.1, **where).verdict == ("line_search" if zero else verdict)
+    beneath = made_up_point(s_body=1.1, position=np.array([0.5, 0.0, size]))
+    assert beneath.verdict == ("line_search" if zero else "surface")
+
+
+def test_excess_over_nothing_is_all_or_nothing():
+    assert made_up_point(s=0.0, s_surface=0.0, s_body=0.0).excess == 0.0
+    point = made_up_point(s=0.0, s_surface=0.0, s_body=1e-9)
+    assert (point.excess, point.remainder, point.verdict) == (1.0, 1.0, "line_search")
+    point = made_up_point(s=2.0, s_surface=2.5, s_body=3.0)
+    assert (point.excess, point.remainder) == (0.5, pytest.approx(0.2))
+
+
+def test_the_report_counts_every_point():
+    """Four on the line (two of them 0.05 % above s), one above s_surface too, one that is not finite."""
+    audited = [
+        *[made_up_point(s_all_planes=1.0 + 2e-5)] * 2,
+        *[made_up_point(s_body=1.0005, s_all_planes=1.0 - 4e-5)] * 2,
+        made_up_point(s_body=1.08, s_surface=1.05, position=np.array([0.8, 0.6, 0.0]), regime="gross_slip"),
+        made_up_point(s_surface=np.nan, s_body=np.nan, s_all_planes=np.nan, regime="not_finite"),
+    ]
+    rows = np.zeros((6, len(COLUMNS)))
+    rows[:, COLUMNS.index("phase")] = np.arange(6)
+    rows[:, COLUMNS.index("poisson_ratio")] = 0.0, 0.1, 0.35, 0.36, 0.5, 0.2
+    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
+    assert lines[0] == "# six"
+    assert lines[2].startswith("6 points, each solved")
+    assert "counts from 0.1%" in lines[2]
+    assert lines[6:12] == [
+        "| on the surface line, where the solver found it | 4 | | |",
+        "| on the surface line, elsewhere | 0 | | |",
+        "| on the surface line, on a plane that is not through y | 0 | | |",
+        "| on the surface, off the line | 1 | 8.0% | 0.50 |",
+        "| beneath the surface | 0 | | |",
+        "| not searched: s is not finite, or at the edge r = b of the truncated paraboloid | 1 | | |",
+    ]
+    at = lines.index("| ν | points | above s | by up to | above s_surface by up to |")
+    assert lines[at + 2 : at + 6] == [
+        "| 0–0.1 | 2 | 0 | 0.00% | 0.00% |",
+        "| 0.3–0.35 | 1 | 0 | 0.05% | 0.05% |",
+        "| 0.35–0.4 | 1 | 0 | 0.05% | 0.05% |",
+        "| 0.45–0.5 | 1 | 1 | 8.00% | 2.86% |",
+    ]
+    assert "| paraboloid | 5 | 1 | 8.00% | 2.86% |" in lines
+    assert "| gross slip | 1 | 1 | 8.00% | 2.86% |" in lines
+    assert "| partial slip | 4 | 0 | 0.05% | 0.05% |" in lines
+    text = "\n".join(lines)
+    assert (
+        "s_surface is more than 0.1% above s at 1 points: 1 of the 1 at which the body's maximum is, and 0 "
+        "others. The body's maximum exceeds s_surface at 1 points, by up to 2.86%:"
+    ) in text
+    assert "* 2.86% (symmetry_line): profile=paraboloid" in text
+    assert "differ by 2e-05 (median), 4e-05 (99 %), 4e-05 (largest)." in text
+
+
+def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
+    off = {"s_body": 1.08, "s_surface": 1.05, "position": np.array([0.8, 0.6, 0.0])}
+    audited = [made_up_point(), made_up_point(regime="gross_slip"), *[made_up_point(**off)] * 3]
+    audited.append(made_up_point(regime="gross_slip", **off))
+    columns = {
+        "poisson_ratio": [0.3, 0.35, 0.36, 0.3, 0.5, 0.2],
+        "bulk_stress_mean": [0.0, 0.1, 0.1, -0.1, -0.1, 0.1],
+        "bulk_stress_amplitude": [0.2, 0.0, 0.0, 0.1, 0.0, 0.2],
+        "profile": [0, 0, 0, 0, 0, 2],
+    }
+    rows = np.zeros((6, len(COLUMNS)))
+    for name, values in columns.items():
+        rows[:, COLUMNS.index(name)] = values
+    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
+    at = lines.index("| bulk stress | points | above s | by up to | above s_surface by up to |")
+    enough, off_line = "0 | 0.00% | 0.00% |", "1 | 8.00% | 2.86% |"
+    assert lines[at + 2 : at + 7] == [
+        f"| mean ≥ 0, ν ≤ 0.35, no truncated paraboloid that slides | 2 | {enough}",
+        f"| mean ≥ 0, ν ≤ 0.35, a truncated paraboloid that slides | 1 | {off_line}",
+        f"| mean ≥ 0, ν > 0.35 | 1 | {off_line}",
+        f"| mean < 0, ν ≤ 0.35 | 1 | {off_line}",
+        f"| mean < 0, ν > 0.35 | 1 | {off_line}",
+    ]
+    assert lines[at + 8].startswith(
+        "With mean ≥ 0, ν ≤ 0.35, no truncated paraboloid that slides, the surface"
+    )
+    assert lines[at + 8].endswith("is enough at 2 of 2 points.")
+    plain = report(made_up_audit())
+    assert "bulk stress" not in plain
+
+
+def test_a_sample_has_every_point_at_most_once():
+    """Of a small grid a permutation, of a large one draws; physically the same points count once."""
+    small = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 9}\n').grid
+    rows = drawn_rows(small, 9, seed=3)
+    assert sorted(rows[:, COLUMNS.index("friction")]) == pytest.approx(np.linspace(0.1, 0.9, 9))
+    large = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 401}\n').grid
+    rows = drawn_rows(large, 40, seed=3)
+    assert len(np.unique(rows, axis=0)) == len(rows) == 40
+    assert not np.array_equal(rows, drawn_rows(large, 40, seed=4))

@@ -1,0 +1,59 @@
+"""The command that checks the statements, and its table."""
+
+from functools import partial
+
+import folders
+import pytest
+import stand_in
+from click.testing import CliRunner
+from made_up import made_up_audit
+
+from swtstudy import Study, run
+from swtstudy.archive.write import save
+from swtstudy.cli import main
+from swtstudy.paper.statements.check import STATEMENTS, STUDIES, check
+from swtstudy.paper.statements.report import markdown, summary, terminal_table
+
+AUDIT = "audit_parameter_box"
+
+
+def test_missing_archives_are_named_with_the_command_that_makes_them(tmp_path):
+    result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
+    assert result.exit_code == 2
+    assert f"{len(STATEMENTS)} not checked" in result.stdout
+    for name in set(STUDIES) - {AUDIT}:
+        assert f"{tmp_path / name}.nc is missing; made by: swtstudy run {name}" in result.stderr
+    made_by = "swtstudy audit parameter_box"
+    assert f"{tmp_path / AUDIT}.nc is missing; made by: {made_by}" in result.stderr
+    assert "all of them: swtstudy run --all && swtstudy audit parameter_box" in result.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_archive_with_gaps_is_not_checked(tmp_path):
+    study = Study.from_toml(folders.STUDIES / "friction.toml")
+    run(study, tmp_path / "friction.nc", solver=partial(stand_in.lose_at, 0.3), workers=1)
+    result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
+    assert result.exit_code == 2
+    assert "friction.nc has no value at 4 of 384 points" in result.stderr
+    assert "swtstudy run friction --retry-failed" in result.stderr
+
+
+@pytest.mark.slow
+def test_all_archives_make_a_table(tmp_path):
+    save(made_up_audit(), tmp_path / f"{AUDIT}.nc")
+    for name in set(STUDIES) - {AUDIT}:
+        study = Study.from_toml(folders.STUDIES / f"{name}.toml")
+        run(study, tmp_path / f"{name}.nc", solver=stand_in.smooth, workers=1)
+    result = CliRunner().invoke(main, ["check", "--results", str(tmp_path)])
+    assert result.exit_code == 0, result.output
+    table = (tmp_path / "statements.md").read_text(encoding="utf-8")
+    rows = [line for line in table.splitlines() if line.startswith("| ")][1:]
+    assert len(rows) == len(STATEMENTS)
+    assert all(row.count(" | ") >= 4 for row in rows)
+    assert summary(check(tmp_path)) in table
+
+
+def test_tables_fit():
+    outcomes = check("nowhere")
+    assert max(map(len, terminal_table(outcomes, 100).splitlines())) <= 100
+    assert "**not checked**" in markdown(outcomes)

@@ -1,0 +1,314 @@
+"""Pages about archives: what they say, that they are whole, and that nothing in an archive can break them."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import os
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+from io import StringIO
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from click.testing import CliRunner
+from folders import RESULTS
+
+import swtstudy
+from swtstudy.cli import main
+from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
+from swtstudy.reports.page import page
+from swtstudy.reports.site import write_reports
+from swtstudy.reports.symbols import symbol_html
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import QUANTITIES
+
+VOID = {"meta", "link", "img", "br"}
+
+
+class Checked(HTMLParser):
+    """Elements that are closed as they were opened, ids that differ, and what a page loads."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.wrong: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.tags: list[str] = []
+        self.texts: list[str] = []
+        self.alts: list[str | None] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        known = dict(attrs)
+        if len(known) != len(attrs):
+            self.wrong.append(f"{tag} has an attribute twice")
+        self.tags.append(tag)
+        self.ids += [known["id"]] if known.get("id") else []
+        self.links += [known[name] for name in ("href", "src") if known.get(name)]
+        if tag == "img":
+            self.alts.append(known.get("alt"))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(f"</{tag}> closes nothing")
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] not in ("script", "style"):
+            self.texts.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join("".join(self.texts).split())
+
+
+def checked(text: str) -> Checked:
+    found = Checked(text)
+    assert not found.wrong
+    assert not found.open
+    assert len(set(found.ids)) == len(found.ids)
+    inside = [link for link in found.links if link.startswith("#")]
+    assert {link[1:] for link in inside} <= set(found.ids)
+    assert None not in found.alts
+    return found
+
+
+def study(
+    folder: Path, title: str = "A study", axes: str = "phase = [0, 1, 2]\nnormal_amplitude=[0.25, 0.75]"
+) -> xr.Dataset:
+    text = f'title = {json.dumps(title)}\nrtol = 1e-3\n[axes]\n{axes}\n[figure]\nx = "phase"\n'
+    hue = "" if "normal_amplitude" not in axes else 'hue = "normal_amplitude"\n'
+    return swtstudy.run(swtstudy.Study.from_text(text + hue), folder / "small.nc")
+
+
+def read_multiple(words: str) -> float:
+    """A multiple of π such as 0.86π, π/18 or 0."""
+    number, _, below = words.partition("π")
+    return float(number or "1") / float(below.removeprefix("/") or "1")
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    return study(tmp_path_factory.mktemp("small"))
+
+
+@pytest.fixture(scope="module")
+def small_page(small: xr.Dataset) -> str:
+    return page(small, "small")
+
+
+def table_in(text: str) -> pd.DataFrame:
+    source = re.search(r'id="table" download="[^"]*" href="data:application/gzip;base64,([^"]*)"', text)
+    assert source
+    return pd.read_csv(StringIO(gzip.decompress(base64.b64decode(source[1])).decode()))
+
+
+def test_the_page_is_whole_and_needs_nothing_else(small_page: str) -> None:
+    found = checked(small_page)
+    assert [link for link in found.links if not link.startswith(("#", "data:"))] == []
+    assert "http" not in re.sub(
+        r"https?://(www\.w3\.org|doi\.org)", "", re.sub(r"data:[^\"]*", "", small_page)
+    )
+    assert {"h1", "table", "figure", "details"} <= set(found.tags)
+
+
+def test_without_scripts_everything_but_slices_is_there(small_page: str) -> None:
+    found = checked(re.sub(r"<script.*?</script>", "", small_page, flags=re.DOTALL))
+    for words in ("Extremes", "Best and worst", "Settings", "How sure", "Origin", "relative error"):
+        assert words in found.text
+    hidden = re.findall(r'<section id="(\w+)" data-script hidden>', small_page)
+    assert hidden == ["slice"]
+
+
+def test_the_sentence_is_that_of_the_extrema() -> None:
+    dataset = swtstudy.open_results(RESULTS / "figure3.nc")
+    extremes = dataset.swt.extrema("phase")
+    most = extremes.isel(normal_amplitude=int(extremes.ratio.argmax("normal_amplitude")))
+    first = re.sub("<[^>]*>", "", sentences(dataset)[0])
+    assert f"moves s by {float(most.ratio):.3g} times at δA/δ0 = 8/9" in first
+    said = re.search(r"best at (.*), worst at (.*)\.$", first)
+    assert said
+    for words, place in zip(said.groups(), (most.at_minimum, most.at_maximum), strict=True):
+        assert np.pi * read_multiple(words) == pytest.approx(float(place), rel=5e-3)
+
+
+def test_the_phase_is_the_first_lever_and_others_go_by_their_ratio() -> None:
+    found = levers(swtstudy.open_results(RESULTS / "figure5.nc"))
+    assert [lever.name for lever in found] == ["phase", "profile", "flat_radius"]
+    assert found[1].ratio > found[2].ratio
+
+
+def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
+    dataset = swtstudy.open_results(RESULTS / "sphere_on_flat.nc")
+    extremes = {word: float(one.SWT) for word, one in extreme_points(dataset).items()}
+    assert extremes == {"best": float(dataset.SWT.min()), "worst": float(dataset.SWT.max())}
+    assert all("SWT by" in each for each in sentences(dataset)[:3])
+    assert "400 N" in sentences(dataset)[0]
+
+
+@pytest.mark.parametrize(
+    "name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress", "plane_contacts", "criteria"]
+)
+def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
+    dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
+    for one in extreme_points(dataset).values():
+        again = swtstudy.solve(rtol=1e-4, **parameters_of(one))
+        assert float(again.s) == pytest.approx(float(one.s), rel=2e-3)
+
+
+def test_values_of_several_criteria_are_not_compared() -> None:
+    dataset = swtstudy.open_results(RESULTS / "criteria.nc")
+    assert "criterion" not in [lever.name for lever in levers(dataset)]
+    first = dataset.isel(criterion=0)
+    assert {word: float(one.s) for word, one in extreme_points(dataset).items()} == {
+        "best": float(first.s.min()),
+        "worst": float(first.s.max()),
+    }
+
+
+def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_page: str) -> None:
+    table, whole = table_in(small_page), small.swt.to_table()
+    assert list(table.s) == pytest.approx(list(whole.s), rel=1e-6)
+    assert list(table.regime) == list(whole.regime.astype(str))
+    assert list(table.s_error) == pytest.approx(list(whole.s_error), rel=0.06)
+    assert {"phase", "normal_amplitude", "critical_x"} <= {*table}
+
+
+@pytest.mark.slow
+def test_hostile_names_and_titles_are_words(tmp_path: Path) -> None:
+    title = '</title><script>alert("x")</script> & <img src=x onerror=alert(1)> "quoted" \'it\''
+    text = page(study(tmp_path, title, axes="phase = [0, 1]"), '"><script>alert(2)</script>')
+    found = checked(text)
+    assert found.tags.count("script") == 2  # the values, and what shows them
+    assert "x" not in found.links
+    assert " ".join(title.split()) in found.text
+
+
+@pytest.mark.slow
+def test_hostile_attributes_are_words(small: xr.Dataset) -> None:
+    bad = "</script><b>bad</b>\\mathrm{<b>}"
+    dataset = small.copy()
+    for name in ("phase", "s", "critical_x"):
+        dataset[name] = dataset[name].assign_attrs(symbol=bad, units="<i>m</i>", long_name=bad)
+    dataset.attrs |= {"history": f"{bad}\n{bad}", "references": bad, "versions": bad, "source": bad}
+    found = checked(page(dataset, "name"))
+    assert found.tags.count("script") == 2
+    assert "<b>bad</b>" in found.text
+
+
+@pytest.mark.parametrize("row", [*PARAMETERS.values(), *QUANTITIES.values()], ids=lambda row: row.name)
+def test_every_symbol_is_html(row: object) -> None:
+    text = symbol_html(row.symbol)  # type: ignore[attr-defined]
+    assert not set(text) & set("\\{}^_$")
+    checked(text)
+
+
+@pytest.mark.slow
+def test_a_large_table_is_left_out(small: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("swtstudy.reports.data.LARGEST_TABLE", 100)
+    text = page(small, "small")
+    assert 'id="table"' not in text
+    assert "too many for a page" in checked(text).text
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["figure5", "figure8"])
+def test_pages_of_the_largest_figures_are_below_two_megabytes(name: str) -> None:
+    assert len(page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)) < 2_000_000
+
+
+@pytest.mark.slow
+def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
+    assert "Where the model holds" not in page(small, "small")
+    text = page(small.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
+    assert "beyond first yield: largest von Mises stress over the yield strength up to 1.5, at most 1" in text
+    assert "<li>contact radius over R up to 0.05, within 0.1</li>" in text
+
+
+@pytest.mark.slow
+def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:
+    for name in ("loops", "friction"):
+        shutil.copy2(RESULTS / f"{name}.nc", tmp_path)
+    (tmp_path / "none.nc").write_text("no archive")
+    outcome = CliRunner().invoke(
+        main, ["report", *map(str, sorted(tmp_path.glob("*.nc"))), "-o", str(tmp_path / "site")]
+    )
+    assert outcome.exit_code == 0, outcome.output
+    assert "none.nc" in outcome.stderr
+    files = {path.name: path for path in (tmp_path / "site").iterdir()}
+    assert {*files} == {"index.html", "loops.html", "friction.html"}
+    index = checked(files["index.html"].read_text("utf-8"))
+    assert {"loops.html", "friction.html"} <= {*index.links}
+    assert sum(link.startswith("data:image/webp") for link in index.links) == 2
+    assert 'href="index.html"' in files["loops.html"].read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["a/x.nc", "b/x.nc", "-o", "site"], "a/x.nc, b/x.nc"),
+        (["a/x.nc", "a/y.nc"], "--output"),
+        (["a/x.nc", "a/y.nc", "-o", "one.html"], "one.html"),
+        (["a/index.nc", "a/y.nc", "-o", "site"], "index.html"),
+        (["a/none.nc"], "no such archive"),
+    ],
+)
+def test_mistakes_of_paths_are_told(
+    arguments: list[str], words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("a/x.nc", "b/x.nc", "a/y.nc", "a/index.nc"):
+        Path(name).parent.mkdir(exist_ok=True)
+        shutil.copy2(RESULTS / "loops.nc", name)
+    outcome = CliRunner().invoke(main, ["report", *arguments])
+    assert outcome.exit_code == 2
+    assert words in outcome.stderr
+    assert "Traceback" not in outcome.stderr
+    assert not list(tmp_path.rglob("*.html"))
+
+
+@pytest.mark.slow
+def test_a_single_archive_has_its_page_beside_it(tmp_path: Path) -> None:
+    archive = tmp_path / "mine.nc"
+    swtstudy.run(swtstudy.Study.from_text('title = "Mine"\nrtol = 1e-2\naxes.phase = [0, 1]'), archive)
+    assert [path for path, _ in write_reports([archive])] == [tmp_path / "mine.html"]
+    text = (tmp_path / "mine.html").read_text("utf-8")
+    found = checked(text)  # a study without a figure has its values all the same
+    assert "figure" not in found.ids
+    assert len(table_in(text)) == 2
+
+
+CHROMIUM = next(
+    filter(
+        None,
+        map(shutil.which, (os.environ.get("CHROMIUM", ""), "chromium", "chromium-browser", "google-chrome")),
+    ),
+    None,
+)
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
+def test_scripts_draw_slices_and_give_the_table(tmp_path: Path, small_page: str) -> None:
+    (tmp_path / "page.html").write_text(small_page, encoding="utf-8")
+    options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
+    command = [
+        str(CHROMIUM),
+        *options,
+        f"--user-data-dir={tmp_path / 'profile'}",
+        (tmp_path / "page.html").as_uri(),
+    ]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=True)
+    assert len(re.findall(r'<path class="c\d d0" d="M\d', done.stdout)) == 4  # two lines, and their legend
+    assert len(re.findall("<select>", done.stdout)) == 3
+    assert re.search(r'id="table" download="small\.csv" href="blob:', done.stdout)
+    assert "data-script hidden" not in done.stdout.replace('data-script=""', "data-script")

@@ -1,0 +1,281 @@
+"""Quantities on request: computed, stored and continued like s."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stand_in
+import xarray as xr
+from asking import EVERY, VARIABLES, study
+from click.testing import CliRunner
+from folders import DATA
+
+import swtstudy
+from swtstudy import Study, StudyError, open_results, run
+from swtstudy.archive.merge import GapsError, merge
+from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
+from swtstudy.archive.write import save
+from swtstudy.cli import main
+from swtstudy.mechanics import quantities
+from swtstudy.runner import chunk
+from swtstudy.runner.run import Stopped
+from swtstudy.vocabulary.quantities import Request
+
+
+def test_a_study_without_them_neither_computes_nor_stores_any(tmp_path: Path, monkeypatch) -> None:
+    def never(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(quantities, "quantities_of", never)
+    found = run(study(), tmp_path / "a.nc", workers=1)
+    assert not {*found.data_vars} & {*VARIABLES}
+    assert "quantities" not in found.attrs["runs"]
+
+
+def test_an_archive_gets_what_it_lacks_and_keeps_s(tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    plain = run(study(), path, workers=1)
+    never = stand_in.Counting()
+    more = run(study(quantities=("dissipation",)), path, workers=1, solver=never)
+    assert never.points == 0
+    xr.testing.assert_equal(more[[*plain.data_vars]].drop_vars("run"), plain.drop_vars("run"))
+    assert "0 of 4 distinct points computed, and quantities that 4 others lacked" in more.attrs["history"]
+    both = run(study(quantities=("stick_radius", "dissipation")), path, workers=1, solver=never)
+    at_once = swtstudy.solve(phase=both.phase.values, rtol=1e-3, quantities=EVERY)
+    for name in ("dissipation", "dissipation_error", "stick_radius"):
+        np.testing.assert_allclose(both[name], at_once[name], rtol=1e-9)
+    (one,) = json.loads(both.attrs["runs"])
+    assert one["quantities"] == ["dissipation", "stick_radius"]
+    # The time of all three runs is told.
+    assert one["seconds"] > json.loads(plain.attrs["runs"])[0]["seconds"]
+    xr.testing.assert_identical(
+        both, run(study(quantities=("stick_radius", "dissipation")), path, solver=never)
+    )
+
+
+def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monkeypatch) -> None:
+    path, asked = tmp_path / "a.nc", ("contact_radius", "force_ratio")
+    run(study(axes="phase = [0.5, 1.0]", quantities=asked), path, workers=1)
+    counted: list[int] = []
+
+    def counting(points, items, solution):
+        counted.append(len(points))
+        return quantities_of(points, items, solution)
+
+    quantities_of = quantities.quantities_of
+    monkeypatch.setattr(quantities, "quantities_of", counting)
+    grown = run(study(quantities=asked), path, workers=1)
+    assert sum(counted) == 2
+    assert np.isfinite(grown.force_ratio).all()
+    # What is asked no more is kept, not computed again.
+    fewer = run(study(quantities=asked[:1]), path, workers=1)
+    assert "force_ratio" not in fewer
+    assert points_saved(kept_folder(path)) == 4
+    again = run(study(quantities=asked), path, workers=1)
+    assert sum(counted) == 2
+    xr.testing.assert_equal(again.drop_vars("run"), grown.drop_vars("run"))
+    assert not kept_folder(path).exists()
+
+
+def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
+    path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
+    # Long cycles and small blocks of some thirty points.
+    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
+    long = '[fixed]\nfrequency_ratio = "1/15"\n'
+    # Points of two runs, so that two more are told.
+    run(study(long, axes.replace(", 0.3", "")), path, workers=1, solver=stand_in.smooth)
+    plain = run(study(long, axes), path, workers=1, solver=stand_in.smooth)
+    whole = quantities.quantities_of
+    counted = [0]
+
+    def stopping(points, items, solution):
+        if counted[0] >= 20:
+            raise KeyboardInterrupt
+        counted[0] += len(points)
+        return whole(points, items, solution)
+
+    monkeypatch.setattr(quantities, "quantities_of", stopping)
+    asked = study(long, axes, ("dissipation",))
+    with pytest.raises(Stopped, match="of 60 distinct points are saved") as stopped:
+        run(asked, path, workers=1)
+    assert str(stopped.value).split()[1] == str(counted[0])
+    saved = counted[0]
+    assert np.isfinite(open_results(path, partial=True).s).all()
+    monkeypatch.setattr(quantities, "quantities_of", whole)
+    again = stand_in.Counting()
+    done = run(asked, path, workers=1, solver=again)
+    assert again.points == 0
+    assert 0 < saved < 60
+    np.testing.assert_array_equal(done.s, plain.s)
+    assert np.isfinite(done.dissipation).all()
+
+
+@pytest.mark.slow
+def test_a_killed_run_goes_on_with_its_quantities(tmp_path: Path) -> None:
+    file, axes = tmp_path / "a.toml", "phase = {start = 0.1, stop = 3, num = 150}\nfriction = [0.2, 0.3, 0.4]"
+    file.write_text(study(axes=axes, quantities=EVERY).text)
+    command = [sys.executable, "-m", "swtstudy", "run", str(file), "--results", str(tmp_path)]
+    command += ["--workers", "1"]
+    running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    path = tmp_path / "a.nc"
+    deadline = time.monotonic() + 60.0
+    while not points_saved(parts_folder(path)) and time.monotonic() < deadline and running.poll() is None:
+        time.sleep(0.02)
+    os.kill(running.pid, signal.SIGKILL)
+    running.wait()
+    saved = points_saved(parts_folder(path))
+    assert 0 < saved < 450
+    half = open_results(path)
+    assert np.isfinite(half.dissipation.values[half.status.values == 0]).all()
+    done = run(Study.from_toml(file), path, workers=1)
+    direct = swtstudy.solve(phase=done.phase.values[::50], friction=[0.3], rtol=1e-3, quantities=EVERY)
+    for name in VARIABLES:
+        np.testing.assert_allclose(
+            done[name].sel(friction=0.3)[::50], direct[name].isel(friction=0), 1e-9, 1e-14
+        )
+
+
+def test_a_point_at_which_one_fails_is_told_and_keeps_its_s(tmp_path: Path, monkeypatch) -> None:
+    path = tmp_path / "a.nc"
+    plain = run(study(), path, workers=1)
+    whole = quantities.quantities_of
+
+    def failing(points, items, solution):
+        if np.isclose(points.phase, 1.0).any():
+            raise ArithmeticError("an injected failure")
+        return whole(points, items, solution)
+
+    monkeypatch.setattr(quantities, "quantities_of", failing)
+    found = run(study(quantities=("dissipation",)), path, workers=1)
+    assert found.status.values.tolist() == [0, 1, 0, 0]
+    assert "an injected failure" in found.status.attrs["failures"]
+    assert np.isnan(found.dissipation.values).tolist() == [False, True, False, False]
+    np.testing.assert_array_equal(found.s, plain.s)
+    monkeypatch.setattr(quantities, "quantities_of", whole)
+    mended = run(study(quantities=("dissipation",)), path, workers=1, retry_failed=True)
+    assert np.isfinite(mended.dissipation).all()
+
+
+def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) -> None:
+    for name, phase, asked in (
+        ("a", "0.5, 1.0", EVERY[:1]),
+        ("b", "1.0, 2.0", EVERY[:1]),
+        ("c", "1.0, 4.0", ()),
+    ):
+        run(study(axes=f"phase = [{phase}]", quantities=asked), tmp_path / f"{name}.nc", workers=1)
+    both = merge([tmp_path / "a.nc", tmp_path / "b.nc"])
+    assert np.isfinite(both.dissipation).all()
+    assert Study.from_text(both.attrs["study"]).asked.names == EVERY[:1]
+    with pytest.raises(GapsError, match=r"dissipation is known of some points .* not of 1 others"):
+        merge([tmp_path / "a.nc", tmp_path / "c.nc"])
+    sparse = merge([tmp_path / "a.nc", tmp_path / "c.nc"], sparse=True)
+    assert np.isnan(sparse.dissipation.values).tolist() == [False, False, True]
+    save(sparse, tmp_path / "sparse.nc")
+    never = stand_in.Counting()
+    filled = run(Study.from_text(sparse.attrs["study"]), tmp_path / "sparse.nc", solver=never, workers=1)
+    assert never.points == 0
+    assert np.isfinite(filled.dissipation).all()
+
+
+def test_an_archive_made_before_there_were_any_opens_and_goes_on(tmp_path: Path) -> None:
+    old = DATA / "without_quantities.nc"
+    opened = open_results(old)
+    assert opened.s.shape == (2,)
+    assert opened.s.values[0] == pytest.approx(0.155137, rel=1e-4)
+    path = tmp_path / "old.nc"
+    path.write_bytes(old.read_bytes())
+    text = opened.attrs["study"].replace("[axes]", 'quantities = ["stick_radius"]\n[axes]', 1)
+    more = run(Study.from_text(text), path, workers=1)
+    np.testing.assert_allclose(more.s, opened.s, rtol=1e-4)
+    assert np.isfinite(more.stick_radius[0])
+
+
+def test_figures_show_them_with_their_errors(tmp_path: Path) -> None:
+    figure = '[figure]\nx = "phase"\ny = ["s", "dissipation"]\n'
+    text = study(quantities=("dissipation",)).text + figure
+    found = run(Study.from_text(text), tmp_path / "a.nc", workers=1)
+    assert r"W/(\mu F_0" in found.swt.figure().axes[1].get_ylabel()
+    from swtstudy.results.quantity import quantity_error
+
+    xr.testing.assert_equal(quantity_error(found, "dissipation"), found.dissipation_error)
+    assert quantity_error(found, "critical_x") is None
+    with pytest.raises(
+        StudyError, match=r"figure\.y: found 'dissipation', which this study does not ask for"
+    ):
+        Study.from_text(study().text + figure)
+
+
+@pytest.mark.parametrize(
+    ("raw", "words"),
+    [
+        (
+            '["disipation"]',
+            r"quantities\[0\]: found unknown quantity 'disipation'; .*did you mean dissipation\?",
+        ),
+        (
+            '["force_ratio", "force_ratio"]',
+            r"quantities\[1\]: found 'force_ratio', the same as quantities\[0\]",
+        ),
+        ('"dissipation"', "quantities: found 'dissipation'; allowed: a list of dissipation, "),
+        ("[3]", r"quantities\[0\]: found 3; allowed: a list of dissipation"),
+        ("{a = 1}", "quantities: found .*; allowed: a list of dissipation"),
+    ],
+)
+def test_bad_ones_are_named(raw: str, words: str, tmp_path: Path) -> None:
+    text = f'title = "t"\nquantities = {raw}\n[axes]\nphase = [0, 1]\n'
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(text)
+    (tmp_path / "bad.toml").write_text(text)
+    answer = CliRunner().invoke(main, ["validate", str(tmp_path / "bad.toml")])
+    assert answer.exit_code == 2
+    assert len(answer.stderr.strip().splitlines()) == 1
+
+
+def test_bad_ones_of_solve_are_named() -> None:
+    with pytest.raises(StudyError, match=r"quantities\[1\]: found unknown quantity 'friction'"):
+        swtstudy.solve(quantities=["dissipation", "friction"])
+    with pytest.raises(StudyError, match="did you mean quantities"):
+        swtstudy.solve(quantitys=["dissipation"])
+
+
+def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
+    answer = CliRunner().invoke(
+        main,
+        ["solve", "--quantities", "dissipation,contact_radius", "--normal-amplitude", "0", "--rtol", "1e-2"],
+    )
+    header, row = (line.split("\t") for line in answer.output.splitlines())
+    values = dict(zip(header, row, strict=True))
+    assert float(values["dissipation"]) == pytest.approx(0.39643, rel=1e-4)
+    assert float(values["contact_radius"]) == 1.0
+    assert "dissipation_error" in values
+    file = tmp_path / "a.toml"
+    file.write_text(study(quantities=("dissipation",)).text)
+    plain = tmp_path / "a.nc"
+    run(study(), plain, workers=1)
+    planned = CliRunner().invoke(main, ["plan", str(file), "--results", str(tmp_path)]).output
+    assert "quantities         dissipation" in planned
+    assert "to be computed     4" in planned
+    assert "4 of them lack quantities alone" in planned
+    run(Study.from_toml(file), plain, workers=1)
+    assert "quantities     dissipation" in CliRunner().invoke(main, ["info", str(plain)]).output
+
+
+def test_a_worker_that_dies_gives_up_quantities_too() -> None:
+    table = np.zeros((1, 12))
+    lost = chunk.Chunk(np.arange(1), table, (1,), {}, chunk.Asked(("dissipation",)))
+    result = chunk.given_up(lost, "gone")
+    assert result.failed.all()
+    assert np.isnan(result.quantities["dissipation_error"]).all()
+
+
+def test_the_same_request_in_two_ways() -> None:
+    assert Request.of(["dissipation"]) == Request(("dissipation",))
+    assert Request.of([]) == Request()

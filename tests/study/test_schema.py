@@ -1,0 +1,94 @@
+"""What an editor reports about a study from its schema, and what `validate` reports."""
+
+import json
+import tomllib
+
+import pytest
+from folders import STUDIES
+
+from swtstudy import Study, StudyError
+from swtstudy.study.schema import SCHEMA_FILE, SCHEMA_LINE, schema_text, study_schema
+from swtstudy.vocabulary.axes import CONTACT_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+jsonschema = pytest.importorskip("jsonschema")
+
+STUDY_FILES = sorted(STUDIES.glob("*.toml"))
+
+THREE_MISTAKES = """
+title = "Three mistakes"
+[fixed]
+frictoin = 0.3
+poisson_ratio = 0.7
+[axes]
+phase = { start = 0, stop = "2*pi", number = 9 }
+"""
+
+
+@pytest.fixture(scope="module")
+def validator():
+    jsonschema.Draft7Validator.check_schema(study_schema())
+    return jsonschema.Draft7Validator(study_schema())
+
+
+def test_the_file_beside_the_studies_is_up_to_date():
+    assert (STUDIES / SCHEMA_FILE).read_text() == schema_text(), f"swtstudy schema -o studies/{SCHEMA_FILE}"
+
+
+@pytest.mark.parametrize("path", STUDY_FILES, ids=lambda path: path.stem)
+def test_the_studies_of_the_paper_point_to_it_and_keep_to_it(path, validator):
+    text = path.read_text()
+    assert text.startswith(SCHEMA_LINE)
+    assert not list(validator.iter_errors(tomllib.loads(text)))
+
+
+def test_every_key_is_explained():
+    schema = study_schema()
+    tables = [schema, *schema["$defs"].values(), schema["properties"]["fixed"], schema["properties"]["axes"]]
+    for table in tables:
+        for key, entry in table["properties"].items():
+            assert entry["description"], key
+    for name, others in (("fixed", ["similar", "bodies"]), ("axes", [])):
+        known = [*PARAMETERS, "critical_distance", *CONTACT_AXES, *others]
+        assert list(schema["properties"][name]["properties"]) == known
+
+
+def test_three_mistakes(validator):
+    editor = {
+        (".".join(map(str, error.absolute_path)), error.validator): error.message
+        for error in validator.iter_errors(tomllib.loads(THREE_MISTAKES))
+    }
+    assert len(editor) == 3
+    assert "'frictoin' was unexpected" in editor["fixed", "additionalProperties"]
+    assert "0.7 is greater than the maximum of 0.5" in editor["fixed.poisson_ratio", "maximum"]
+    assert ("axes.phase", "anyOf") in editor
+    with pytest.raises(StudyError) as error:
+        Study.from_text(THREE_MISTAKES, "three.toml")
+    assert str(error.value).splitlines() == [
+        "three.toml: axes.phase.num: found nothing; allowed: a whole number",
+        "three.toml: axes.phase.number: found unknown key 'number'; allowed: "
+        "did you mean num? known: start, stop, num, spacing, also",
+        "three.toml: fixed.frictoin: found unknown parameter 'frictoin'; allowed: "
+        f"did you mean friction? known: {', '.join([*PARAMETERS, 'critical_distance'])}",
+        "three.toml: fixed.poisson_ratio: found 0.7 (out of range); allowed: a number in [0, 0.5]",
+    ]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "wavelength = 0",
+        "frequency_ratio = 65",
+        "friction = true",
+        "friction = [0.1]",
+    ],
+)
+def test_the_editor_refuses_what_the_study_refuses(line, validator):
+    text = f'title = "t"\n[fixed]\n{line}\n'
+    assert list(validator.iter_errors(tomllib.loads(text)))
+    with pytest.raises(StudyError):
+        Study.from_text(text)
+
+
+def test_the_schema_is_json():
+    assert json.loads(schema_text()) == study_schema()
