@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.study.definition import study_from
+from swtstudy.study.definition import study_from, tables_of
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.rows import REST_DEPENDS_ON
-from swtstudy.vocabulary.files import parse_toml, read_text
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.prescribed import PAIRS
 
@@ -54,14 +53,12 @@ def contact_of_study(
     StudyError
         With every mistake; also if the study has no units, or an axis of it has no value here.
     """
-    try:
-        raw = parse_toml(read_text(Path(path)))
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError([Mistake("", reason, "a readable study file (TOML)", path)]) from None
+    raw = tables_of(path)
     replaced = {*values}.union(*({*pair} for pair in PAIRS.items() if {*pair} & values.keys()))
     fixed, axes = (raw.get(key) or {} for key in ("fixed", "axes"))
     values, profiles = _with_profile(values, fixed, raw.get("profiles") or {}, smoothing)
+    if values.get("profile") in profiles and "radius" not in values:
+        replaced |= {"radius"}  # a table has lengths of its own
     open_axes = {name: axes[name] for name in axes if name not in replaced and name != "critical_distance"}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
