@@ -34,7 +34,7 @@ nitpick_ignore = [
     ("py:class", name)
     for name in (
         *("Grid", "FigureLayout", "Request", "Sample"),
-        *("swtstudy.vocabulary.named.Named", "swtstudy.units.grid.PhysicalGrid"),
+        *("swtstudy.vocabulary.definition.Definition", "swtstudy.units.grid.PhysicalGrid"),
     )
 ]
 autodoc_member_order = "bysource"

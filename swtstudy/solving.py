@@ -79,20 +79,20 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
     from swtstudy.mechanics import solve_points
+    from swtstudy.mechanics.points import Solution
     from swtstudy.mechanics.quantities import quantities_of
     from swtstudy.points.blocks import block_ends
     from swtstudy.points.columns import columns_at, wanted
     from swtstudy.points.labelled import arrays_of, label
     from swtstudy.points.margins import margins
-    from swtstudy.points.solutions import joined, solution_at
     from swtstudy.points.unique import unique_points
     from swtstudy.vocabulary.quantities import columns_of
 
     unique = unique_points(grid)
     blocks = np.split(unique.table, block_ends(unique.table)[:-1])
     batches = [points_from(block, unique.definitions) for block in blocks]
-    solution = joined([solve_points(batch, rtol) for batch in batches])
-    arrays = arrays_of(solution_at(solution, unique.index), unique.mirrored) | margins(unique, grid)
+    solution = Solution.joined([solve_points(batch, rtol) for batch in batches])
+    arrays = arrays_of(solution.take(unique.index), unique.mirrored) | margins(unique, grid)
     items, of = wanted(grid, asked, unique)
     known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
     ends = block_ends(unique.table).tolist()
@@ -100,7 +100,7 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
         for one in np.unique(of[begin:end], axis=0) if items else ():
             rows = np.flatnonzero((of[begin:end] == one).all(axis=1))
             own = [items[index] for index in np.flatnonzero(one)]
-            found = quantities_of(batch.take(rows), own, solution_at(solution, begin + rows))
+            found = quantities_of(batch.take(rows), own, solution.take(begin + rows))
             for name, values in found.items():
                 known[name][begin + rows] = values
     columns = columns_at(grid, asked, unique, known.__getitem__)

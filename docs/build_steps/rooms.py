@@ -69,7 +69,7 @@ WHOLE = House(
 )
 MECHANICS = House(
     "swtstudy.mechanics",
-    ("points", "numerics"),
+    ("rows", "points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
         *("margins", "solver", "worst_means", "quantities", "__init__"),

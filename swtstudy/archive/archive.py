@@ -17,7 +17,6 @@ from swtstudy.points.columns import columns_at
 from swtstudy.points.labelled import arrays_of, label
 from swtstudy.points.margins import margins
 from swtstudy.points.records import FAILED, Records
-from swtstudy.points.solutions import solution_at
 from swtstudy.points.unique import UniquePoints
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.version import __version__
@@ -41,7 +40,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     seconds
         Wall time of the run that ends with this archive.
     """
-    arrays = arrays_of(solution_at(records.solution, points.index), points.mirrored)
+    arrays = arrays_of(records.solution.take(points.index), points.mirrored)
     arrays |= margins(points, study.grid)
     arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     columns = columns_at(study.grid, study.asked, points, records.quantity)

@@ -8,12 +8,11 @@ from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, asdict, fields
 from typing import Any, TypedDict
 
-from swtstudy.points.defined import kinds
 from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference
 from swtstudy.study.figure_check import wrong_layout
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.quantities import every_variable, is_item
 
 
@@ -43,7 +42,15 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
-def definitions_text(definitions: Iterable[Named]) -> str:
+def _kinds() -> dict[str, type[Definition]]:
+    """The classes of definitions, by parameter; imported where they are needed."""
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.mechanics.load.load_path import LoadPath
+
+    return {each.parameter: each for each in (LoadPath, TabulatedProfile)}
+
+
+def definitions_text(definitions: Iterable[Definition]) -> str:
     """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
         [
@@ -53,19 +60,19 @@ def definitions_text(definitions: Iterable[Named]) -> str:
     )
 
 
-def read_definitions(text: object) -> dict[str, dict[str, Named]]:
+def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name."""
-    found: dict[str, dict[str, Named]] = {}
+    found: dict[str, dict[str, Definition]] = {}
     for raw in _json(text, list):
         try:
-            defined = kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
+            defined = _kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
     return found
 
 
-def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Named]]:
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
     return read_definitions(attributes.get("definitions", "[]"))
 

@@ -26,7 +26,7 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.axes import AXES, QUANTITY_AXES
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 #: Relative difference of s from rounding alone, between two machines.
@@ -192,7 +192,7 @@ def _union(grids: list[Grid]) -> Grid:
 
 def _distinct(values: list[Value]) -> tuple[Value, ...]:
     """Distinct values, numbers in increasing order."""
-    if any(isinstance(value, str | Named) for value in values):
+    if any(isinstance(value, str | Definition) for value in values):
         return tuple(dict.fromkeys(values))
     keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
     return tuple(sorted(keyed.values(), key=as_number))

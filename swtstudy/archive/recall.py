@@ -25,8 +25,8 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import Control, replaced_by
@@ -120,7 +120,7 @@ def _wrong_control(dataset: xr.Dataset, given: set[str]) -> Iterator[Mistake]:
 
 
 def _values(
-    parameter: Parameter, raw: list[object], known: Mapping[str, Named], mistakes: list[Mistake]
+    parameter: Parameter, raw: list[object], known: Mapping[str, Definition], mistakes: list[Mistake]
 ) -> Iterator[Value]:
     """Values of a coordinate, up to the first invalid one, which is a mistake."""
     for value in raw:

@@ -15,13 +15,12 @@ import click
 import swtstudy
 from swtstudy.cli.audit import audit
 from swtstudy.cli.check import check
-from swtstudy.cli.examples import examples
 from swtstudy.cli.fit import fit
 from swtstudy.cli.info import info
 from swtstudy.cli.list import list_studies
 from swtstudy.cli.merge import merge
 from swtstudy.cli.new import new
-from swtstudy.cli.options import check_options
+from swtstudy.cli.options import check_options, examples
 from swtstudy.cli.plan import plan
 from swtstudy.cli.plot import plot
 from swtstudy.cli.report import report

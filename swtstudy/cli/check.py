@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import examples
 
 #: Commands that make everything to be checked: the audit is not part of the suite.
 EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"

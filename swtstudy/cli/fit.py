@@ -7,8 +7,7 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import examples, with_width
 
 
 @click.command(

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from swtstudy.cli.completion import archive_completion
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import archive_completion, examples
 
 
 @click.command(epilog=examples("swtstudy info results/figure3.nc"))

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import on_terminal
+from swtstudy.cli.options import examples, on_terminal
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import examples
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 

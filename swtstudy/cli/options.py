@@ -1,13 +1,16 @@
-"""An option of several commands; checks for unknown ones, and for repeated ones: click takes the last."""
+"""Shared by commands: checks of options, completion of arguments by the shell, examples of the help."""
 
 from __future__ import annotations
 
 import sys
 from collections import Counter
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import click
+from click import Context, Parameter
+from click.shell_completion import CompletionItem
 
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, meant
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -84,3 +87,30 @@ def check_options(context: click.Context, command: click.Command, args: list[str
             mistakes.append(Mistake(parameter.opts[0], f"{count} times", allowed))
     if mistakes:
         raise StudyError(mistakes)
+
+
+def study_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
+    """Studies of the paper by name, and study files here or in the folder studies."""
+    from swtstudy.study.shipped import shipped_studies
+
+    return _offered([*shipped_studies(), *_files("*.toml", "studies/*.toml")], incomplete)
+
+
+def archive_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
+    """Archives here or in the folder results."""
+    return _offered(_files("*.nc", "results/*.nc"), incomplete)
+
+
+def _files(*patterns: str) -> list[str]:
+    return [str(path) for pattern in patterns for path in sorted(Path().glob(pattern))]
+
+
+def _offered(names: list[str], incomplete: str) -> list[CompletionItem]:
+    """Names that begin with the incomplete word, or else the files that the shell finds."""
+    items = [CompletionItem(name) for name in names if name.startswith(incomplete)]
+    return items or [CompletionItem(incomplete, type="file")]
+
+
+def examples(*lines: str) -> str:
+    """The epilog of a command: one line per example, as typed."""
+    return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

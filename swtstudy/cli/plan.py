@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.completion import study_completion
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import examples, study_completion
 
 if TYPE_CHECKING:
     from swtstudy.points.result import Result

@@ -8,9 +8,7 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.completion import archive_completion
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import archive_completion, examples, with_width
 
 
 @click.command(

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import click
 
-from swtstudy.cli.completion import archive_completion
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import archive_completion, examples
 
 
 @click.command(

@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from swtstudy.cli.completion import study_completion
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import examples, study_completion, with_width
 from swtstudy.runner.suite import run_and_draw
 
 if TYPE_CHECKING:

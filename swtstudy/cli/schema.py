@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import examples
 
 
 @click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))

@@ -7,9 +7,7 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.completion import study_completion
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import with_width
+from swtstudy.cli.options import examples, study_completion, with_width
 
 
 @click.command(epilog=examples("swtstudy sensitivity sensitivity"))

@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.completion import study_completion
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import InSections, with_width
+from swtstudy.cli.options import InSections, examples, study_completion, with_width
 from swtstudy.cli.solve import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS
 

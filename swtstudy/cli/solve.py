@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.examples import examples
-from swtstudy.cli.options import SEVERAL, InSections, on_terminal
+from swtstudy.cli.options import SEVERAL, InSections, examples, on_terminal
 from swtstudy.vocabulary.accuracy import DEFAULT_RTOL
 from swtstudy.vocabulary.axes import QUANTITY_AXES
 from swtstudy.vocabulary.parameters import PARAMETERS

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import click
 
-from swtstudy.cli.completion import study_completion
-from swtstudy.cli.examples import examples
+from swtstudy.cli.options import examples, study_completion
 
 
 @click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))

@@ -27,16 +27,16 @@ from swtstudy.units.bodies import (
     strengths_of_both,
     swt_from,
 )
-from swtstudy.units.bulk import mean_of_bulk
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.loads import mean_of_bulk
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
 from swtstudy.units.scales import length_of
 from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import family_of, is_profile
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
@@ -91,7 +91,7 @@ class PhysicalContact(InUnits):
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
-            return self._plain(self.grid.seats.each(lambda contact: getattr(contact, name)))
+            return self._plain(self.grid.at_rest.each(lambda contact: getattr(contact, name)))
         if name == "grid" or name not in self.grid.rows:
             raise AttributeError(f"a contact has no {name!r}")
         values = self.grid.values(name)
@@ -108,7 +108,9 @@ class PhysicalContact(InUnits):
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
         names = {dim: self.grid.values(str(dim)) for dim in values.dims}
         labels = {
-            dim: [str(value) if isinstance(value, str | Named) else as_number(value) for value in several]
+            dim: [
+                str(value) if isinstance(value, str | Definition) else as_number(value) for value in several
+            ]
             for dim, several in names.items()
         }
         return values.assign_coords(labels) if labels else values.item()
@@ -119,11 +121,11 @@ class PhysicalContact(InUnits):
     @property
     def moduli(self) -> Moduli:
         """Elastic constants of the two bodies."""
-        return next(iter(self.grid.seats.contacts.flat)).moduli
+        return next(iter(self.grid.at_rest.contacts.flat)).moduli
 
     @property
     def shape(self) -> dict[str, Any]:
-        """The shape of the profile: flat_radius, waviness_amplitude and wavelength, lengths, and exponent."""
+        """Shape parameters of the profile: lengths but for the exponent."""
         profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 
@@ -133,7 +135,7 @@ class PhysicalContact(InUnits):
         several = [name for name in self.grid.dims if name != "body"]
         if several:
             raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
-        return self.grid.seats.contacts.item()
+        return self.grid.at_rest.contacts.item()
 
     def parameters(self, body: int = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
@@ -153,7 +155,7 @@ class PhysicalContact(InUnits):
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
         # What scales a loop is 1 unless it is given.
-        needed = own["load"].scaled_by if isinstance(own["load"], Named) else ()
+        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
         if own["criterion"] != SWT:
             needed = (*needed, "normal_sensitivity")
         return {
@@ -179,7 +181,7 @@ class PhysicalContact(InUnits):
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         rest, grid = self._one, self.grid
         profile = parameters.get("profile", rest.profile)
-        kept = family_of(profile).shape if isinstance(profile, Named) or is_profile(profile) else ()
+        kept = family_of(profile).shape if isinstance(profile, Definition) or is_profile(profile) else ()
         every = self.parameters(grid.bulk_stress_body + 1)
         own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}

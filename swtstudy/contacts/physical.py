@@ -7,10 +7,10 @@ from typing import Any
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body
-from swtstudy.units.reading import Given, read_contacts
+from swtstudy.units.reading import ContactDetails, read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: What is asked of contacts, not given of them.
@@ -107,9 +107,9 @@ def physical(
     fixed, axes, wrong = spanned({n: value for n, value in parameters.items() if n not in _ASKED})
     fixed |= {n: _pair(value) for n, value in of_bodies.items() if value is not None}
     try:
-        about = Given(bulk_stress_body=checked_body(bulk_stress_body, "bulk_stress_body") - 1)
+        about = ContactDetails(bulk_stress_body=checked_body(bulk_stress_body, "bulk_stress_body") - 1)
     except StudyError as error:
-        about, mistakes = Given(), [*mistakes, *error.mistakes]
+        about, mistakes = ContactDetails(), [*mistakes, *error.mistakes]
     if "body" not in parameters:
         axes = {**axes, "body": LABELS}
     named = {} if bodies is None else {NAMES_KEY: bodies}
@@ -126,11 +126,11 @@ def _pair(value: object) -> object:
     return list(value) if dimensions_of(value) == 1 else value  # type: ignore[call-overload]
 
 
-def _defined(parameters: dict[str, Any]) -> dict[str, dict[str, Named]]:
+def _defined(parameters: dict[str, Any]) -> dict[str, dict[str, Definition]]:
     """The loops and tables among the values, by parameter and name."""
-    found: dict[str, dict[str, Named]] = {}
+    found: dict[str, dict[str, Definition]] = {}
     for name in ("load", "profile"):
         given = parameters.get(name)
         several = given if isinstance(given, list | tuple) else [given]
-        found[name] = {each.name: each for each in several if isinstance(each, Named)}
+        found[name] = {each.name: each for each in several if isinstance(each, Definition)}
     return found

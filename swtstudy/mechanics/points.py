@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.rows import Rows
 from swtstudy.vocabulary.prescribed import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Points:
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(Rows):
     """The solution of a batch of points, each array of shape (n,).
 
     Attributes
@@ -126,3 +127,10 @@ class Solution:
     critical_angle: FloatArray
     regime: NDArray[np.int8]
     s_surface: FloatArray
+
+    @classmethod
+    def blank(cls, count: int) -> Solution:
+        """A solution of so many points without values."""
+        s, s_error, critical_x, critical_angle, s_surface = np.full((5, count), np.nan)
+        regime = np.full(count, REGIMES.index("not_finite"), np.int8)
+        return cls(s, s_error, critical_x, critical_angle, regime, s_surface)

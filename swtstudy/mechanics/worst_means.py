@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt, nonlocal_swt
-from swtstudy.mechanics.line.candidates import SAME, candidates
+from swtstudy.mechanics.line.candidates import SAME_MAXIMUM, candidates
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -39,7 +39,7 @@ def worst_means(
     if not rows.size:
         return found
     others = candidates(scene.take(rows), _least(found)[rows])
-    near = SAME * scene.largest_radius
+    near = SAME_MAXIMUM * scene.largest_radius
     for number, x, double_angle, swt in zip(*others, strict=True):
         row = rows[number : number + 1]
         if np.abs(x - position[row]) <= near[row] or swt <= _least(found)[row]:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from swtstudy.points.codes import Definitions, code_of, control_code, control_of, value_of
 from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.definition import Definition, cost_of
 from swtstudy.vocabulary.families import FAMILIES, PLAIN_OF, family_of
-from swtstudy.vocabulary.named import Named, cost_of
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS
 
 if TYPE_CHECKING:
@@ -209,7 +209,7 @@ def describe_point(row: FloatArray, definitions: Definitions) -> str:
     profile, course = (value_of(row[_COLUMN[name]], definitions, name) for name in ("profile", "load"))
     shape = family_of(profile).shape if isinstance(profile, str) else ()
     parts = [f"profile={profile}", *(f"{name}={row[_COLUMN[name]]:.6g}" for name in shape)]
-    if isinstance(course, Named):
+    if isinstance(course, Definition):
         parts.append(f"load={course}")
     else:
         parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import Control
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 NAMES = PARAMETERS["profile"].names
 
 #: What a user has defined, by its code.
-Definitions = Mapping[float, Named]
+Definitions = Mapping[float, Definition]
 
 
-def code_of(value: str | Named, parameter: str = "profile") -> float:
+def code_of(value: str | Definition, parameter: str = "profile") -> float:
     """The number that stands for a value of a parameter that has names."""
-    return value.code if isinstance(value, Named) else float(PARAMETERS[parameter].names.index(value))
+    return value.code if isinstance(value, Definition) else float(PARAMETERS[parameter].names.index(value))
 
 
-def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Named:
+def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Definition:
     """The value that a number stands for."""
     names = PARAMETERS[parameter].names
     return names[int(code)] if code < len(names) else definitions[code]

@@ -6,7 +6,7 @@ import numpy as np
 
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.points.canonical import RATIO_COLUMNS, select
-from swtstudy.vocabulary.named import CONTENT_BITS
+from swtstudy.vocabulary.definition import CONTENT_BITS
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3

@@ -36,16 +36,16 @@ def check_criteria(
     if not others:
         if any(values("normal_sensitivity")):
             found = f"a value with the criterion {SWT}"
-            report(keys("normal_sensitivity"), found, f"it with {FATEMI_SOCIE} or {FINDLEY}")
+            report(keys("normal_sensitivity"), found, f"a value with {FATEMI_SOCIE} or {FINDLEY} only")
         return
     criteria = f"with the criterion {', '.join(others)}"
     if "normal_sensitivity" not in names:
         report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
     if any(value != PARAMETERS["walker_exponent"].default for value in values("walker_exponent")):
-        report(keys("walker_exponent"), f"a value {criteria}", f"it with {SWT} alone")
+        report(keys("walker_exponent"), f"a value {criteria}", f"a value with {SWT} only")
     if DISTANCE in names:
-        why = "means of others are not computed"
-        report(keys(DISTANCE), f"a value {criteria}", f"it with {SWT} alone: {why}")
+        why = "means by other criteria are not computed"
+        report(keys(DISTANCE), f"a value {criteria}", f"a value with {SWT} only: {why}")
     if SHARP in map(str, values("profile")):
         why = "next to its edge the stress has no bound, and where these are finite is not known"
-        report(keys("profile"), f"{SHARP} {criteria}", f"another one: {why}")
+        report(keys("profile"), f"{SHARP} {criteria}", f"another profile: {why}")

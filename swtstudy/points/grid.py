@@ -16,7 +16,7 @@ from swtstudy.points.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, 
 from swtstudy.points.codes import code_of, control_code
 from swtstudy.points.values import Value, read_value
 from swtstudy.vocabulary.axes import AXES
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import Control, replaced_by
@@ -74,15 +74,15 @@ class Grid:
         return Control.given((*self.fixed, *self.axes, *self.samples))
 
     @property
-    def definitions(self) -> dict[float, Named]:
+    def definitions(self) -> dict[float, Definition]:
         """The user's definitions, by their codes in canonical rows."""
         return {each.code: each for each in self.given}
 
     @property
-    def given(self) -> tuple[Named, ...]:
+    def given(self) -> tuple[Definition, ...]:
         """The user's definitions as they were given: several may be the same but for their names."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
-        return tuple(dict.fromkeys(value for value in values if isinstance(value, Named)))
+        return tuple(dict.fromkeys(value for value in values if isinstance(value, Definition)))
 
     @property
     def of_bodies(self) -> Mapping[str, tuple[float, float]]:
@@ -114,7 +114,7 @@ class Grid:
         columns["control"] = control_code(*map(np.array, force))
         columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
         # What does not scale a loop does not matter for it.
-        name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Named)]
+        name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Definition)]
         if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
             columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
         return canonical_points(columns)
@@ -176,7 +176,7 @@ class Grid:
 
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
-    if isinstance(value, str | Named):
+    if isinstance(value, str | Definition):
         return code_of(value, name)
     if isinstance(value, Fraction):
         return float({"p": value.numerator, "q": value.denominator}.get(name, value))
@@ -197,7 +197,7 @@ def complete(
     given = {*fixed, *axes, *samples}
     given |= replaced_by(given)
     loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
-    scaling = {name for value in loads if isinstance(value, Named) for name in value.scaled_by}
+    scaling = {name for value in loads if isinstance(value, Definition) for name in value.scaled_by}
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
             default = LOOP_AMPLITUDE if name in scaling else parameter.default

@@ -18,7 +18,7 @@ from swtstudy.points.records import STATES
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.criteria import BENEATH, MEANING, SWT
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.prescribed import CONTROLS
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attributes_of
@@ -203,7 +203,7 @@ def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDAr
 
 
 def _values(values: tuple[Value, ...]) -> NDArray:
-    if any(isinstance(value, str | Named) for value in values):
+    if any(isinstance(value, str | Definition) for value in values):
         return np.array([str(value) for value in values], dtype=object)
     return np.array([as_number(value) for value in values])
 

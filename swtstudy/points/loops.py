@@ -6,8 +6,8 @@ from collections.abc import Callable, Collection, Mapping
 
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, values_taken
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import replaced_by
 
@@ -25,11 +25,11 @@ def check_amplitudes(
 ) -> None:
     """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations."""
     loads = values_taken("load", fixed, axes)
-    if len({isinstance(load, Named) for load in loads}) < 2:
+    if len({isinstance(load, Definition) for load in loads}) < 2:
         return
     given = {*fixed, *axes}
     given |= replaced_by(given)
-    scaling = {name for load in loads if isinstance(load, Named) for name in load.scaled_by}
+    scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
     for name in (each for each in PARAMETERS if each in scaling and each not in given):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
         report(keys(name), "nothing", allowed)
@@ -95,7 +95,7 @@ def check_largest(
 
 def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     name = "bulk_stress_amplitude"
-    loops = [load for load in grid.values("load") if isinstance(load, Named)]
+    loops = [load for load in grid.values("load") if isinstance(load, Definition)]
     oscillating = [value for value in grid.values(name) if value != 0.0]
     if loops and oscillating and not any(name in load.scaled_by for load in loops):
         found = f"{literal(oscillating[0])} with a loop of two columns, {literal(loops[0].name)}"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from swtstudy.points.values import Value
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 
 #: Largest relative distance of a typed value from the value of an axis that it means: "3.141593" is π.
 TOLERANCE = 1e-6
@@ -32,7 +32,7 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = TOLERANCE) 
     >>> index_of(3.141593, (0.0, 3.141592653589793)), index_of(3.1416, (0.0, 3.141592653589793))
     (1, None)
     """
-    if isinstance(value, str | Named):
+    if isinstance(value, str | Definition):
         names = [str(each) for each in axis]
         return names.index(str(value)) if str(value) in names else None
     if not len(axis):

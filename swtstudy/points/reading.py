@@ -20,8 +20,8 @@ from swtstudy.points.plane import check_forces
 from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
@@ -31,7 +31,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 MANY_TURNS = 8.0 * math.pi
 
 #: What the user has defined, by parameter and name.
-Known = Mapping[str, Mapping[str, Named]]
+Known = Mapping[str, Mapping[str, Definition]]
 NOTHING_KNOWN: Known = {}
 
 #: More points than this along one axis are taken for a slip of the pen.
@@ -247,7 +247,7 @@ def _read_axis(
             continue
         values.append(value)
         # Definitions with the same name cannot be distinguished in results.
-        own = str(value) if isinstance(value, Named) else value
+        own = str(value) if isinstance(value, Definition) else value
         first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
         if first != own_key:
             report(own_key, f"{literal(element)}, the same as {first}", "distinct values")

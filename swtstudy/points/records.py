@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
 from swtstudy.points.canonical import COLUMNS, group_rows
 from swtstudy.points.result import Result
-from swtstudy.points.solutions import blank, joined, solution_at
 from swtstudy.vocabulary.quantities import columns_of
 
 #: States of a point, in the order of their flag values.
@@ -98,7 +97,7 @@ class Records:
     def missing(cls, table: FloatArray) -> Records:
         """Records of points that are all missing."""
         n = len(table)
-        return cls(table, blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
+        return cls(table, Solution.blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
 
     @classmethod
     def of(cls, result: Result, table: FloatArray, run: Run) -> Records:
@@ -126,7 +125,7 @@ class Records:
         messages = {i: self.messages[j] for i, j in enumerate(rows.tolist()) if j in self.messages}
         return Records(
             self.table[rows],
-            solution_at(self.solution, rows),
+            self.solution.take(rows),
             self.status[rows],
             self.run[rows],
             self.runs,
@@ -226,7 +225,7 @@ def join(parts: Iterable[Records]) -> Records:
         start += len(part)
     return Records(
         np.concatenate([part.table for part in parts]),
-        joined([part.solution for part in parts]),
+        Solution.joined([part.solution for part in parts]),
         np.concatenate([part.status for part in parts]),
         np.concatenate(run),
         runs,

@@ -10,9 +10,9 @@ import numpy as np
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import families_with, family_of
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -66,7 +66,7 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
 def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
     for profile in dict.fromkeys(grid.values("profile")):
-        if isinstance(profile, Named):
+        if isinstance(profile, Definition):
             _check_table(grid, profile, keys, report)
             continue
         profile = str(profile)

@@ -9,19 +9,19 @@ from numbers import Rational
 from typing import Any
 
 from swtstudy.points.expression import evaluate
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
-Value = float | Fraction | str | Named
+Value = float | Fraction | str | Definition
 
 #: Units of an angle that is not in rad.
 DEGREES = ("degrees", "deg", "°")
 
 #: No definitions.
-NOTHING: Mapping[str, Named] = {}
+NOTHING: Mapping[str, Definition] = {}
 
 #: Names of the parameters that are numbers: those that can have any value between two others.
 NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
@@ -35,7 +35,7 @@ def values_taken(name: str, fixed: Mapping[str, Any], along: Mapping[str, Sequen
     return along.get(name, (fixed.get(name, PARAMETERS[name].default),))
 
 
-def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = NOTHING) -> Value:
+def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:
     """The value of a parameter, from a number, a string such as "pi/2" or "3/2", or a name.
 
     Parameters
@@ -49,7 +49,7 @@ def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = N
 
     Returns
     -------
-    float, Fraction, str or Named
+    float, Fraction, str or Definition
         A Fraction for a frequency ratio, a built-in name or what was defined, a float otherwise.
 
     Raises
@@ -72,13 +72,13 @@ def read_value(parameter: Parameter, raw: object, known: Mapping[str, Named] = N
 
 def as_number(value: Value) -> float:
     """The value of a parameter that is a number."""
-    if isinstance(value, Named):
+    if isinstance(value, Definition):
         raise TypeError(f"{value!r} is no number")
     return float(value)
 
 
-def _read_name(parameter: str, raw: object, known: Mapping[str, Named]) -> str | Named:
-    if isinstance(raw, Named) and raw.parameter == parameter:
+def _read_name(parameter: str, raw: object, known: Mapping[str, Definition]) -> str | Definition:
+    if isinstance(raw, Definition) and raw.parameter == parameter:
         return raw
     if isinstance(raw, str) and raw in PARAMETERS[parameter].names:
         return raw

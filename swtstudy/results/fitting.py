@@ -128,7 +128,7 @@ class _Model:
     @property
     def distances(self) -> FloatArray:
         """Critical distances at which lives are computed."""
-        return DISTANCES * float(self.grid.seats.each(lambda contact: contact.contact_radius).min())
+        return DISTANCES * float(self.grid.at_rest.each(lambda contact: contact.contact_radius).min())
 
     def start(self) -> FloatArray:
         """Logarithms of the parameters at the best distance that is computed."""

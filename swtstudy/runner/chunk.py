@@ -11,7 +11,6 @@ import numpy as np
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
 from swtstudy.points.codes import Definitions
 from swtstudy.points.result import Result
-from swtstudy.points.solutions import blank, joined, solution_at
 from swtstudy.points.unique import UniquePoints
 from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
@@ -46,7 +45,7 @@ class Asked:
 
     def at(self, rows: IntArray | slice) -> Asked:
         """Return the values asked of the points at the given rows."""
-        return self if self.known is None else Asked(self.quantities, solution_at(self.known, rows))
+        return self if self.known is None else Asked(self.quantities, self.known.take(rows))
 
 
 #: s alone.
@@ -117,7 +116,7 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
     items = chunk.asked.quantities
     values = {name: np.concatenate([part[name] for part in quantities]) for name in columns_of(items)}
     seconds = time.perf_counter() - begin
-    solution = joined(list(solutions))
+    solution = Solution.joined(solutions)
     return Result(chunk.rows, solution, failed, messages, seconds, SOLVER_VERSION, items, values)
 
 
@@ -153,7 +152,7 @@ def solve_points(points: Points, rtol: float) -> Solution:
 def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
     """Return the results of a chunk whose points failed: NaN in every column."""
     values = {name: np.full(len(chunk), np.nan) for name in columns_of(chunk.asked.quantities)}
-    return blank(len(chunk)), values
+    return Solution.blank(len(chunk)), values
 
 
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from swtstudy.units.blocks import Block, wrong_rounds
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.named import Named
 
 
-def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Named], report: Report) -> tuple[Block, ...]:
+def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Definition], report: Report) -> tuple[Block, ...]:
     """The blocks of a study, those of a signal that keeps its cycles one by one; see `Block`.
 
     Parameters
@@ -42,7 +42,7 @@ def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Named], report: Repo
     return tuple(blocks)
 
 
-def _cycles(name: str, raw: Mapping[str, Any], loads: Mapping[str, Named]) -> list[str]:
+def _cycles(name: str, raw: Mapping[str, Any], loads: Mapping[str, Definition]) -> list[str]:
     """The names of the cycles of a load that keeps them, or its own."""
     table = raw.get("loads", {}).get(name) if isinstance(raw.get("loads"), dict) else None
     if not isinstance(table, dict) or table.get("keep_cycles") is not True:

@@ -10,13 +10,13 @@ from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.quantities import every_variable
 
 if TYPE_CHECKING:
-    from swtstudy.units.reading import Given
+    from swtstudy.units.reading import ContactDetails
     from swtstudy.vocabulary.parameter import Parameter
 
 
 def read_given(
     raw: Mapping[str, Any], fixed: Mapping[str, object], folder: Path, report: Report
-) -> tuple[Given | None, float | None]:
+) -> tuple[ContactDetails | None, float | None]:
     """Units and materials, None for a study without units; and the critical distance of the materials."""
     if not isinstance(raw.get("units"), dict):
         if "material" in raw and "units" not in raw:
@@ -24,12 +24,12 @@ def read_given(
         return None, None
     from swtstudy.units.labels import Units, read_units
     from swtstudy.units.material import read_material, warn_of_units
-    from swtstudy.units.reading import Given
+    from swtstudy.units.reading import ContactDetails
 
     # Wrong units are reported: meanwhile others stand for them.
     units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")
     if not isinstance(raw.get("material"), dict):
-        return Given(units), None
+        return ContactDetails(units), None
     young = fixed.get("young_modulus")
     pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
     sound = [_sound(each) for each in pair]
@@ -38,7 +38,7 @@ def read_given(
     materials = read_material(raw["material"], known, units, folder, report)
     if all(sound):
         warn_of_units(materials, (sound[0], sound[1]), units)
-    given = Given(units, materials.constants, yield_strengths=materials.yield_strengths)
+    given = ContactDetails(units, materials.constants, yield_strengths=materials.yield_strengths)
     return given, materials.critical_distance
 
 
@@ -60,7 +60,7 @@ def every_name() -> set[str]:
     return {*NAMES, *every_variable()}
 
 
-def rows_of(contacts: Given | None) -> Mapping[str, Parameter]:
+def rows_of(contacts: ContactDetails | None) -> Mapping[str, Parameter]:
     """The parameters that a study may have."""
     from swtstudy.vocabulary.parameters import PARAMETERS
 

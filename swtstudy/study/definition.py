@@ -17,6 +17,7 @@ from swtstudy.study.figure_check import check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml, read_text
 from swtstudy.vocabulary.mistakes import (
     STORABLE,
@@ -28,7 +29,6 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
     storable,
 )
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:
@@ -261,9 +261,9 @@ def _sample(
 
 def _definitions(
     raw: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, dict[str, Named]], list[Mistake]]:
+) -> tuple[dict[str, dict[str, Definition]], list[Mistake]]:
     """Return the definitions of the study, by parameter and name, as far as its structure is sound."""
-    known: dict[str, dict[str, Named]] = {}
+    known: dict[str, dict[str, Definition]] = {}
     mistakes: list[Mistake] = []
     for parameter in ("load", "profile"):
         tables = raw.get(f"{parameter}s", {})

@@ -8,9 +8,9 @@ from typing import Any
 
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.named import Named
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 #: The same for one that a real contact may be given without its mean load.
@@ -25,7 +25,7 @@ _BESIDE = {
 
 def read_loops(
     tables: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, Named], list[Mistake]]:
+) -> tuple[dict[str, Definition], list[Mistake]]:
     """The loops of a study, by name, and all that is wrong with them.
 
     Parameters
@@ -37,7 +37,7 @@ def read_loops(
     source
         The study, for messages.
     """
-    found: dict[str, Named] = {}
+    found: dict[str, Definition] = {}
     mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"loads.{name}"
@@ -93,7 +93,7 @@ def _placed(mistake: Mistake, key: str, kind: str, source: str) -> Mistake:
     return Mistake(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed, source)
 
 
-def _loop(name: str, table: Mapping[str, Any], kind: str) -> Named:
+def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:
     mean, absolute = table.get("mean_normal"), table.get("absolute")
     if kind == "normal":
         rows = table["normal"], table["tangential"], table.get("bulk") or ()

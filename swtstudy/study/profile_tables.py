@@ -12,9 +12,9 @@ from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.study.columns import form_of, read_columns, wrong_form
 from swtstudy.study.loops import place_of
 from swtstudy.study.trace import read_trace
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
-from swtstudy.vocabulary.named import Named
 
 #: Columns of the file of a profile.
 COLUMNS = ("radius", "height")
@@ -48,10 +48,10 @@ def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProf
 
 def read_profiles(
     tables: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, Named], list[Mistake]]:
+) -> tuple[dict[str, Definition], list[Mistake]]:
     """The profiles of a study, by name, and all that is wrong with them; as `read_loops` for loads."""
     # A wrong profile stands for any: that it is used is no mistake of its own.
-    found: dict[str, Named] = {name: _ANY for name in tables}
+    found: dict[str, Definition] = {name: _ANY for name in tables}
     mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"profiles.{name}"

@@ -8,7 +8,6 @@ from typing import Any
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import NUMERIC
-from swtstudy.study.figure import QUANTITY, VARIABLES
 from swtstudy.study.sampling.distribution import KINDS
 from swtstudy.study.tables import StudyTable
 from swtstudy.units.labels import KINDS as UNITS
@@ -25,86 +24,6 @@ from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 SCHEMA_FILE = "study.schema.json"
 SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
-_DESCRIPTIONS = {
-    "title": "One line that describes the study.",
-    "rtol": "Relative accuracy asked of s.",
-    "quantities": "What is computed beside s, as data variables of the results.",
-    "fixed": "Parameters with a single value. Parameters not given have the values of the paper's Table 1.",
-    "axes": "Parameters with several values, in the order of the dimensions: a list or a range.",
-    "sample": "Parameters that vary together along the dimension sample: a design, or given points.",
-    "units": "Labels of length, force and stress, any consistent set: then the parameters have these units.",
-    "material": "Fatigue constants, each a value or one for each body; or names from a file. For cycles.",
-    "loads": "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
-    "optionally, bulk, or harmonics.",
-    "profiles": "Profiles by name: radius and height, or a CSV file with these columns.",
-    "blocks": "Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only.",
-    "figure": "What the figure puts where; every axis needs a place.",
-}
-_RANGE_DESCRIPTIONS = {
-    "start": 'First value; a number, or a text such as "2*pi".',
-    "stop": "Last value, included.",
-    "num": "Number of values.",
-    "spacing": 'Equal steps ("linear") or equal ratios ("log").',
-    "also": "Further values, put in among those: where curves bend, for example.",
-}
-_PROFILE_DESCRIPTIONS = {
-    "radius": "Radii r, in a length a_H: at least 8, ascending from 0.",
-    "height": "Heights f at these radii, in a depth δ0: 0 at the axis.",
-    "file": "Path of a CSV file, relative to the study, with a header and the columns radius and height.",
-    "smoothing": "Root mean square of what the fit may miss of the heights; 0 to miss none.",
-    "columns": "Headers of the file's columns radius and height, or position and height, if they are others.",
-    "separator": 'Between the cells of the file: ",", ";", "|", a tab, or a blank for any number of blanks.',
-    "decimal": 'The decimal sign in the file: "." or ",".',
-    "two_sided": "Whether the file is a trace across the body, with the columns position and height.",
-    "level": "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.",
-    "geometry": '"axisymmetric", or "plane" for a long body: its radii are then half-widths.',
-}
-_SAMPLE_DESCRIPTIONS = {
-    "design": "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).",
-    "size": "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).",
-    "seed": "Seed of the random numbers.",
-    "ranges": "Sampled parameters: both ends, [low, high], or a distribution.",
-    "file": "CSV file of points: a row with names of parameters, then a row for each point.",
-    "points": "Points given here: a list of values for each parameter, all of one length.",
-}
-_LOAD_DESCRIPTIONS = {
-    "vertices": "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "
-    "tangential one its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b.",
-    "file": "Path of a table, relative to the study, with a header and the columns normal, tangential "
-    "and, optionally, bulk, of one cycle or of several.",
-    "normal": "Harmonics of c_n instead of vertices: rows of order, amplitude and phase.",
-    "tangential": "Harmonics of c_t: rows of order, amplitude and phase.",
-    "bulk": "Harmonics of c_b, beside those: rows of order, amplitude and phase.",
-    "mean_normal": "The mean normal load from which c_n of vertices or harmonics deviates, in its unit.",
-    "columns": "Headers of the file's columns normal, tangential and bulk, where they are not these words.",
-    "absolute": "Whether the normal column is the load itself: its mean is the mean load of the study.",
-    "separator": 'Between the cells of the file: ",", ";", "|", a tab, or a blank for any number of blanks.',
-    "decimal": 'The decimal sign in the file: "." or ",".',
-    "time": "Header of the file's column of the time; without it samples are even.",
-    "recorded_cycles": "Number of cycles that the file holds: they are folded into their mean.",
-    "period": "Length of a cycle in the place of their number, in the unit of the time, or in samples.",
-    "harmonics": "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
-    "keep_cycles": "Whether blocks of the load run all recorded cycles in turn, not their mean.",
-}
-_BLOCK_DESCRIPTIONS = {
-    "load": "Name of a load; of a signal that keeps its cycles all of them in turn.",
-    "rounds": "How many rounds of it there are in each repetition of the sequence.",
-}
-_FIGURE_DESCRIPTIONS = {
-    "kind": "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
-    "scatter or histogram of a sample.",
-    "x": 'Axis along the horizontal axis; "sample" for a scatter or histogram.',
-    "vertical": "Axis along the vertical axis of contours or a heat map.",
-    "hue": "Axis whose values are the lines.",
-    "panels": "Axis whose values are the panels side by side.",
-    "y": (
-        f"One row of panels for each: {', '.join(VARIABLES)}, "
-        f"a quantity that the study asks for, or {QUANTITY} for s over its value at one place."
-    ),
-    "title": "Title over the figure.",
-    "regimes": "Whether to mark where a regime of the contact begins along a line.",
-    "validity": "Whether to mark points outside of what the model holds for, such as beyond first yield.",
-}
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
 #: Keys of the figure whose values are names of axes.
@@ -118,9 +37,8 @@ def study_schema() -> dict[str, Any]:
     schema = StudyTable.model_json_schema()
     schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_without_titles(schema)}
     parts, keys = schema["$defs"], schema["properties"]
-    _describe(keys, parts)
     keys["quantities"] = {
-        "description": _DESCRIPTIONS["quantities"],
+        "description": keys["quantities"]["description"],
         "type": "array",
         "items": {"anyOf": [{"const": row.name, "description": row.comment} for row in NAMED.values()]},
         "uniqueItems": True,
@@ -129,8 +47,8 @@ def study_schema() -> dict[str, Any]:
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
-    keys["units"] = {"description": _DESCRIPTIONS["units"], **_units()}
-    keys["material"] = {"description": _DESCRIPTIONS["material"], **_material()}
+    keys["units"] = {"description": keys["units"]["description"], **_units()}
+    keys["material"] = {"description": keys["material"]["description"], **_material()}
     _name_keys(keys, parts["SampleTable"]["properties"], given)
     schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
     roles = parts["FigureTable"]["properties"]
@@ -140,21 +58,6 @@ def study_schema() -> dict[str, Any]:
             "description": roles[role]["description"],
         }
     return schema
-
-
-def _describe(keys: dict[str, Any], parts: dict[str, Any]) -> None:
-    """Say what each key of each table is."""
-    for table, descriptions in (
-        (keys, _DESCRIPTIONS),
-        (parts["RangeTable"]["properties"], _RANGE_DESCRIPTIONS),
-        (parts["SampleTable"]["properties"], _SAMPLE_DESCRIPTIONS),
-        (parts["LoadTable"]["properties"], _LOAD_DESCRIPTIONS),
-        (parts["BlockTable"]["properties"], _BLOCK_DESCRIPTIONS),
-        (parts["ProfileTable"]["properties"], _PROFILE_DESCRIPTIONS),
-        (parts["FigureTable"]["properties"], _FIGURE_DESCRIPTIONS),
-    ):
-        for name, entry in table.items():
-            entry["description"] = descriptions[name]
 
 
 def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str, Parameter]) -> None:

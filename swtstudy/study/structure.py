@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 
 from swtstudy.study.tables import (
+    Allowed,
     BlockTable,
     FigureTable,
     LoadTable,
@@ -15,37 +16,18 @@ from swtstudy.study.tables import (
     RangeTable,
     SampleTable,
     StudyTable,
+    Table,
 )
-from swtstudy.vocabulary.accuracy import ALLOWED_RTOL
 from swtstudy.vocabulary.mistakes import Mistake, literal, nearest
 
-#: What is allowed at a key, where pydantic's own message would not say it.
-_ALLOWED = {
-    "title": "a text that is not empty",
-    "rtol": ALLOWED_RTOL,
-    "fixed": "a table of single values",
-    "axes": "a table of axes",
-    "sample": "a table with design, size and ranges, or with file",
-    "sample.design": '"sobol", "latin_hypercube", "random" or "saltelli"',
-    "sample.size": "a whole number",
-    "sample.seed": "a whole number",
-    "sample.ranges": "a table of ranges",
-    "sample.file": "the path of a CSV file",
-    "sample.points": "a table of lists of values",
-    "units": "a table with length, force and stress",
-    "material": "a table of fatigue constants",
-    "loads": "a table of loops, [loads.NAME]",
-    "profiles": "a table of profiles, [profiles.NAME]",
-    "figure": "a table with x and, optionally, kind, vertical, hue, panels, y, title, regimes and validity",
-    "figure.kind": '"lines", "life", "contour", "heatmap", "scatter" or "histogram"',
-    "figure.vertical": "the name of an axis",
-    "figure.x": "the name of an axis",
-    "figure.hue": "the name of an axis",
-    "figure.panels": "the name of an axis",
-    "figure.y": 'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
-    "figure.title": "a text",
-    "figure.regimes": "true or false",
-    "figure.validity": "true or false",
+#: The tables within a study: how many keys lead to one, and its keys.
+_INNER: dict[str, tuple[int, type[Table]]] = {
+    "axes": (2, RangeTable),
+    "sample": (1, SampleTable),
+    "loads": (2, LoadTable),
+    "profiles": (2, ProfileTable),
+    "blocks": (2, BlockTable),
+    "figure": (1, FigureTable),
 }
 
 
@@ -67,38 +49,23 @@ def _mistake(detail: Any, source: str) -> Mistake:
     key = ".".join(map(str, path))
     if detail["type"] == "extra_forbidden":
         return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)
-    if path[0] == "axes" and len(path) == 2:
-        allowed = "a list of values or {start, stop, num}"
-    elif path[0] == "loads" and len(path) == 2:
-        allowed = "a table with vertices or file"
-    elif path[0] == "profiles" and len(path) == 2:
-        allowed = "a table with radius and height, or file"
-    elif path[0] == "blocks":
-        allowed = "the name of a load" if path[-1] == "load" else "[[blocks]] with load and rounds"
-    elif path[-1] in ("keep_cycles", "two_sided", "level"):
-        allowed = "true or false"
-    elif path[0] in ("loads", "profiles") and path[-1] == "file":
-        allowed = "the path of a CSV file"
-    elif path[0] == "axes" and path[-1] == "spacing":
-        allowed = '"linear" or "log"'
-    elif path[0] == "axes" and path[-1] == "also":
-        allowed = "a list of values"
-    elif path[0] == "axes" and path[-1] == "num":
-        allowed = "a whole number"
-    else:
-        allowed = _ALLOWED.get(key, detail["msg"])
+    allowed = _allowed(path) or detail["msg"]
     found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
     return Mistake(key, found, allowed, source)
 
 
+def _allowed(path: list[Any]) -> str:
+    """Words for what a key or the place of a table may hold; empty where pydantic's message says it."""
+    depth, table = _INNER.get(str(path[0]), (0, StudyTable))
+    if len(path) == depth:
+        return table.allowed
+    if len(path) > depth + 1:
+        return ""
+    model, name = (table, path[depth]) if len(path) > depth else (StudyTable, path[0])
+    metadata = model.model_fields[name].metadata if name in model.model_fields else []
+    return next((each.words for each in metadata if isinstance(each, Allowed)), "")
+
+
 def _known(path: list[Any]) -> list[str]:
-    inner: dict[str, type[BaseModel]] = {
-        "axes": RangeTable,
-        "sample": SampleTable,
-        "loads": LoadTable,
-        "profiles": ProfileTable,
-        "blocks": BlockTable,
-        "figure": FigureTable,
-    }
-    model = inner.get(str(path[0]), StudyTable) if len(path) > 1 else StudyTable
-    return list(model.model_fields)
+    depth, table = _INNER.get(str(path[0]), (0, StudyTable))
+    return list((table if len(path) > depth else StudyTable).model_fields)

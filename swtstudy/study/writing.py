@@ -8,7 +8,7 @@ from fractions import Fraction
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
-from swtstudy.vocabulary.named import Named
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request
 
 
@@ -84,7 +84,7 @@ def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
 
 
 def _literal(value: Value) -> str:
-    return quoted(str(value)) if isinstance(value, str | Fraction | Named) else repr(value)
+    return quoted(str(value)) if isinstance(value, str | Fraction | Definition) else repr(value)
 
 
 def quoted(text: str) -> str:

@@ -1,1 +1,1 @@
-"""Quantities with a unit: elastic moduli and what sizes are possible."""
+"""Contacts with units: their grids, scales and materials, their lives, and the way to plain numbers."""

@@ -12,12 +12,12 @@ from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.loops import check_largest
 from swtstudy.points.shapes import largest_depths, largest_reach
 from swtstudy.points.values import Value, as_number
+from swtstudy.units.contacts_at_rest import AT_REST_NAMES, MOST_CONTACTS, at_rest_dims
 from swtstudy.units.rows import MEAN_LOADS
-from swtstudy.units.seats import MOST_SEATS, SEAT_NAMES, seat_dims
 from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import family_of
 from swtstudy.vocabulary.mistakes import Report
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
@@ -32,12 +32,12 @@ _SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
 
 def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
     """Contacts that cannot be made, parameters beyond their range, and shapes that are not compact."""
-    dims = seat_dims(grid)
+    dims = at_rest_dims(grid)
     count = int(np.prod([size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims]))
-    if count > MOST_SEATS:
-        report(", ".join(map(keys, dims)), f"{count} different contacts at rest", f"at most {MOST_SEATS}")
+    if count > MOST_CONTACTS:
+        report(", ".join(map(keys, dims)), f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
         return
-    wrong = grid.seats.wrong
+    wrong = grid.at_rest.wrong
     if wrong:
         error, own = wrong[0]
         more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
@@ -68,7 +68,7 @@ def _in_range(grid: PhysicalGrid, column: str, keys: Keys, report: Report) -> bo
     here = _at(grid, at)
     own, unit = as_number(here[source]), grid.row(source).units
     number = float(values.values[first])
-    words = _words(grid, {name: here[name] for name in SEAT_NAMES if name in here and name != source})
+    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here and name != source})
     more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
     scale = AXES[source].scale or row.scale
     found = f"{own:g} {unit}".strip()
@@ -102,7 +102,7 @@ def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
     """Which contact it is: its size and load, and whatever else varies."""
     words = []
     for name, value in values.items():
-        if isinstance(value, str | Named) or (name not in _SAID and grid.dimension(name) is None):
+        if isinstance(value, str | Definition) or (name not in _SAID and grid.dimension(name) is None):
             continue
         unit = grid.row(name).units
         words.append(f"{name} = {as_number(value):g}{'' if unit in ('1', '') else f' {unit}'}")
@@ -112,7 +112,7 @@ def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
 def _check_shapes(grid: PhysicalGrid, profile: Value, keys: Keys, report: Report) -> None:
     """A profile whose contact is no full disc, up to the largest depth of each load."""
     names = family_of(profile).shape
-    if not names and not isinstance(profile, Named):
+    if not names and not isinstance(profile, Definition):
         return
     places, numbers = _largest(grid, profile, names)
     shape = {name: numbers[name] for name in names}
@@ -126,7 +126,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, keys: Keys, report: Report
     first = int(np.flatnonzero(wrong)[0])
     here = _at(grid, {dim: index[first] for dim, index in places.items()})
     amplitude = grid.control.given_for("normal_amplitude")
-    words = _words(grid, {name: here[name] for name in SEAT_NAMES if name in here})
+    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
     words += f", {amplitude} = {as_number(here[amplitude]):g} {grid.row(amplitude).units}".rstrip()
     more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
     why = check_shape(
@@ -141,13 +141,13 @@ def _largest(
     """Places of the contacts of a profile, their shapes, tables and largest depths, of shape (n,)."""
     import xarray as xr
 
-    seats = grid.seats
+    at_rest = grid.at_rest
     pure = xr.DataArray(
-        np.vectorize(lambda c: c.pure_profile, otypes=[object])(seats.contacts), dims=seats.dims
+        np.vectorize(lambda c: c.pure_profile, otypes=[object])(at_rest.contacts), dims=at_rest.dims
     )
-    own = np.vectorize(lambda c: c.profile == profile, otypes=[bool])(seats.contacts)
+    own = np.vectorize(lambda c: c.profile == profile, otypes=[bool])(at_rest.contacts)
     parts = [grid.numbers[name] for name in names]
-    every = xr.broadcast(grid.numbers["normal_amplitude"], xr.DataArray(own, dims=seats.dims), pure, *parts)
+    every = xr.broadcast(grid.numbers["normal_amplitude"], xr.DataArray(own, dims=at_rest.dims), pure, *parts)
     amplitude, is_own, pure, *shapes = every
     rows = np.flatnonzero(is_own.values)
     index = np.argwhere(is_own.values).T

@@ -16,16 +16,15 @@ from swtstudy.points.codes import code_of
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.units.blocks import Block
-from swtstudy.units.bulk import ends_of_bulk, mean_of_bulk
+from swtstudy.units.contacts_at_rest import ContactsAtRest, contacts_at_rest
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import mean_of_loads
+from swtstudy.units.loads import ends_of_bulk, mean_of_bulk, mean_of_loads
 from swtstudy.units.rows import rows
-from swtstudy.units.seats import Seats, seats_of
 from swtstudy.units.strips import labels_of
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import is_plane
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import Request, item_of
@@ -121,16 +120,16 @@ class PhysicalGrid(Grid):
         return self.rows[name]
 
     @cached_property
-    def seats(self) -> Seats:
+    def at_rest(self) -> ContactsAtRest:
         """The contacts at rest."""
-        return seats_of(self)
+        return contacts_at_rest(self)
 
     @property
-    def definitions(self) -> dict[float, Named]:
+    def definitions(self) -> dict[float, Definition]:
         """The user's definitions, by their codes in canonical rows: tables in a_H and δ0."""
-        tables = (contact.pure_profile for contact in self.seats.contacts.flat)
+        tables = (contact.pure_profile for contact in self.at_rest.contacts.flat)
         loads = {each.code: each for each in self.given if each.parameter == "load"}
-        return loads | {table.code: table for table in tables if isinstance(table, Named)}
+        return loads | {table.code: table for table in tables if isinstance(table, Definition)}
 
     def along(self, name: str) -> xr.DataArray:
         """The numbers of a parameter, over its dimension if it has one."""
@@ -151,13 +150,15 @@ class PhysicalGrid(Grid):
     @cached_property
     def numbers(self) -> dict[str, xr.DataArray]:
         """The non-dimensional parameters that are numbers, over the dimensions that each depends on."""
-        found = {name: self.seats.shape(name) for name in SHAPE_COLUMNS}
+        found = {name: self.at_rest.shape(name) for name in SHAPE_COLUMNS}
         found["poisson_ratio"] = self.of_body("poisson_ratio")
         for column, row in PARAMETERS.items():
             source = self._source(column)
             if row.kind == "number" and column not in found and column in COLUMNS and self.values(source):
                 scale = PARAMETERS[source].scale
-                found[column] = _over(self.along(source), self.seats.scale(scale) if scale else _scalar(1.0))
+                found[column] = _over(
+                    self.along(source), self.at_rest.scale(scale) if scale else _scalar(1.0)
+                )
         if self.yield_strengths:
             found["normal_sensitivity"] = found["normal_sensitivity"] * self._sensitivity_scale
         if self.values("bulk_stress_ratio"):
@@ -173,7 +174,7 @@ class PhysicalGrid(Grid):
     @property
     def _sensitivity_scale(self) -> xr.DataArray:
         """κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1."""
-        one, two = (self.seats.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
+        one, two = (self.at_rest.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
         is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
         return one.where(self.bodies == 0, two).where(self.over_dimension("criterion", is_ours), 1.0)
 
@@ -201,9 +202,9 @@ class PhysicalGrid(Grid):
                 values, dims = self.numbers[name].values, tuple(map(str, self.numbers[name].dims))
                 found[name] = dims, values if PARAMETERS[name].units == "rad" else rounded(values)
             elif name == "profile":
-                contacts = self.seats.contacts
+                contacts = self.at_rest.contacts
                 profiles = np.array([code_of(contact.pure_profile, name) for contact in contacts.flat])
-                found[name] = self.seats.dims, profiles.reshape(contacts.shape)
+                found[name] = self.at_rest.dims, profiles.reshape(contacts.shape)
             else:
                 dim = self.dimension(self._source(name))
                 codes = self._codes[name]
@@ -236,7 +237,7 @@ class PhysicalGrid(Grid):
     @property
     def curvatures(self) -> NDArray[np.float64]:
         """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
-        over = self.seats.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+        over = self.at_rest.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
         shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]
         return np.broadcast_to(over.values.reshape(shape), self.shape).ravel()
 
@@ -248,7 +249,7 @@ class PhysicalGrid(Grid):
 
     def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
         """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
-        length = self.seats.scale("a_H")
+        length = self.at_rest.scale("a_H")
         names: dict[str, int] = {}
         at = np.empty((len(asked.distances), self.size), np.int64)
         position = self._position(0, self.size) if len(length.dims) else {}

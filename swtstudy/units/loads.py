@@ -1,8 +1,9 @@
-"""Loops that were measured as loads: what need not be given of a contact that has them."""
+"""Loops that were measured as loads: what a contact then lacks; the mean of a bulk stress from its ratio."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from typing import Any
 
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.loop import Loop
@@ -41,3 +42,15 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
         kind = "" if "normal_amplitude" in given else "force_"
         found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
     return found
+
+
+def ends_of_bulk(load: object) -> tuple[float, float]:
+    """Least and largest value of what the amplitude of the bulk stress scales."""
+    if isinstance(load, Loop):
+        return (0.0, 0.0) if load.bulk is None else load.bulk.ends
+    return -1.0, 1.0
+
+
+def mean_of_bulk(ratio: Any, amplitude: Any, least: Any, largest: Any) -> Any:
+    """The mean at which a bulk stress between these `ends_of_bulk` has a ratio of least over largest."""
+    return amplitude * (ratio * largest - least) / (1.0 - ratio)

@@ -34,9 +34,9 @@ from swtstudy.units.rows import (
 )
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
-from swtstudy.vocabulary.named import Named
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
@@ -44,7 +44,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 
 
 @dataclass(frozen=True)
-class Given:
+class ContactDetails:
     """The facts that are given of contacts besides the values of their parameters; see `PhysicalGrid`."""
 
     units: Units = field(default_factory=Units)
@@ -59,7 +59,7 @@ class Given:
 def read_contacts(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
-    given: Given,
+    given: ContactDetails,
     keys: Callable[[str], str] = lambda name: name,
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
@@ -107,7 +107,7 @@ def read_contacts(
 def _check_units_of_criteria(
     fixed: Mapping[str, Value],
     along: Mapping[str, tuple[Value, ...]],
-    given: Given,
+    given: ContactDetails,
     report: Report,
 ) -> None:
     """The criterion that needs the strength of the bodies, and the one that has no life."""
@@ -183,11 +183,11 @@ def _scaling(*values: Mapping[str, Value | tuple[Value, ...]]) -> set[str]:
     return {name for load in _loops(*values) for name in load.scaled_by}
 
 
-def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Named]:
+def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Definition]:
     """The loops among the loads."""
     loads = (each.get("load", ()) for each in values)
     every = (load for each in loads for load in (each if isinstance(each, tuple) else (each,)))
-    return [load for load in every if isinstance(load, Named)]
+    return [load for load in every if isinstance(load, Definition)]
 
 
 def _differ(grid: PhysicalGrid) -> bool:
@@ -230,7 +230,7 @@ def _check_given(
     report: Report,
 ) -> None:
     """Report which values a contact lacks, and which exclude one another."""
-    tables = [isinstance(profile, Named) for profile in good.get("profile", ("paraboloid",))]
+    tables = [isinstance(profile, Definition) for profile in good.get("profile", ("paraboloid",))]
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
@@ -287,7 +287,7 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
                 return
 
 
-def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
+def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, float]]]:
     """Read the attribute of results; see `swtstudy.units.grid.PhysicalGrid`.
 
     Raises
@@ -304,7 +304,7 @@ def read_contact(text: object) -> tuple[Given, dict[str, tuple[float, float]]]:
         pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
         materials = tuple(FatigueConstants(**each) for each in raw["materials"])
         blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
-        given = Given(
+        given = ContactDetails(
             units,
             materials,
             float(raw["similar"]),

@@ -168,7 +168,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     """Names and dimensions of the data variables of a grid with units that one without does not have."""
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
     for each in variables(grid, asked):
-        found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.seats.dims
+        found[each.name] = (*grid.dims, *asked.variables.get(each.of, ())) if each.of else grid.at_rest.dims
     for life, repetitions, share in lives_in([*found]) if grid.blocks else ():
         found[share] = found[life]
         found[repetitions] = tuple(dim for dim in found[life] if dim != "load")
@@ -200,33 +200,33 @@ def _at_rest(grid: PhysicalGrid) -> Iterator[Variable]:
 
 
 def _each(value: Callable[[Contact], float], grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.each(value)
+    return grid.at_rest.each(value)
 
 
 def _swt_scale(grid: PhysicalGrid) -> xr.DataArray:
     """SWT of each body over s."""
-    one = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(0))
-    two = grid.seats.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(1))
+    one = grid.at_rest.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(0))
+    two = grid.at_rest.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(1))
     return one.where(grid.bodies == 0, two)
 
 
 def _strain_scale(grid: PhysicalGrid) -> xr.DataArray:
     """The unit of stress over the shear modulus of each body."""
-    one = grid.seats.each(lambda contact: contact.stress_scale / contact.moduli.shear[0])
-    two = grid.seats.each(lambda contact: contact.stress_scale / contact.moduli.shear[1])
+    one = grid.at_rest.each(lambda contact: contact.stress_scale / contact.moduli.shear[0])
+    two = grid.at_rest.each(lambda contact: contact.stress_scale / contact.moduli.shear[1])
     return one.where(grid.bodies == 0, two)
 
 
 def _stress_scale(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.scale("E* δ0/a_H")
+    return grid.at_rest.scale("E* δ0/a_H")
 
 
 def _length(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.scale("a_H")
+    return grid.at_rest.scale("a_H")
 
 
 def _stress(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.scale("E* δ0/a_H")
+    return grid.at_rest.scale("E* δ0/a_H")
 
 
 def _over_strength(grid: PhysicalGrid) -> xr.DataArray:
@@ -236,7 +236,7 @@ def _over_strength(grid: PhysicalGrid) -> xr.DataArray:
 
 
 def _work(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.seats.each(lambda contact: contact.work_scale)
+    return grid.at_rest.each(lambda contact: contact.work_scale)
 
 
 def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
@@ -246,7 +246,7 @@ def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterio
     """
     materials: Sequence[FatigueConstants | ShearConstants] = grid.materials
     if criterion == FATEMI_SOCIE:
-        poisson = grid.seats.contacts.flat[0].moduli.poisson
+        poisson = grid.at_rest.contacts.flat[0].moduli.poisson
         materials = [ShearConstants.estimated(*both) for both in zip(grid.materials, poisson, strict=True)]
     # Runs of before have means that are below 0 by rounding.
     swt = swt.clip(min=0.0)

@@ -327,7 +327,7 @@ def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
         if not isinstance(name, str):
             report(place, literal(name), ALLOWED)
         elif name in NONLOCAL:
-            report(place, literal(name), f"it by giving {DISTANCE} a value")
+            report(place, literal(name), f"a value of {DISTANCE} instead, which asks for it")
         elif name in COUNTED:
             report(place, literal(name), "it in studies with [material], which have it")
         elif name not in NAMED:

@@ -75,3 +75,11 @@ def test_a_smooth_loop_without_units_is_drawn_too() -> None:
     assert (path.get_xlabel(), course.get_legend().get_texts()[0].get_text()) == ("normal load", "normal")
     with pytest.raises(StudyError, match="load: found 'harmonic'"):
         draw_load(Study.from_text(text), "harmonic")
+
+
+def test_a_depth_and_a_force_have_units_each() -> None:
+    mixed = "depth = 0.006\ntangential_force_amplitude = 1\nload = "
+    text = RIG.replace("load = ", mixed, 1)
+    text = text[: text.index("file = ")] + "vertices = [[0, -20], [0, 20]]\n"
+    path = draw_load(Study.from_text(text), "rig").axes[1]
+    assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (mm)", "tangential load (N)")

@@ -18,9 +18,8 @@ from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
 from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
 from swtstudy.mechanics.load.polygon import PolygonLoad
-from swtstudy.mechanics.margins import Margins
+from swtstudy.mechanics.margins import Margins, bulk_shift
 from swtstudy.mechanics.solver import solve_points
-from swtstudy.mechanics.stress.bulk_shift import bulk_shift
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, prescribed_scene, scene_of

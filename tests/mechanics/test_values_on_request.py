@@ -13,14 +13,14 @@ from swtstudy.mechanics import quantities
 from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.of_points import load_of
+from swtstudy.mechanics.points import Solution
 from swtstudy.mechanics.stress import conjugate, work
-from swtstudy.points.solutions import blank
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, QUANTITIES, attributes_of
 
 
 def computed(points, names):
     """Quantities that need no solution."""
-    return quantities.quantities_of(points, names, blank(len(points)))
+    return quantities.quantities_of(points, names, Solution.blank(len(points)))
 
 
 def test_the_table_is_complete() -> None:

@@ -55,3 +55,11 @@ def test_files_of_tests_exist() -> None:
     assert not [
         (str(path.relative_to(ROOT)), name) for path, name in sorted(named) if not (ROOT / name).exists()
     ]
+
+
+def test_docstrings_begin_with_what_a_thing_is_or_does() -> None:
+    """No question words, and no pronoun without a noun."""
+    vague = re.compile(r'^\s*r?"""(?:What|Whether|Those|How)\b.*', re.MULTILINE)
+    files = sorted((ROOT / "swtstudy").rglob("*.py"))
+    found = [(path.name, line) for path in files for line in vague.findall(path.read_text("utf-8"))]
+    assert not found

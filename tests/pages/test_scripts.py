@@ -6,6 +6,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from importlib.util import find_spec
 
 import pytest
@@ -67,6 +68,14 @@ def test_every_file_is_a_script_or_of_use_to_one():
     for module in modules:
         if module.name != "__main__.py":
             assert module.stem in imported_beside(module), f"{module} is not run"
+
+
+def test_mutants_that_may_live_are_changes_of_the_package():
+    """Of lines that are there: others would excuse nothing."""
+    table = tomllib.loads((STUDIES / "checks" / "mutants_that_may_live.toml").read_text(encoding="utf-8"))
+    for mutant in table["mutant"]:
+        text = (ROOT / "swtstudy" / mutant["file"]).read_text(encoding="utf-8")
+        assert mutant["was"] in " ".join(text.split()), mutant["file"]
 
 
 def imported_beside(module):

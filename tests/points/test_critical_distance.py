@@ -142,7 +142,7 @@ def test_figures_over_critical_distances(tmp_path: Path, monkeypatch: pytest.Mon
         ("[axes]\ncritical_distance = []", r"axes\.critical_distance: found an empty axis"),
         ("[axes]\ncritical_distance = [0.1, '1/10']", r"distance\[1\]: found '1/10', the same as"),
         ("[fixed]\ncritical_distance = 0.1\n[axes]\ncritical_distance = [0.1]", "a fixed value and an axis"),
-        ("quantities = ['s_volume']", r"\[0\]: found 's_volume'; allowed: it by giving critical_distance"),
+        ("quantities = ['s_volume']", r"\[0\]: found 's_volume'; allowed: a value of critical_distance"),
         ("[fixed]\ncritical_distanse = 0.1", r"did you mean critical_distance\?"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -141,3 +142,14 @@ def test_attributes_of_an_archive(
     dataset.to_netcdf(tmp_path / "a.nc")
     with pytest.raises(ArchiveError, match=words):
         open_results(tmp_path / "a.nc")
+
+
+@pytest.mark.parametrize("other", ["[0.5]", "{start = 0.1, stop = 1, num = 500000}"])
+def test_axes_that_are_too_long_only_together_are_told_of_at_once(other: str) -> None:
+    text = f'title = "t"\n[axes]\nphase = {{start = 0, stop = 1, num = 1000000}}\nfriction = {other}'
+    begin = time.process_time()
+    with pytest.raises(
+        StudyError, match=r"axes.phase, axes.friction: .* at most 1000000 values along all axes"
+    ):
+        Study.from_text(text)
+    assert time.process_time() - begin < 1.0

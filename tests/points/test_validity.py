@@ -153,6 +153,10 @@ def test_a_life_beyond_the_constants_is_said(rig):
     (line,) = [line for line in validity_lines(long) if "cycles" in line]
     assert line == "2 of 3 points with cycles outside of 100 to 1e7, extrapolated: 2e+07 to 5e+08"
     assert float(ALUMINIUM.cycles(ALUMINIUM.swt(1e7))) == pytest.approx(1e7)
+    volume = rig.assign(cycles_volume=rig.cycles * 0.0 + np.array([5e8, 1e4, 1e4]))
+    assert "1 of 3 points with cycles_volume outside of 100 to 1e7, extrapolated: 5e+08" in validity_lines(
+        volume
+    )
 
 
 def test_a_whole_grid_without_a_value_says_why():

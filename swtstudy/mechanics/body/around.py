@@ -159,7 +159,7 @@ class Around:
         return Estimate.of(value, of_places, missing)
 
     def _refine_spheres(self, found: Estimate, of_axes: FloatArray, rtol: float) -> bool:
-        """Whether there are more places in the spheres now."""
+        """Refine the places in the spheres; return whether there are more of them now."""
         allowed, both = found.allowed(rtol), of_axes.sum(axis=0)
         # More places leave what other places on the arcs add.
         allowed = np.maximum(allowed - (found.of_places - both), 0.5 * allowed)
@@ -175,7 +175,7 @@ class Around:
         return self.spheres is not before
 
     def _refine_lines(self, found: Estimate, rtol: float) -> bool:
-        """Whether there are more places on the lines now."""
+        """Refine the places on the lines; return whether there are more of them now."""
         if np.all(found.of_places <= found.allowed(rtol)) or 2 * len(self.lines) > LINE_MOST:
             return False
         self.lines = _spread(self.lines, 0)

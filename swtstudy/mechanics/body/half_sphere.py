@@ -80,7 +80,7 @@ class HalfSpheres:
         return self._side._weights(size, self.along + 1) - fewer.reshape(len(size), -1)
 
     def changes(self, weights: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """How much the means would change without every other distance or inclination.
+        """Estimate how the means would change without every other distance or inclination.
 
         Parameters
         ----------

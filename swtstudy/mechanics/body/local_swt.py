@@ -71,7 +71,7 @@ class Places(NamedTuple):
 
 
 class Fineness(NamedTuple):
-    """How finely swt is searched for.
+    """The resolution of a search for swt.
 
     Attributes
     ----------
@@ -253,7 +253,7 @@ class LocalSwt:
         return instant, stress, self._share(found.hidden(np.stack(own)), top)
 
     def _share(self, hidden: FloatArray, top: FloatArray) -> FloatArray:
-        """What of swt, over it, is hidden by peaks of the curves, (3, m), that hide so much each."""
+        """Share of swt that is hidden by peaks of the curves, (3, m), that hide so much each."""
         tension, amplitude = top[0], top[1] + top[2]
         some = ((tension > 0.0) | (not self.criterion.needs_tension)) & (amplitude > 0.0)
         power = self.criterion.powers(*(np.where(some, v, 1.0) for v in (tension, 0.5 * amplitude)))

@@ -54,7 +54,7 @@ class CoarsePlanes:
 
     @staticmethod
     def everywhere() -> CoarsePlanes:
-        """Those of all orientations."""
+        """Return planes of all orientations."""
         return CoarsePlanes(hemisphere(PLANES), _beside())
 
     def some(self, which: NDArray[np.bool_]) -> CoarsePlanes:
@@ -75,7 +75,7 @@ class CoarsePlanes:
 
 
 def planes_like(stress: FloatArray, ν: float, criterion: Criterion) -> CoarsePlanes:
-    """Those near to the highest in some of the histories, and those beside them."""
+    """Return the planes near to the highest in some of the histories, and those beside them."""
     every = CoarsePlanes.everywhere()
     swt = every.swt(stress, ν, criterion)
     high = (swt >= NEAR * swt.max(axis=1, keepdims=True)).any(axis=0)

@@ -66,7 +66,7 @@ class SpringCells:
 
     @classmethod
     def of(cls, scene: Scene, cells: int, circle: float | None = None) -> SpringCells:
-        """Those of a batch of one point.
+        """Cut the springs of a batch of one point into cells.
 
         Parameters
         ----------

@@ -33,7 +33,7 @@ class Peaks(NamedTuple):
 
     @classmethod
     def of(cls, instant: FloatArray, curve: FloatArray, count: int) -> Peaks:
-        """Those of curves, (…, m, T), at ascending instants, (m, T). Instants that meet are one."""
+        """Find the peaks of curves, (…, m, T), at ascending instants, (m, T). Instants that meet are one."""
         around, at = _neighbours(instant)
         before, after = (gather(curve, np.broadcast_to(at[k], curve.shape)) for k in (0, 2))
         peaked = (curve >= before) & (curve >= after) & (around[0] < around[1])
@@ -50,7 +50,7 @@ class Peaks(NamedTuple):
         return np.mod(np.concatenate([left, top.reshape(left.shape), right], axis=-1), PERIOD)
 
     def hidden(self, beside: FloatArray) -> FloatArray:
-        """How far values at the instants beside are off the parabolas, if that tops all peaks, (…, m)."""
+        """Misfit of the parabolas at the instants beside, if that tops all peaks, (…, m)."""
         left, _, right = np.split(beside, 3, axis=-1)
         width, rise = np.diff(self.instant), np.diff(self.value)
         slope = rise / np.maximum(width, SAME_INSTANT)

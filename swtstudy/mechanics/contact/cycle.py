@@ -13,6 +13,7 @@ from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_state
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import packed
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative. 0: stick is called
 #: slip at 79 of 4,000 points, 1e-15: at 8; 1e-11 and 1e-9: no change.
@@ -20,7 +21,7 @@ NO_SLIP = 1e-13
 
 
 @dataclass(frozen=True)
-class Cycle:
+class Cycle(Rows):
     """The stationary cycle of n loads, cut into i intervals between turning instants.
 
     Within an interval the normal load and both slip lines are monotone, the front moves inwards only, and the

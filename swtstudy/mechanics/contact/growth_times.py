@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
-class GrowthTimes:
+class GrowthTimes(Rows):
     """The stretches of time in which n loads gained ground in stick, by their number in the period.
 
     Attributes

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick which is no line.
 GROWTH = 2.0
 
 
 @dataclass(frozen=True)
-class Memory:
+class Memory(Rows):
     """Stacks of pieces of o(G), from the centre outwards, along the last axis d.
 
     Attributes
@@ -55,10 +56,6 @@ class Memory:
         deeper = Memory.empty(*lead, depth)
         deeper.write((..., slice(own)), self)
         return deeper
-
-    def take(self, index: tuple[NDArray[np.intp] | slice | int, ...]) -> Memory:
-        """The stacks at ``index`` of the leading axes."""
-        return Memory(*(values[index] for values in vars(self).values()))
 
     def write(self, index: tuple[Any, ...], pieces: Memory) -> None:
         """Write pieces at ``index``, in place."""
@@ -123,7 +120,7 @@ class Growths:
 
 
 @dataclass(frozen=True)
-class DistinctPieces:
+class DistinctPieces(Rows):
     """The distinct pieces of the memory of n cycles, m at most in a row; shorter rows repeat their first.
 
     What lies beneath a piece of a stack never changes, so that many intervals share a piece and all of it.
@@ -169,7 +166,3 @@ class DistinctPieces:
         (first,) = packed(new.reshape(n, -1), every)
         start, slope, below = (gather(v.reshape(n, -1), first) for v in (memory.start, memory.slope, below))
         return cls(np.where(np.isfinite(start), start, 0.0), slope, first, first % depth, below, index)
-
-    def take(self, index: NDArray[np.intp]) -> DistinctPieces:
-        """The pieces of the cycles at ``index``."""
-        return DistinctPieces(*(values[index] for values in vars(self).values()))

@@ -9,15 +9,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
-class Coordinate(ABC):
+class Coordinate(Rows, ABC):
     """The coordinate over n profiles.
 
     Attributes
@@ -27,10 +25,6 @@ class Coordinate(ABC):
     """
 
     profile: Profile
-
-    def take(self, index: NDArray[np.intp]) -> Coordinate:
-        """The coordinates at ``index``, repetitions allowed."""
-        return type(self)(self.profile.take(index))
 
     @abstractmethod
     def of(self, radius: FloatArray) -> FloatArray:

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
@@ -30,9 +29,6 @@ class ForceCoordinate(Coordinate):
     """
 
     unit: FloatArray
-
-    def take(self, index: NDArray[np.intp]) -> ForceCoordinate:
-        return type(self)(self.profile.take(index), self.unit[index])
 
     def of(self, radius: FloatArray) -> FloatArray:
         return self.profile.half_load(radius) / align(self.unit, radius)

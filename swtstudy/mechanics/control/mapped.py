@@ -55,9 +55,6 @@ class MappedLoad(Load):
     def same_cusp(self) -> float:
         return SAME_CUSP
 
-    def take(self, index: NDArray[np.intp]) -> MappedLoad:
-        return MappedLoad(self.given.take(index), self.map.take(index), self.waves)
-
     def normal(self, instant: FloatArray) -> FloatArray:
         return self.map.value(self.given.normal(instant))
 

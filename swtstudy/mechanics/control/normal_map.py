@@ -11,23 +11,19 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.force import ForceCoordinate
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: Least contact radius for which derivatives are computed: they have no bound at the tip. 1e-11: no change at
 #: 144 points; 1e-4: 2e-13.
 LEAST_RADIUS = 1e-8
 
 
-class NormalMap(ABC):
+class NormalMap(Rows, ABC):
     """Monotone functions of n indenters from the prescribed normal load to that of the diagram."""
-
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> NormalMap:
-        """The functions at ``index``, repetitions allowed."""
 
     def value(self, load: FloatArray) -> FloatArray:
         """The diagram's normal load, shape (n, …)."""
@@ -79,9 +75,6 @@ class ByRadius(NormalMap):
     """
 
     force: ForceCoordinate
-
-    def take(self, index: NDArray[np.intp]) -> ByRadius:
-        return type(self)(self.force.take(index))
 
     def _with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         return self._derivatives(np.maximum(self._radius(load), LEAST_RADIUS))

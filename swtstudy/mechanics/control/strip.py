@@ -8,17 +8,16 @@ but for a constant times the load, which adds nothing to the work along a loop.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.plane import PlaneProfile
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
-class StripDisplacement:
+class StripDisplacement(Rows):
     """∫ −½ ln ξ d(N/N_0) over n profiles: what in the plane stands beside the force as the other coordinate.
 
     Attributes
@@ -28,10 +27,6 @@ class StripDisplacement:
     """
 
     profile: PlaneProfile
-
-    def take(self, index: NDArray[np.intp]) -> StripDisplacement:
-        """Return the displacements at ``index``, repetitions allowed."""
-        return StripDisplacement(cast(PlaneProfile, self.profile.take(index)))
 
     def of(self, radius: FloatArray) -> FloatArray:
         """At half-widths ξ/a_H, shape (n, …)."""

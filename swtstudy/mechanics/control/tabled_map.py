@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -122,9 +122,6 @@ class TabledMap(NormalMap):
             return load, 1.0 / slope, -bend / slope**3
 
         return cls(number, forward, RootTable(inverse, *found, tables.cells))
-
-    def take(self, index: NDArray[np.intp]) -> TabledMap:
-        return replace(self, row=self.row[index])
 
     def _value(self, load: FloatArray) -> FloatArray:
         return self.forward.value(align(self.row, load), load)

@@ -14,12 +14,13 @@ from swtstudy.mechanics.events.stretches import GAP, PER_INTERVAL, Stretches
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
-class Nodes:
+class Nodes(Rows):
     """Instants at n × X positions, T each.
 
     Where no event cuts an interval, all positions have the same instants: they are listed once.
@@ -40,10 +41,6 @@ class Nodes:
         """Values at the distinct instants, shape (n, k), at the instants of each position, (n, X, T)."""
         return values.ravel().take(self._flat)
 
-    def take(self, row: NDArray[np.intp]) -> Nodes:
-        """The instants of the rows."""
-        return Nodes(self.interval[row], self.instant[row], self.index[row])
-
     @cached_property
     def _flat(self) -> NDArray[np.intp]:
         n, distinct = self.instant.shape
@@ -51,7 +48,7 @@ class Nodes:
 
 
 @dataclass(frozen=True)
-class Placed:
+class Placed(Rows):
     """Where nodes lie, each of shape (n, X, T).
 
     Attributes
@@ -64,10 +61,6 @@ class Placed:
 
     stretch: NDArray[np.intp]
     place: NDArray[np.intp]
-
-    def take(self, index: NDArray[np.intp]) -> Placed:
-        """The nodes of the cycles at ``index``."""
-        return Placed(self.stretch[index], self.place[index])
 
     @property
     def interval(self) -> NDArray[np.intp]:

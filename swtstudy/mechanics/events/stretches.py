@@ -12,6 +12,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.events.passages import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet. A
 #: hundredth: 2e-7 and nothing; a hundred times: nothing.
@@ -21,7 +22,7 @@ PER_INTERVAL = 3
 
 
 @dataclass(frozen=True)
-class Stretches:
+class Stretches(Rows):
     """m stretches of the cycle at n × X positions, `PER_INTERVAL` of each interval, in the order of time.
 
     Attributes
@@ -32,10 +33,6 @@ class Stretches:
 
     low: FloatArray
     high: FloatArray
-
-    def take(self, index: NDArray[np.intp]) -> Stretches:
-        """Those of the cycles at ``index``."""
-        return Stretches(self.low[index], self.high[index])
 
     @cached_property
     def real(self) -> NDArray[np.bool_]:
@@ -75,6 +72,6 @@ def stretches(cycle: Cycle, of_edge: FloatArray, of_front: FloatArray) -> Stretc
 
 
 def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
-    """Whether one stretch ends where another begins, in the periodic cycle."""
+    """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)
     return np.asarray((gap <= GAP) | (PERIOD - gap <= GAP))

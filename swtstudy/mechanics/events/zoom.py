@@ -21,6 +21,7 @@ from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 T = TypeVar("T", bound=np.generic)
 
@@ -36,7 +37,7 @@ IN_LAYER, THIN = 2.0 / 3.0, 1.0 / 3.0
 
 
 @dataclass(frozen=True)
-class TimeBrackets:
+class TimeBrackets(Rows):
     """Brackets of e extremes at n × X positions, walked by c from −1 (left neighbour) to 1 (right one).
 
     Attributes
@@ -103,19 +104,6 @@ class TimeBrackets:
         if falling is not None:
             _grade(grading, high - low, corner, falling, step)
         return cls(low, high, interval, start, step, grading, corner, np.zeros(place.shape), 1.0)
-
-    def take(self, index: NDArray[np.intp]) -> TimeBrackets:
-        """The brackets of the cycles at ``index``."""
-        return replace(
-            self,
-            low=self.low[index],
-            high=self.high[index],
-            interval=self.interval[index],
-            start=self.start[index],
-            grading=self.grading[index],
-            corner=self.corner[index],
-            centre=self.centre[index],
-        )
 
     def or_other(self, own: NDArray[np.bool_], other: TimeBrackets) -> TimeBrackets:
         """These brackets where ``own``, shape (n, X, e), elsewhere other ones of the same step and width."""

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 #: Steps that invert the normal force fall back to bisection, so this many always suffice (10 do at 144
 #: points); the last one, relative: its square is the error. 1e-4: 1e-4 at 42 of 144; 1e-11: 5e-11.
@@ -67,7 +68,7 @@ class Tables:
     cells: int
 
 
-class Profile(ABC):
+class Profile(Rows, ABC):
     """n profiles of one family, in contact up to a depth.
 
     Parameters
@@ -75,6 +76,8 @@ class Profile(ABC):
     largest_depth
         Shape (n,): largest indentation depth in δ0, up to which tables are made.
     """
+
+    __match_args__ = ("largest_depth",)
 
     #: Whether the contact is a strip in plane strain, not a disc: what that changes is in
     #: `swtstudy.mechanics.indenter.plane`.
@@ -127,10 +130,6 @@ class Profile(ABC):
     def length_law(cls, **shape: float) -> tuple[float, float]:
         """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ, the contact radius at δ0 were there no shape."""
         return 1.0, 0.5
-
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> Profile:
-        """The profiles at ``index``."""
 
     @property
     def flat_radius(self) -> FloatArray:

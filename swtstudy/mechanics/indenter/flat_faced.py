@@ -8,7 +8,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.tables import OuterTable
@@ -31,6 +30,8 @@ APPROACH_COUNT = 9
 class FlatFaced(Profile):
     """n profiles with g = 0 up to the radius b/a_H = ``flat_radius``, shape (n,)."""
 
+    __match_args__ = ("largest_depth", "_flat_radius")
+
     def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray) -> None:
         super().__init__(largest_depth)
         self._flat_radius = np.asarray(flat_radius, dtype=float)
@@ -38,9 +39,6 @@ class FlatFaced(Profile):
     @property
     def flat_radius(self) -> FloatArray:
         return self._flat_radius
-
-    def take(self, index: NDArray[np.intp]) -> FlatFaced:
-        return type(self)(self.largest_depth[index], self._flat_radius[index])
 
     def _face(self, like: FloatArray) -> FloatArray:
         return align(self._flat_radius, like)

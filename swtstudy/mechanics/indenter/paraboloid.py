@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.numerics.arrays import align
@@ -40,9 +39,6 @@ class ParaboloidPrimitives(Primitives):
 
 class Paraboloid(Profile):
     """n paraboloids; they are all the same in a_H and δ0."""
-
-    def take(self, index: NDArray[np.intp]) -> Paraboloid:
-        return Paraboloid(self.largest_depth[index])
 
     def depth(self, radius: FloatArray) -> FloatArray:
         return radius * radius

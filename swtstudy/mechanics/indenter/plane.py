@@ -11,7 +11,6 @@ from __future__ import annotations
 from abc import abstractmethod
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.tables import InnerTable, OuterTable
@@ -82,9 +81,6 @@ class CylinderPrimitives(PlanePrimitives):
 
 class Cylinder(PlaneProfile):
     """n cylinders; they are all the same in a_H and δ0."""
-
-    def take(self, index: NDArray[np.intp]) -> Cylinder:
-        return Cylinder(self.largest_depth[index])
 
     def depth(self, radius: FloatArray) -> FloatArray:
         return radius * radius

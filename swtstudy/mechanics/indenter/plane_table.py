@@ -19,9 +19,6 @@ NODES = 8
 class TabulatedPlane(PlaneProfile, Tabulated):
     """n times the profile of one table: the pieces of its N′ stand in the place of those of g′."""
 
-    def take(self, index: NDArray[np.intp]) -> TabulatedPlane:
-        return TabulatedPlane(self.largest_depth[index], self.table)
-
     def depth(self, radius: FloatArray) -> FloatArray:
         return super().depth(radius) / MEAN_LOAD
 

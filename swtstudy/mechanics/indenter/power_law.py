@@ -36,6 +36,8 @@ class PowerLaw(Profile):
         Shape (n,): above 1.
     """
 
+    __match_args__ = ("largest_depth", "exponent")
+
     evenly_smooth = False
 
     def __init__(self, largest_depth: FloatArray, exponent: FloatArray) -> None:
@@ -49,9 +51,6 @@ class PowerLaw(Profile):
 
         n = shape["exponent"]
         return 0.5 * float(beta(0.5 * n, 0.5)), 1.0 / n
-
-    def take(self, index: NDArray[np.intp]) -> PowerLaw:
-        return PowerLaw(self.largest_depth[index], self.exponent[index])
 
     @property
     def tip(self) -> NDArray[np.bool_]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
@@ -22,9 +21,6 @@ class PowerLawCylinder(PlaneProfile, PowerLaw):
 
         n = shape["exponent"]
         return 0.5 * float(beta(0.5 * (n + 1.0), 0.5)) / MEAN_LOAD, 1.0 / n
-
-    def take(self, index: NDArray[np.intp]) -> PowerLawCylinder:
-        return PowerLawCylinder(self.largest_depth[index], self.exponent[index])
 
     def weighted_slope(self, radius: FloatArray) -> FloatArray:
         return MEAN_LOAD * super().weighted_slope(radius)

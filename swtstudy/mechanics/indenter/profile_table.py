@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.definition import Definition, wrong_name
 from swtstudy.vocabulary.families import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.vocabulary.named import Named, wrong_name
 from swtstudy.vocabulary.numbers import read_numbers
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ RADII_BY_LOAD = 20_001
 SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
 
 
-class TabulatedProfile(Named):
+class TabulatedProfile(Definition):
     """A measured or computed profile: heights f above its lowest point, at the axis.
 
     Parameters

@@ -8,7 +8,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.flat_faced import FlatFaced, rise_abscissa, rise_angles
@@ -35,9 +34,6 @@ class RoundedFlat(PlaneProfile, FlatFaced):
 
     def __init__(self, largest_depth: FloatArray, flat_half_width: FloatArray) -> None:
         super().__init__(largest_depth, flat_half_width)
-
-    def take(self, index: NDArray[np.intp]) -> RoundedFlat:
-        return RoundedFlat(self.largest_depth[index], self._flat_radius[index])
 
     def depth(self, radius: FloatArray) -> FloatArray:
         b, w = self._face(radius), self._rise(radius)

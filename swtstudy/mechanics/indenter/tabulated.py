@@ -30,6 +30,8 @@ class Tabulated(Profile):
         The table.
     """
 
+    __match_args__ = ("largest_depth", "table")
+
     evenly_smooth = False
 
     def __init__(self, largest_depth: FloatArray, table: TabulatedProfile) -> None:
@@ -44,9 +46,6 @@ class Tabulated(Profile):
     @classmethod
     def check(cls, largest_depth: float, **shape: TabulatedProfile) -> str | None:  # type: ignore[override]
         return shape["table"].refused_at(largest_depth)
-
-    def take(self, index: NDArray[np.intp]) -> Tabulated:
-        return Tabulated(self.largest_depth[index], self.table)
 
     @property
     def flat_radius(self) -> FloatArray:

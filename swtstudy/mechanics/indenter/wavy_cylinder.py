@@ -8,7 +8,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlaneProfile, StripTablePrimitives
-from swtstudy.mechanics.indenter.wavy_paraboloid import NODES_PER_DIGIT, WavyParaboloid
+from swtstudy.mechanics.indenter.wavy_paraboloid import NODES_PER_DIGIT, WavyParaboloid, largest_phase
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
 
@@ -41,8 +41,7 @@ class WavyCylinder(PlaneProfile, WavyParaboloid):
     def smallest_wavelength(
         cls, largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
     ) -> FloatArray:
-        with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
-            phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
+        phase = largest_phase(largest_depth, h, wavelength)
         # N′ ∝ 1 + (4π² hR/λ²) J₀(z).
         return 2.0 * np.pi * np.sqrt(np.maximum(np.interp(phase, *_deepest_troughs()), 0.0))
 

@@ -95,8 +95,7 @@ class WavyParaboloid(Profile):
         cls, largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
     ) -> FloatArray:
         """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
-        with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
-            phase = 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
+        phase = largest_phase(largest_depth, h, wavelength)
         # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
         return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
@@ -197,6 +196,14 @@ class WavyParaboloid(Profile):
         largest = self.radius(self.largest_depth)
         nodes = int(NODES_PER_DIGIT * digits) + self.extra_nodes(digits)
         return TablePrimitives(self, position, nodes, nodes, largest)
+
+
+def largest_phase(
+    largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
+) -> FloatArray | float:
+    """Phase kξ of waves that is reached up to a depth, and half a wave more."""
+    with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
+        return 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
 
 
 @lru_cache

@@ -1,4 +1,4 @@
-"""What a relative tolerance asks of the search along x."""
+"""The resolution that a relative tolerance asks of the search along x."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MORE_DIGITS = 2.0
 
 @dataclass(frozen=True)
 class Accuracy:
-    """What a relative tolerance asks of the climb to a maximum.
+    """The resolution that a relative tolerance asks of the climb to a maximum.
 
     Attributes
     ----------

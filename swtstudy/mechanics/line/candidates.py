@@ -21,7 +21,7 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Relative accuracy of swt there.
 TOLERANCE = 1e-4
 #: Maxima of a point nearer to one another than this share of the contact radius are one.
-SAME = 1e-5
+SAME_MAXIMUM = 1e-5
 
 
 class Candidates(NamedTuple):
@@ -52,7 +52,7 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     climb = climb_to_tops(split, positions, climb, accuracy)
     position, swt, angle = looked_at_once_more(split, positions, climb, accuracy)
     found = Candidates(climb.point, position, angle, swt)
-    return _apart(found, SAME * scene.largest_radius)
+    return _apart(found, SAME_MAXIMUM * scene.largest_radius)
 
 
 def _apart(found: Candidates, distance: FloatArray) -> Candidates:

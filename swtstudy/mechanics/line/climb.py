@@ -14,6 +14,7 @@ from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
 from swtstudy.mechanics.numerics.arrays import largest_of_rows
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Half the distance between the positions of a climb's first round, in gaps of the first look, and how it
@@ -27,7 +28,7 @@ PLANES, BESIDE, SAME_PLANE = 48, np.array([0.0, -0.25, -0.05, 0.05, 0.25]), 0.01
 
 
 @dataclass(frozen=True)
-class Climb:
+class Climb(Rows):
     """Climbs to m local maxima of swt along x; arrays of shape (m,).
 
     Attributes
@@ -87,12 +88,8 @@ class Climb:
         heights = zero, zero + FIRST_WIDTH, zero, zero, zero
         return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)
 
-    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Climb:
-        """The local maxima at ``index``."""
-        return Climb(*(values[index] for values in vars(self).values()))
-
     def leading(self, height: FloatArray, share: float) -> Climb:
-        """Those whose height, shape (m,), is at least a share of the largest one at their point."""
+        """Keep the climbs whose height, shape (m,), is at least a share of the largest one at their point."""
         return self.take(height >= share * largest_of_rows(self.point, height)[self.point])
 
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
@@ -108,12 +105,6 @@ class Climb:
         seen = self.seen[order]
         higher = seen > (1.0 + LEVEL) * seen[first]
         return self.take(order[~(same & moved[order]) | higher])
-
-    @classmethod
-    def joined(cls, several: list[Climb]) -> Climb:
-        """All local maxima of several searches."""
-        columns = zip(*(vars(one).values() for one in several), strict=True)
-        return cls(*(np.concatenate(values) for values in columns))
 
     def twins(
         self, index: NDArray[np.intp], centre: FloatArray, value: FloatArray, angle: FloatArray

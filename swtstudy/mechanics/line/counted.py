@@ -1,4 +1,4 @@
-"""How many strain cycles a round of the load has at its worst place and plane, and how bad each is.
+"""Strain cycles of a round of the load at its worst place and plane, and how bad each is.
 
 A life N(SWT) is one of strain cycles. The strain of a plane is counted by rainflow, each cycle with its own
 amplitude and its own largest σ_n: a swt of its own. A round does the damage Σ 1/N(SWT_i), which depends on a
@@ -219,8 +219,8 @@ def _bounds(histories: Histories) -> FloatArray:
 def _counted(histories: list[Histories]) -> FloatArray:
     """`sums` of many histories, some at a time, which have as many instants each, shape (powers, h)."""
     stress, swing, inside = (np.concatenate([each[k] for each in histories]) for k in range(3))
-    first, *others = (each.criterion for each in histories)
-    every = Histories(stress, swing, inside, first.joined(others))
+    criteria = [each.criterion for each in histories]
+    every = Histories(stress, swing, inside, type(criteria[0]).joined(criteria))
     parts = np.array_split(np.arange(len(stress)), -(-len(stress) // COUNT_SIZE) or 1)
     return np.concatenate([sums(every.take(rows).swt()) for rows in parts], axis=1)
 

@@ -39,7 +39,7 @@ class FewCycles:
 
     @classmethod
     def of(cls, scene: Scene, position: FloatArray, double_angle: FloatArray) -> FewCycles:
-        """Those of n points, see `strain_cycles`; NaN where the angle is.
+        """Find the strain cycles of n points, see `strain_cycles`; NaN where the angle is.
 
         Where only the position is, s is that far from the contact.
         """

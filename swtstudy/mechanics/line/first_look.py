@@ -17,6 +17,7 @@ from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows, largest_of_rows, place_in_row
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Share of the largest swt that positions may leave unseen, and so may instants and planes. Twice or half: no
@@ -41,7 +42,7 @@ LEAST_PART = 32
 
 
 @dataclass(frozen=True)
-class Seen:
+class Seen(Rows):
     """swt at positions of the line to the accuracy of a first look, (…, 2), or (…, 1) where sides are alike.
 
     Attributes
@@ -56,16 +57,6 @@ class Seen:
     double_angle: FloatArray
     highest: FloatArray
 
-    def take(self, *index: NDArray[np.intp] | NDArray[np.bool_]) -> Seen:
-        """What is seen at some of the positions."""
-        return Seen(*(values[index] for values in vars(self).values()))
-
-    @classmethod
-    def joined(cls, several: list[Seen]) -> Seen:
-        """What is seen in several looks."""
-        columns = zip(*(vars(one).values() for one in several), strict=True)
-        return cls(*(np.concatenate(values) for values in columns))
-
 
 def first_look(scene: Scene, position: FloatArray, resolution: Resolution, planes: int) -> Seen:
     """Look at positions r = |x|, shape (n, X), on both sides of n contacts, on so many planes."""
@@ -76,7 +67,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     history, inside = look.history, look.inside
     if mirrored:
         # The same instants with the tangential load reversed.
-        history = history.joined(history.with_tangential_sign(-1.0))
+        history = history.followed_by(history.with_tangential_sign(-1.0))
         inside = np.concatenate([inside, inside], axis=-1)
     signs = (1.0,) if mirrored else (1.0, -1.0)
     sides = [_seen(scene.planes(history, sign), inside, planes) for sign in signs]
@@ -86,7 +77,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
 def _seen(
     planes: PlaneHistory, inside: NDArray[np.bool_], count: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """What `Seen` holds of one side, each (n, X)."""
+    """Values of `Seen` for one side, each (n, X)."""
     swt, angle = coarse_swt(planes, count)
     highest = swt.copy()
     at = np.nonzero(swt >= (1.0 - 3.0 * SHARE) * swt.max(axis=1, keepdims=True))

@@ -16,6 +16,7 @@ from swtstudy.mechanics.numerics.arrays import gather, pick
 from swtstudy.mechanics.numerics.peaks import parabola
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
@@ -32,7 +33,7 @@ LEVEL = 1e-9
 
 @dataclass(frozen=True)
 class Resolution:
-    """How finely swt is computed.
+    """The resolution at which swt is computed.
 
     Attributes
     ----------
@@ -50,7 +51,7 @@ class Resolution:
 
 
 @dataclass(frozen=True)
-class Look:
+class Look(Rows):
     """The stress at n × X positions and the event-aligned instants of each.
 
     Attributes
@@ -78,11 +79,6 @@ class Look:
         parts = stretches(scene.cycle, line.edges.at, line.fronts.at)
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
-
-    def take(self, index: NDArray[np.intp]) -> Look:
-        """The looks at the points at ``index``, repetitions allowed."""
-        line, nodes = self.line.take(index), self.nodes.take(index)
-        return Look(line, self.parts.take(index), self.count, nodes, self.placed.take(index))
 
     @cached_property
     def history(self) -> History:
@@ -134,7 +130,7 @@ def extremes_and_rivals(
 
 
 def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether parabolas through the ``best`` instants and two on either side fall at once, shape (…, 2)."""
+    """True where parabolas through the ``best`` instant and two on a side fall at once, shape (…, 2)."""
     count, flat = curve.shape[-1], curve.ravel()
     row, top = count * np.arange(best.size).reshape(best.shape), pick(curve, best)
     sides = []
@@ -162,7 +158,7 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
 
 
 def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
-    """How high the curve's maximum may really be, shape (…), and beside ends of stretches; see `lifted`."""
+    """Upper estimate of a curve's maximum, shape (…), and beside ends of stretches; see `lifted`."""
     heights = _reaching(curve.copy(), _crests(curve, inside))
     ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
     heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
@@ -213,7 +209,7 @@ def _reaching(heights: FloatArray, crests: _Crests) -> FloatArray:
 def _rise_beside_end(
     curve: FloatArray, inside: NDArray[np.bool_], at: tuple[NDArray[np.intp], ...]
 ) -> FloatArray:
-    """How much higher than an end ``at`` the parabolas through it and two instants of a stretch are, (m,)."""
+    """Rise of the parabolas through an end ``at`` and two instants of a stretch above that end, (m,)."""
     inside = np.broadcast_to(inside, (*curve.shape[:-1], inside.shape[-1]))
     *where, place = at
     rise = np.zeros(place.size)

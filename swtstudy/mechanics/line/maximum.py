@@ -16,6 +16,7 @@ from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.round import climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.passing import arrival
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import told_by_fronts
@@ -35,7 +36,7 @@ SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
 
 
 @dataclass(frozen=True)
-class Maximum:
+class Maximum(Rows):
     """Largest swt of n points.
 
     Attributes
@@ -57,10 +58,6 @@ class Maximum:
     def unknown(cls, count: int, value: float) -> Maximum:
         """``count`` points that all have the same ``value`` everywhere."""
         return cls(*(np.full(count, value) for _ in range(4)))
-
-    def take(self, index: NDArray[np.intp] | NDArray[np.bool_]) -> Maximum:
-        """The points at ``index``."""
-        return Maximum(*(values[index] for values in vars(self).values()))
 
     def put(self, index: NDArray[np.intp] | NDArray[np.bool_], other: Maximum) -> Maximum:
         """The same with other points at ``index``."""
@@ -101,7 +98,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 
 def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
-    """How far off swt > 0 may be by rounding and tables, shape (n,)."""
+    """Share by which rounding and tables may put swt > 0 off, shape (n,)."""
     # What swt is made of is as large as its root; it is a stress times a strain.
     is_product = scene.criterion.degree == 2
     size = np.sqrt(found.swt) if is_product else found.swt
@@ -118,14 +115,14 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
-    """How near to a singular edge, over its radius, swt is taken from the limit, shape (n,)."""
+    """Distance from a singular edge, over its radius, below which swt is taken from the limit, shape (n,)."""
     radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
     reach = REACH * np.minimum(radius - flat, flat)
     return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
 
 
 def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
-    """How far off a stress at r, shape (n, 1), may be by the rounding of what arrives there, shape (n,)."""
+    """Error of a stress at r, shape (n, 1), by the rounding of what arrives there, shape (n,)."""
     profile, coordinate = scene.profile, scene.coordinate
     r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
     r = told_by_fronts(scene.cycle, coordinate, r)
@@ -140,7 +137,7 @@ def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
 
 
 def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
-    """How far off tables leave a stress, by the mean slope of the profile, shape (n,)."""
+    """Error of a stress by tables, from the mean slope of the profile, shape (n,)."""
     deepest = scene.profile.largest_depth
     return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
 

@@ -17,6 +17,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import packed, place_in_row
 from swtstudy.mechanics.numerics.cosine import between
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
@@ -101,13 +102,13 @@ class Pieces:
 
     @classmethod
     def of(cls, split: Scene) -> Pieces:
-        """Those of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
+        """Pieces of n points, whose cycles are cut where a slip front passes a breakpoint of the memory."""
         ends = cusps(split.cycle, split.coordinate, split.critical_everywhere)
         return cls.between(ends, split.profile.feature_length)
 
     @classmethod
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
-        """Those between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
+        """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
         # Next to a sharp tip pieces are short, but not as they lie there.
         real = high - low > np.minimum(NO_LENGTH * (ends[:, -1:] - ends[:, :1]), 0.5 * high)
@@ -156,7 +157,7 @@ class Pieces:
 
 
 @dataclass(frozen=True)
-class Positions:
+class Positions(Rows):
     """m positions on the line of n points, one point's after the other's, ascending.
 
     Attributes
@@ -179,7 +180,7 @@ class Positions:
 
     @classmethod
     def of(cls, pieces: Pieces, piece: NDArray[np.intp], alpha: FloatArray) -> Positions:
-        """Those at angles of pieces, in their order; each piece but the last of a point lacks its end."""
+        """Positions at angles of pieces, in their order; each piece but the last of a point lacks its end."""
         point = pieces.point[piece]
         first = np.append(True, np.diff(point) > 0)
         last = np.append(first[1:], True)
@@ -191,10 +192,6 @@ class Positions:
         step = np.stack([np.where(first, 0.0, np.roll(right, 1)), np.where(last, 0.0, right)], axis=-1)
         r = pieces.radius(piece, alpha)
         return cls(point, r, pieces.low[sides], pieces.high[sides], np.stack([left, alpha], axis=-1), step)
-
-    def take(self, index: NDArray[np.intp]) -> Positions:
-        """The positions at ``index``, repetitions allowed."""
-        return Positions(*(values[index] for values in vars(self).values()))
 
     @property
     def is_corner(self) -> NDArray[np.bool_]:

@@ -49,7 +49,7 @@ PART_SIZE = 100_000
 
 @dataclass(frozen=True)
 class _Seen:
-    """What a round has seen of m climbs, k positions each.
+    """Samples of a round of m climbs, k positions each.
 
     Attributes
     ----------

@@ -37,7 +37,7 @@ class Samples:
     criterion: Criterion
 
     def take(self, index: NDArray[np.intp]) -> Samples:
-        """Those of the points at ``index``."""
+        """Return the samples of the points at ``index``."""
         return Samples(self.brackets.take(index), self.near[:, index], self.criterion.take(index))
 
     def or_other(self, own: NDArray[np.bool_], other: Samples) -> Samples:

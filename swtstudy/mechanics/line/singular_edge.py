@@ -60,7 +60,7 @@ LEFT_OUT = 2e-7
 
 
 def not_finite(scene: Scene) -> NDArray[np.bool_]:
-    """Whether swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
+    """True where swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
     profile, cycle, friction = scene.profile, scene.cycle, scene.friction
     if not profile.has_singular_edge:
         return np.zeros(len(scene), dtype=bool)
@@ -80,7 +80,7 @@ def not_finite(scene: Scene) -> NDArray[np.bool_]:
 
 
 def _pulls_while_lost(scene: Scene, margin: FloatArray) -> NDArray[np.bool_]:
-    """Whether a bulk stress pulls at an instant without contact, or nearly, by a margin (n, 1)."""
+    """True where a bulk stress pulls at an instant without contact, or nearly, by a margin (n, 1)."""
     assert scene.bulk is not None
     # Within the intervals of the cycle both are monotone.
     ends = np.concatenate([scene.cycle.begin, scene.cycle.end], axis=1)
@@ -89,7 +89,7 @@ def _pulls_while_lost(scene: Scene, margin: FloatArray) -> NDArray[np.bool_]:
 
 
 def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]:
-    """Whether the spring at G → 0 ends on a slip line: |T| ≥ N at some instant, but for a margin (n, 1)."""
+    """True where the spring at G → 0 ends on a slip line: |T| ≥ N at some instant, by a margin (n, 1)."""
     instants = load.turning_instants()
     normal, tangential = load.normal(instants), load.tangential(instants)
     return np.asarray(
@@ -99,7 +99,7 @@ def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]
 
 
 def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
-    """Whether the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
+    """True where the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
     profile, cycle = scene.profile, scene.cycle
     if not profile.has_singular_edge:
         return np.zeros(len(scene), dtype=bool)
@@ -200,12 +200,11 @@ def _swt(
 class _SeenFromEdge(TruncatedParaboloid):
     """n truncated paraboloids whose stress is wanted at r = b⁺, at L of shape (n, X)."""
 
+    __match_args__ = ("largest_depth", "flat_radius", "distance")
+
     def __init__(self, largest_depth: FloatArray, flat_radius: FloatArray, distance: FloatArray) -> None:
         super().__init__(largest_depth, flat_radius)
         self.distance = distance
-
-    def take(self, index: NDArray[np.intp]) -> _SeenFromEdge:
-        return _SeenFromEdge(self.largest_depth[index], self.flat_radius[index], self.distance[index])
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return _EdgePrimitives(self)

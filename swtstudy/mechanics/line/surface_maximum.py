@@ -121,7 +121,7 @@ def _relative(line: FloatArray, base: FloatArray, top: FloatArray) -> FloatArray
 
 
 def _falls_slowly(scene: Scene, history: History, normal: FloatArray) -> NDArray[np.bool_]:
-    """Whether swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
+    """True where swt may be higher elsewhere on the circle, from a few planes at each angle, shape (n,)."""
     angle = np.broadcast_to(np.concatenate([[0.0], LOOK_ANGLES]), (len(scene), 1 + LOOK_ANGLES.size))
     stress, tensor = _circle(scene, history, angle)
     criterion = scene.criterion_along
@@ -171,10 +171,10 @@ def _decisive_history(
     wide = look.line.history(brackets.samples())
     closer = on_plane(of_extremes(planes(wide)), double_angle[:, None]).argmax(axis=-1)
     narrow = look.line.history(brackets.narrowed(closer).samples())
-    history = wide.joined(narrow)
+    history = wide.followed_by(narrow)
     if scene.critical_everywhere:
-        history = history.joined(look.history)
-    history = history.take(np.arange(len(r)), np.zeros(len(r), dtype=np.intp))
+        history = history.followed_by(look.history)
+    history = history.take((np.arange(len(r)), 0))
     history = history.with_tangential_sign(side[:, None])
     θ = 0.5 * double_angle
     return history, np.stack([side * np.cos(θ), np.zeros_like(θ), np.sin(θ)], axis=-1)

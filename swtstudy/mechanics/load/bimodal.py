@@ -42,10 +42,6 @@ class BimodalLoad(Load):
     def __len__(self) -> int:
         return len(self.phase)
 
-    def take(self, index: NDArray[np.intp]) -> BimodalLoad:
-        of_load = self.normal_amplitude[index], self.tangential_amplitude[index], self.phase[index]
-        return BimodalLoad(*of_load, self.p, self.q)
-
     def normal(self, instant: FloatArray) -> FloatArray:
         d, psi = (align(v, instant) for v in (self.normal_amplitude, self.phase))
         return 1.0 + d * np.sin(self.q * instant + psi)

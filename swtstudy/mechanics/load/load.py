@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.rows import Rows
 
 #: Length of the common period in φ, rad.
 PERIOD = 2.0 * np.pi
@@ -22,7 +23,7 @@ PERIOD = 2.0 * np.pi
 SAME_CUSP = 1e-9
 
 
-class Load(ABC):
+class Load(Rows, ABC):
     """n loads of one kind.
 
     Notes
@@ -34,10 +35,6 @@ class Load(ABC):
     @abstractmethod
     def __len__(self) -> int:
         """Number n of loads."""
-
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> Load:
-        """The loads at ``index``, repetitions allowed."""
 
     @abstractmethod
     def normal(self, instant: FloatArray) -> FloatArray:

@@ -7,8 +7,8 @@ from typing import ClassVar, Protocol
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.definition import Definition, wrong_name
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.vocabulary.named import Named, wrong_name
 from swtstudy.vocabulary.prescribed import PAIRS
 
 #: Largest number of a loop: squares of it are numbers still, whatever its unit.
@@ -33,7 +33,7 @@ class BulkCourse(Protocol):
         """Least and largest value."""
 
 
-class Loop(Named):
+class Loop(Definition):
     """A closed loop of the normal and the tangential load, run through again and again.
 
     The normal load is 1 + its amplitude times c_n, the tangential one its amplitude times c_t, of whatever is

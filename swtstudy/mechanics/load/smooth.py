@@ -35,10 +35,6 @@ class SmoothLoad(Load):
     def __len__(self) -> int:
         return len(self.normal_amplitude)
 
-    def take(self, index: NDArray[np.intp]) -> SmoothLoad:
-        amplitudes = self.normal_amplitude[index], self.tangential_amplitude[index]
-        return SmoothLoad(self.normal_sum, self.tangential_sum, *amplitudes)
-
     def normal(self, instant: FloatArray) -> FloatArray:
         return 1.0 + align(self.normal_amplitude, instant) * self.normal_sum.value(instant)
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: Steps fall back to bisection when they leave the bracket, so this many always suffice. Ten do at 56 points.
 LARGEST_STEP_COUNT = 60
@@ -21,7 +22,7 @@ Function = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray
 
 
 @dataclass(frozen=True)
-class Brackets:
+class Brackets(Rows):
     """Ranges in which functions are monotone, arrays of shape (n,).
 
     Attributes
@@ -47,10 +48,6 @@ class Brackets:
         every = np.arange(low.size)
         (at_low, slope_low, _), (at_high, slope_high, _) = function(low, every), function(high, every)
         return cls(low, high, at_low, at_high, slope_low, slope_high)
-
-    def take(self, index: NDArray[np.intp]) -> Brackets:
-        """The brackets at ``index``, repetitions allowed."""
-        return Brackets(*(values[index] for values in vars(self).values()))
 
 
 def monotone_roots(

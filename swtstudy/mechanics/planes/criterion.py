@@ -28,10 +28,10 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.planes.swing import Swing
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: Values and two derivatives, each of the same shape.
 Jet = tuple[FloatArray, FloatArray, FloatArray]
@@ -40,7 +40,7 @@ NO_VALUE = 1e-300
 
 
 @dataclass(frozen=True)
-class Criterion(ABC):
+class Criterion(Rows, ABC):
     """A criterion at places of shape (…).
 
     Its fields are parameters of that shape, or None for those that it can do without.
@@ -59,10 +59,6 @@ class Criterion(ABC):
     #: Whether `swtstudy.mechanics.line.singular_edge` is right for it.
     knows_sharp_edge: ClassVar[bool]
 
-    def take(self, *index: NDArray[np.intp] | slice | int) -> Self:
-        """The criterion at the places at ``index``."""
-        return self._each(lambda values: values[index])
-
     def reshape(self, *shape: int) -> Self:
         """The same for places of another shape."""
         return self._each(lambda values: values.reshape(shape))
@@ -70,12 +66,6 @@ class Criterion(ABC):
     def spread(self, *shape: int) -> Self:
         """The same for places of a shape that its own can be broadcast to."""
         return self._each(lambda values: np.broadcast_to(values, shape))
-
-    def joined(self, others: list[Self]) -> Self:
-        """This criterion at its places, shape (n,), then that of others with the same parameters."""
-        several = [vars(each) for each in (self, *others)]
-        own = {name for name, values in several[0].items() if values is not None}
-        return replace(self, **{name: np.concatenate([each[name] for each in several]) for name in own})
 
     def _each(self, change: Callable[[FloatArray], FloatArray]) -> Self:
         own = {name: change(values) for name, values in vars(self).items() if values is not None}
@@ -99,7 +89,7 @@ class Criterion(ABC):
         """f_T, f_a, f_TT, f_Ta and f_aa where f > 0."""
 
     def derivatives(self, tension: Jet, amplitude: Jet) -> tuple[FloatArray, FloatArray]:
-        """How f, or an increasing function of it, rises and bends on a way, over a common positive factor."""
+        """Slope and curvature of f, or of an increasing function of it, along a way, but for a factor > 0."""
         (f, df, ddf), (g, dg, ddg) = tension, amplitude
         first, second, both_first, mixed, both_second = self.partials(f, g)
         bend = both_first * df * df + 2.0 * mixed * df * dg + both_second * dg * dg

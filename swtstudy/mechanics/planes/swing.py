@@ -1,4 +1,4 @@
-"""What swings on a plane: a functional of the stress, linear in it, whose amplitude over the cycle counts.
+"""The swing of a plane: a functional of the stress, linear in it, whose amplitude over the cycle counts.
 
 On the planes through y, whose normal lies at the angle θ from x towards z, it is A + B cos 2θ + C sin 2θ. On
 any plane it is made of a tensor that follows from the stress. Where it is a vector in the plane, as the shear

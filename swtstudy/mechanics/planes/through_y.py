@@ -61,9 +61,9 @@ class PlaneHistory:
         return cls(stress, criterion.swing.in_section(stress, yy, nu), criterion.reshape(*nu.shape[:-1]))
 
     def take(self, *index: NDArray[np.intp] | slice) -> PlaneHistory:
-        """Those at ``index`` of the points' axes."""
+        """Return the histories at ``index`` of the points' axes."""
         # The criterion is that of the point at all its positions.
-        criterion = self.criterion.take(index[0], *(0 for _ in index[1:]))
+        criterion = self.criterion.take((index[0], *(0 for _ in index[1:])))
         return PlaneHistory(self.stress[:, *index], self.swing[:, *index], criterion)
 
     def on_plane(self, double_angle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -74,7 +74,7 @@ class PlaneHistory:
 
 
 def apart(turn: FloatArray) -> FloatArray:
-    """How far planes are apart, rad in 2θ, from a difference of 2θ that may hold whole turns."""
+    """Angle between planes, rad in 2θ, from a difference of 2θ that may hold whole turns."""
     return np.asarray(np.abs(np.angle(np.exp(1j * turn))))
 
 

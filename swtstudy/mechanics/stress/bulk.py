@@ -17,14 +17,11 @@ from swtstudy.mechanics.load.loop import BulkCourse
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.rows import Rows
 
 
-class BulkStress(ABC):
+class BulkStress(Rows, ABC):
     """n bulk stresses of one kind, over the angle φ of the load's common period; in E* √(δ0/R)."""
-
-    @abstractmethod
-    def take(self, index: NDArray[np.intp]) -> BulkStress:
-        """The bulk stresses at ``index``, repetitions allowed."""
 
     @abstractmethod
     def at(self, instant: FloatArray) -> FloatArray:
@@ -77,9 +74,6 @@ class HarmonicBulk(BulkStress):
     phase: FloatArray
     p: int
 
-    def take(self, index: NDArray[np.intp]) -> HarmonicBulk:
-        return HarmonicBulk(self.mean[index], self.amplitude[index], self.phase[index], self.p)
-
     def at(self, instant: FloatArray) -> FloatArray:
         mean, amplitude, phase = (align(v, instant) for v in (self.mean, self.amplitude, self.phase))
         return mean + amplitude * np.sin(self.p * instant + phase)
@@ -112,9 +106,6 @@ class LoopBulk(BulkStress):
     mean: FloatArray
     amplitude: FloatArray
     course: BulkCourse
-
-    def take(self, index: NDArray[np.intp]) -> LoopBulk:
-        return LoopBulk(self.mean[index], self.amplitude[index], self.course)
 
     def at(self, instant: FloatArray) -> FloatArray:
         return align(self.mean, instant) + align(self.amplitude, instant) * self.course.value(instant)

@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
-class History:
+class History(Rows):
     """The building blocks of the stress at n × X positions and T instants, each (n, X, T).
 
     Attributes
@@ -48,10 +48,6 @@ class History:
         """True if they are stresses of a plane contact."""
         return self.mean_pressure is None
 
-    def take(self, *index: NDArray[np.intp] | int) -> History:
-        """The blocks at ``index`` of the leading axes."""
-        return self._of(None if values is None else values[index] for values in vars(self).values())
-
     def with_tangential_sign(self, sign: float | FloatArray) -> History:
         """The same with the tangential load times ±1."""
         third = None if self.tangential_3 is None else sign * self.tangential_3
@@ -59,7 +55,7 @@ class History:
             self, tangential_1=sign * self.tangential_1, tangential_3=third, traction=sign * self.traction
         )
 
-    def joined(self, other: History) -> History:
+    def followed_by(self, other: History) -> History:
         """These instants, then the other ones."""
         both = zip(vars(self).values(), vars(other).values(), strict=True)
         return self._of(None if one is None else np.concatenate((one, more), axis=-1) for one, more in both)

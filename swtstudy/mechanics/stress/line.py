@@ -20,6 +20,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
@@ -29,7 +30,7 @@ from swtstudy.mechanics.stress.passing import COORDINATE, Passing
 OUTSIDE = 1.1
 
 
-class SurfaceLine:
+class SurfaceLine(Rows):
     """n × X positions on the surface line of n points, ready for any instants.
 
     Parameters

@@ -12,6 +12,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.nodes import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.tip import (
     OF_EDGE,
     OF_FRONT,
@@ -49,7 +50,7 @@ def arrival(
 
 
 @dataclass(frozen=True)
-class Passing:
+class Passing(Rows):
     """Edges and fronts that pass n × X positions.
 
     Attributes
@@ -83,11 +84,6 @@ class Passing:
 
         of_edge, of_front = reach_of_edges(cycle.load), reach_of_fronts(cycle)
         return slowed(0, OF_EDGE, of_edge), slowed(1, OF_FRONT, of_front)
-
-    def take(self, index: NDArray[np.intp]) -> Passing:
-        """The positions at ``index`` of the first axis."""
-        own = self.position[index], self.at[index], self.near[index]
-        return Passing(*own, self.slower and self.slower.take(index))
 
     def spread(
         self,

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.march import solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
@@ -21,13 +18,14 @@ from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swt import SWT
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.vocabulary.prescribed import Control
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(Rows):
     """n points: what the stress on the surface line depends on.
 
     Attributes
@@ -58,17 +56,6 @@ class Scene:
     def profile(self) -> Profile:
         """The n profiles."""
         return self.coordinate.profile
-
-    def take(self, index: NDArray[np.intp]) -> Scene:
-        """The points at ``index``, repetitions allowed."""
-        return Scene(
-            self.cycle.take(index),
-            self.coordinate.take(index),
-            self.poisson_ratio[index],
-            self.friction[index],
-            self.criterion.take(index),
-            self.bulk and self.bulk.take(index),
-        )
 
     def with_own(self, points: Points) -> Scene:
         """The same with the criterion and the bulk stresses of its n points."""

@@ -17,6 +17,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ def reach_of_fronts(cycle: Cycle) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class SlowerTime:
+class SlowerTime(Rows):
     """Slower time for n × X positions, some of which are next to a tip.
 
     Attributes
@@ -91,10 +92,6 @@ class SlowerTime:
             return None
         far = np.broadcast_to(coordinate.radius((slowness.until * over)[:, None]), r.shape)
         return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, 1e-300)))
-
-    def take(self, index: NDArray[np.intp]) -> SlowerTime:
-        """Return the times at ``index`` of the first axis."""
-        return SlowerTime(*(values[index] for values in vars(self).values()))
 
     def put(self, radius: FloatArray, own: NDArray[np.bool_] | None = None) -> None:
         """Put what stands for radii, shape (n, X, T), in place, but for those at their ``own`` time."""

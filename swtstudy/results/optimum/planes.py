@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.rows import Rows
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
 _DIFFERENCE, _SMALLEST_DIFFERENCE = 0.03, 1e-6
@@ -19,7 +20,7 @@ _BENT = 0.2
 
 
 @dataclass(frozen=True)
-class Planes:
+class Planes(Rows):
     """Points, values and gradients of m tangent planes, shapes (m, d), (m,) and (m, d)."""
 
     points: FloatArray
@@ -34,18 +35,9 @@ class Planes:
     def __len__(self) -> int:
         return len(self.values)
 
-    def joined(self, other: Planes) -> Planes:
-        """These and others."""
-        return Planes(
-            np.concatenate([self.points, other.points]),
-            np.append(self.values, other.values),
-            np.concatenate([self.gradients, other.gradients]),
-        )
-
     def within(self, centre: FloatArray, distance: float) -> Planes:
         """Return the planes of points within a distance along each axis."""
-        near = (np.abs(self.points - centre) <= distance).all(axis=1)
-        return Planes(self.points[near], self.values[near], self.gradients[near])
+        return self.take((np.abs(self.points - centre) <= distance).all(axis=1))
 
 
 def probes(points: FloatArray, distance: float) -> FloatArray:

@@ -48,8 +48,8 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
     for _ in range(_ROUNDS):
         around = best + distance * rng.uniform(-1.0, 1.0, (_EACH * dimensions, dimensions))
         around = np.clip(around, 0.0, 1.0)
-        known = known.joined(planes_from(around, distance, (yield probes(around, distance))))
-        known = known.within(best, _NEAR * distance)
+        found = planes_from(around, distance, (yield probes(around, distance)))
+        known = Planes.joined([known, found]).within(best, _NEAR * distance)
         moved = 0.0
         if len(known):
             steps = np.array([*lowest_of(known, best, value, distance), newton(known, best, distance)])

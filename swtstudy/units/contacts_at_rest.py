@@ -14,9 +14,9 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.scales import SCALES
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import family_of
 from swtstudy.vocabulary.mistakes import StudyError
-from swtstudy.vocabulary.named import Named
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,18 +24,18 @@ if TYPE_CHECKING:
     from swtstudy.units.grid import PhysicalGrid
 
 #: What a contact at rest depends on, and its slip with it.
-SEAT_NAMES = (
+AT_REST_NAMES = (
     *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
     "contact_length",
     *SHAPE_COLUMNS,
 )
 #: More contacts than these take minutes.
-MOST_SEATS = 300_000
+MOST_CONTACTS = 300_000
 
 
 @dataclass(frozen=True)
-class Seats:
-    """Contacts at rest.
+class ContactsAtRest:
+    """The contacts of a grid at rest, over the dimensions that they depend on.
 
     Attributes
     ----------
@@ -68,22 +68,22 @@ class Seats:
         return self.each(lambda contact: contact.shape_parameters.get(name, 0.0))
 
 
-def seat_dims(grid: PhysicalGrid) -> tuple[str, ...]:
+def at_rest_dims(grid: PhysicalGrid) -> tuple[str, ...]:
     """The dimensions of a grid that its contacts at rest depend on."""
-    varying = {grid.dimension(name) for name in SEAT_NAMES}
+    varying = {grid.dimension(name) for name in AT_REST_NAMES}
     return tuple(dim for dim in grid.dims if dim in varying)
 
 
-def seats_of(grid: PhysicalGrid) -> Seats:
+def contacts_at_rest(grid: PhysicalGrid) -> ContactsAtRest:
     """The contacts at rest of a grid."""
-    varying = {name: dim for name in SEAT_NAMES if (dim := grid.dimension(name)) is not None}
-    dims = seat_dims(grid)
+    varying = {name: dim for name in AT_REST_NAMES if (dim := grid.dimension(name)) is not None}
+    dims = at_rest_dims(grid)
     lengths = dict(zip(grid.dims, grid.shape, strict=True))
     shape = tuple(lengths[dim] for dim in dims)
     known: dict[tuple[Value, ...], Contact | None] = {}
     wrong: list[tuple[StudyError, dict[str, Value]]] = []
     contacts = np.empty(shape, object)
-    values = {name: grid.values(name) for name in SEAT_NAMES if grid.values(name)}
+    values = {name: grid.values(name) for name in AT_REST_NAMES if grid.values(name)}
     for place in itertools.product(*map(range, shape)):
         at = dict(zip(dims, place, strict=True))
         own = {name: each[at[varying[name]]] if name in varying else each[0] for name, each in values.items()}
@@ -95,14 +95,16 @@ def seats_of(grid: PhysicalGrid) -> Seats:
                 known[key] = None
                 wrong.append((error, own))
         contacts[place] = known[key]
-    return Seats(dims, contacts, tuple(wrong))
+    return ContactsAtRest(dims, contacts, tuple(wrong))
 
 
 def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
-    """The contact with values of `SEAT_NAMES`."""
+    """The contact with values of `AT_REST_NAMES`."""
     from swtstudy.units.depth import depth_at, refuse_beyond
 
-    numbers = {name: as_number(value) for name, value in own.items() if not isinstance(value, str | Named)}
+    numbers = {
+        name: as_number(value) for name, value in own.items() if not isinstance(value, str | Definition)
+    }
     young, poisson = (
         grid.pairs.get(name) or (numbers[name],) * 2 for name in ("young_modulus", "poisson_ratio")
     )
@@ -118,6 +120,6 @@ def _contact(grid: PhysicalGrid, own: dict[str, Value]) -> Contact:
     )
     if "normal_force" in numbers:
         contact = replace(contact, depth=depth_at(contact, numbers["normal_force"]))
-    if isinstance(profile, Named):
+    if isinstance(profile, Definition):
         refuse_beyond(contact.profile, contact.depth)  # type: ignore[arg-type]
     return contact

@@ -27,7 +27,7 @@ def wrong_name(name: object, parameter: str) -> Mistake | None:
     return None
 
 
-class Named(ABC):
+class Definition(ABC):
     """Something with a name and a content that can be written as JSON.
 
     Attributes
@@ -47,7 +47,7 @@ class Named(ABC):
 
     @classmethod
     @abstractmethod
-    def of_content(cls, name: str, content: Mapping[str, Any]) -> Named:
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> Definition:
         """The inverse of `content`.
 
         Raises
@@ -79,7 +79,7 @@ class Named(ABC):
         return {}
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Named) and (self.name, self.code) == (other.name, other.code)
+        return isinstance(other, Definition) and (self.name, self.code) == (other.name, other.code)
 
     def __hash__(self) -> int:
         return hash((self.name, self.code))
@@ -92,5 +92,5 @@ class Named(ABC):
 
 
 def cost_of(code: float) -> int:
-    """`Named.cost` of what a code stands for; 0 for a built-in value."""
+    """`Definition.cost` of what a code stands for; 0 for a built-in value."""
     return int(code) >> CONTENT_BITS
