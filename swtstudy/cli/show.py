@@ -92,7 +92,7 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
 
 
 def _of_shape(values: dict[str, object]) -> bool:
-    """Whether a profile and its shape alone are given."""
+    """Return whether a profile and its shape alone are given."""
     return "profile" in values and all(PARAMETERS[name].part == "shape" for name in values)
 
 

@@ -146,7 +146,7 @@ class InUnits(ABC):
 
     @abstractmethod
     def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
-        """What is given of one body, with units, and where the model does not hold unless it is at rest."""
+        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
 
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""

@@ -53,7 +53,7 @@ def as_text(contact: PhysicalContact) -> str:
 
 
 def headline(contact: PhysicalContact, body: int, at_rest: bool = False) -> str:
-    """What is given of one contact, with symbols and units: of one of its bodies, or of it at rest alone."""
+    """List what is given of one contact with symbols and units: of one of its bodies, or of it at rest."""
     grid = contact.grid
     words = {}
     for name, values in {"profile": grid.values("profile"), **_given(grid)}.items():

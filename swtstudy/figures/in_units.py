@@ -17,7 +17,7 @@ _TICKS = 5
 
 
 class Label(NamedTuple):
-    """What the numbers of a variable are in the units of a real contact.
+    """The scale, symbol and unit that a variable has of a real contact.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Label(NamedTuple):
         return "" if self.units == "1" else f" {as_text(self.units)}"
 
     def axis(self) -> str:
-        """What an axis of it says."""
+        """Label of an axis of it."""
         return f"${self.symbol}$" + (f" ({self.unit.strip()})" if self.unit else "")
 
     def number(self, value: float, digits: int = 4) -> str:

@@ -185,7 +185,7 @@ def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
-    """Whether a data variable is a life, in rounds."""
+    """Return whether a data variable is a life, in rounds."""
     return has_units(dataset) and name.partition("_")[0] == "cycles"
 
 
