@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.contacts.measured import InUnits, Measured
-from swtstudy.contacts.overview import as_html, as_text
+from swtstudy.contacts.overview import as_html, as_text, headline
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid, spanned
 from swtstudy.units.at_rest import Contact
@@ -390,3 +391,9 @@ class PhysicalContact(InUnits):
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
         return Measured(self._one, checked_body(body) - 1, self.grid.labels)
+
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        grid = replace(self._with_bodies((float(body),)), materials=(), blocks=())
+        asked = Request((YIELD,) if grid.yield_strengths else ())
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        return headline(self, body, at_rest), validity

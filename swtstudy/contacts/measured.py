@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import Label
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
@@ -68,19 +69,23 @@ class Measured:
             "displacement": (contact.slip_scale, "length", "u"),
             "normal_force": (contact.normal_force, "force", "F_N"),
             "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
+            "height": (contact.depth, "length", "-z"),
+            "spring_depth": (contact.depth, "length", "g"),
             "normal_strain": (strain, "1", r"\varepsilon_n"),
             "s_local": (self.swt, "stress", r"\mathrm{SWT}"),
             "dissipation": (contact.work_scale, "work", "W"),
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }
 
-    def labels(self) -> dict[str, tuple[float, str]]:
-        """By name of a variable its scale, and what an axis of it says."""
+    def labels(self) -> dict[str, Label]:
+        """By name of a variable what its numbers are in these units."""
         return {
-            name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
+            name: Label(scale, symbol, self._unit(kind))
             for name, (scale, kind, symbol) in self.scales().items()
-            if kind != "1"
         }
+
+    def _unit(self, kind: str) -> str:
+        return "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}"
 
     def places(self, **given: Any) -> dict[str, Any]:
         """Places in lengths as those in a_H that the mechanics is asked for."""
@@ -103,7 +108,7 @@ class Measured:
                 **dataset[name].attrs,
                 "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
                 "symbol": symbol,
-                "units": "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}",
+                "units": self._unit(kind),
             }
             scaled = dataset[name].variable * scale
             scaled.attrs = attributes
@@ -139,6 +144,10 @@ class InUnits(ABC):
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
 
+    @abstractmethod
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
+
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
@@ -166,5 +175,13 @@ class InUnits(ABC):
         from swtstudy.fields.inspection import inspect_point
         from swtstudy.figures.inspection import draw_inspection
 
-        labels = self._measured(body).labels()
-        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels)
+        labels, headlines = self._measured(body).labels(), self._headlines(body)
+        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+
+    def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
+        from swtstudy.figures.profile import draw_shape
+
+        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
+        given, _ = self._headlines(1, at_rest=True)
+        return draw_shape(shape, style, width, self._measured(1).labels(), given)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
 from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.figures.panel_marks import (
     DASHED,
@@ -117,7 +118,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
 
 
-def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
+def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """The cycle of stress and strain on the critical plane."""
     time, stress, strain = dataset.time, dataset.normal_stress, dataset.normal_strain
     (line,) = axes.plot(time, stress, label=r"$\sigma_n$")
@@ -151,7 +152,10 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
         one.set_ylim(limits(values, 0.08, 0.22))
     mark_over_time(axes, dataset, 0.94)
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
-    axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
+    show_units(other, (None, "normal_strain"), labels)
+    x = float(dataset.shown_x)
+    at_x = f"$x$ = {labels['x'].number(x)}" if "x" in labels else f"$x/a_H$ = ${x:.3f}$"
+    axes.set_title(f"{place} {at_x}", loc="left")
 
 
 def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:

@@ -54,6 +54,8 @@ class FigureLayout:
     regimes
         Whether to mark where a regime of the contact begins along a line, or the borders of regimes on a
         contour map.
+    validity
+        Whether to mark the points that are outside of what the model holds for.
     """
 
     x: str
@@ -64,6 +66,7 @@ class FigureLayout:
     kind: str = "lines"
     vertical: str | None = None
     regimes: bool = False
+    validity: bool = False
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""
