@@ -131,6 +131,7 @@ class SwtAccessor:
         kind: str = "lines",
         vertical: str | None = None,
         regimes: bool = False,
+        validity: bool = False,
         style: Style | None = None,
         width: Width | None = None,
     ) -> Figure:
@@ -152,6 +153,8 @@ class SwtAccessor:
             The other dimension of contours and heat maps.
         regimes
             Whether to mark where a regime begins.
+        validity
+            Whether to mark the points that are outside of what the model holds for.
         style, width
             As of `figure`.
 
@@ -169,7 +172,7 @@ class SwtAccessor:
         from swtstudy.study.figure import FigureLayout
 
         rows = (y,) if isinstance(y, str) else tuple(y)
-        layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes)
+        layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes, validity)
         return draw(self._dataset, layout, style, width)
 
     def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:

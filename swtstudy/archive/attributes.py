@@ -86,7 +86,8 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
         raise ValueError(f"not the layout of a figure: {literal(raw)}") from None
     texts = [layout.x, layout.kind, *layout.y]
     texts += [word for word in (layout.hue, layout.panels, layout.title, layout.vertical) if word is not None]
-    if not all(isinstance(word, str) for word in texts) or not isinstance(layout.regimes, bool):
+    marks = layout.regimes, layout.validity
+    if not all(isinstance(word, str) for word in texts) or not all(isinstance(mark, bool) for mark in marks):
         raise ValueError(f"not the layout of a figure: {literal(asdict(layout))}")
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     """Show what a run of each STUDY would compute, and how long it would take.
 
-    A few points are computed to time them; nothing is written.
+    A few points are computed to time them, loops of many vertices with fewer; nothing is written.
     """
     from swtstudy.archive.names import archive_paths
     from swtstudy.study.several import read_studies
@@ -94,8 +94,9 @@ def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
     seconds = sum(
         estimate(work.points, wanted, rtol, solve_points, count, asked) for wanted, asked in work.tasks()
     )
-    yield f"  chunks             about {max(1, round(seconds / CHUNK_SECONDS))}"
+    of = f"{sum(timed)} point" + ("s" if sum(timed) > 1 else "")
+    yield f"  chunks             about {min(max(1, round(seconds / CHUNK_SECONDS)), work.todo)}"
     yield (
         f"  time               about {duration(seconds / workers)} with {workers} workers "
-        f"({1e3 * seconds / work.todo:.3g} ms a point, from {sum(timed)} points timed)"
+        f"({1e3 * seconds / work.todo:.3g} ms a point, from {of} timed)"
     )

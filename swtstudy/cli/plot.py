@@ -32,6 +32,9 @@ from swtstudy.cli.options import archive_completion, examples, with_width
 )
 @click.option("--title", help="A title over the figure.")
 @click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
+@click.option(
+    "--validity", is_flag=True, default=None, help="Mark what is outside of what the model holds for."
+)
 def plot(archive: str, output: str | None, style: str | None, width: Any, **own: Any) -> None:
     """Draw a figure of an ARCHIVE, from the archive alone.
 

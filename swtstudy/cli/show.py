@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         "swtstudy show --profile rounded_punch --flat-radius 0.5",
         "swtstudy show --profile worn.csv",
         "swtstudy show rig.toml --tangential-force-amplitude 60",
+        "swtstudy show rig.toml --profile worn.csv --smoothing 0.0002",
         "swtstudy show --load square loops",
     ),
 )
@@ -31,14 +32,14 @@ if TYPE_CHECKING:
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 @click.option(
-    "--smoothing", type=float, default=0.0, help="What the fit may miss of a profile in a CSV file."
+    "--smoothing", type=float, help="What the fit may miss of a profile that is a table; in its lengths."
 )
 @with_width
 def show(
     study: str | None,
     output: str,
     style: str | None,
-    smoothing: float,
+    smoothing: float | None,
     width: Any,
     body: int,
     **texts: str | None,
@@ -48,9 +49,10 @@ def show(
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
     CSV file with the columns radius and height, in a_H and δ0.
 
-    With a STUDY its contact is drawn in its units, with single values of what are axes there; with the name
-    of one of its loads alone, that load: its course with the recorded cycles, its path, and how near friction
-    comes to its end.
+    With a STUDY its contact is drawn in its units, with single values of what are axes there; with one of its
+    profiles or a CSV file alone, that profile in its lengths, pressed by the mean load; with the name of one
+    of its loads alone, that load: its course with the recorded cycles, its path, and how near friction comes
+    to its end.
 
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
@@ -59,13 +61,15 @@ def show(
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     words = ""
     if study is None:
-        figure = _point_or_profile(values, smoothing, style, width)
+        figure = _point_or_profile(values, smoothing or 0.0, style, width)
     elif [*values] == ["load"]:
         figure, words = _load(study, str(values["load"]), style, width)
     else:
         from swtstudy.contacts.of_results import contact_of_study
 
-        figure = contact_of_study(study, values).inspect(body, style, width)
+        of_shape = _of_shape(values)
+        contact = contact_of_study(study, values, smoothing, of_shape)
+        figure = contact.draw_profile(style, width) if of_shape else contact.inspect(body, style, width)
     from swtstudy.figures.save import save_figure
     from swtstudy.vocabulary.files import check_writable
 
@@ -84,8 +88,12 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
 
     if Path(str(values.get("profile"))).suffix == ".csv":
         values = {**values, "profile": table_from(Path(str(values["profile"])), smoothing)}
-    of_shape = bool(values) and all(PARAMETERS[name].part == "shape" for name in values)
-    return (draw_profile if of_shape else inspect)(style=style, width=width, **values)
+    return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
+
+
+def _of_shape(values: dict[str, object]) -> bool:
+    """Return whether a profile and its shape alone are given."""
+    return "profile" in values and all(PARAMETERS[name].part == "shape" for name in values)
 
 
 def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure, str]:

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.contacts.measured import InUnits, Measured, require_swt
-from swtstudy.contacts.overview import as_html, as_text
+from swtstudy.contacts.overview import as_html, as_text, headline
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid, spanned
 from swtstudy.units.at_rest import Contact
@@ -228,7 +229,7 @@ class PhysicalContact(InUnits):
         StudyError
             A ValueError, if it is not said which body has this s, or s is negative or no number.
         """
-        require_swt(self.grid.values("criterion"))
+        require_swt(self.grid)
         return swt_from(s, self.swt_scale, self.moduli, bodies_of(s, self.moduli.alike, body))
 
     def cycles(
@@ -260,7 +261,7 @@ class PhysicalContact(InUnits):
         StudyError
             A ValueError, as of `swt`, or if the constants are none.
         """
-        require_swt(self.grid.values("criterion"))
+        require_swt(self.grid)
         one, two = constants_of_both(constants)
         bodies = bodies_of(s, self.moduli.alike and one == two, body)
         return cycles_from((one, two), swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
@@ -288,8 +289,7 @@ class PhysicalContact(InUnits):
         constants
             Of both bodies, or a pair for bodies of different materials: for cycles.
         yield_strength
-            Of both bodies, or a pair: for von_mises and yield_ratio. By the criterion "fatemi_socie" in the
-            place of that of the contact.
+            Of both bodies, or a pair: for von_mises and yield_ratio.
         blocks
             Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
@@ -333,7 +333,7 @@ class PhysicalContact(InUnits):
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
-        strengths = strengths_of_both(yield_strength, mistakes)
+        strengths = strengths_of_both(yield_strength, mistakes) or self.grid.yield_strengths
         sequence: tuple[Block, ...] = ()
         try:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
@@ -343,14 +343,8 @@ class PhysicalContact(InUnits):
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         if mistakes:
             raise StudyError(mistakes)
-        if strengths:
-            names = tuple(dict.fromkeys((*names, YIELD)))
-        grid = replace(
-            self.grid,
-            materials=materials,
-            yield_strengths=strengths or self.grid.yield_strengths,
-            blocks=sequence,
-        )
+        names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
+        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
         return grid, Request(names, *distances, counts=constants is not None)
 
     def optimise(
@@ -397,5 +391,10 @@ class PhysicalContact(InUnits):
 
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
-        (criterion,) = self.grid.values("criterion")
-        return Measured(self._one, checked_body(body) - 1, self.grid.labels, str(criterion))
+        return Measured(self._one, checked_body(body) - 1, self.grid.labels, str(self.criterion))
+
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        grid = replace(self._with_bodies((float(body),)), materials=(), blocks=())
+        asked = Request((YIELD,) if grid.yield_strengths else ())
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        return headline(self, body, at_rest), validity

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import Label
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
+    from swtstudy.units.grid import PhysicalGrid
 
 #: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.
 _LENGTHS = {
@@ -78,6 +80,8 @@ class Measured:
             "displacement": (contact.slip_scale, "length", "u"),
             "normal_force": (contact.normal_force, "force", "F_N"),
             "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
+            "height": (contact.depth, "length", "-z"),
+            "spring_depth": (contact.depth, "length", "g"),
             "normal_strain": (strain, "1", r"\varepsilon_n"),
             "s_local": self._local(),
             "dissipation": (contact.work_scale, "work", "W"),
@@ -93,20 +97,18 @@ class Measured:
             return self.contact.stress_scale, "stress", "f"
         return self.swt, "stress", r"\mathrm{SWT}"
 
-    def labels(self) -> dict[str, tuple[float, str]]:
-        """By name of a variable its scale, and what an axis of it says."""
+    def labels(self) -> dict[str, Label]:
+        """By name of a variable what its numbers are in these units."""
         found = {
-            name: (scale, f"${symbol}$ ({self.units.label(kind) or f'unit of {kind}'})")
+            name: Label(scale, symbol, self._unit(kind))
             for name, (scale, kind, symbol) in self.scales().items()
-            if kind != "1"
         }
-        if self.criterion == FATEMI_SOCIE:
-            scale, _, symbol = self._local()
-            found["s_local"] = scale, f"${symbol}$"
         if self.criterion != SWT:
-            scale, words = found["normal_stress"]
-            found["normal_stress"] = scale, words.replace(" (", r", $\tau$ (")
+            found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
         return found
+
+    def _unit(self, kind: str) -> str:
+        return "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}"
 
     def places(self, **given: Any) -> dict[str, Any]:
         """Places in lengths as those in a_H that the mechanics is asked for."""
@@ -129,7 +131,7 @@ class Measured:
                 **dataset[name].attrs,
                 "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
                 "symbol": symbol,
-                "units": "1" if kind == "1" else self.units.label(kind) or f"unit of {kind}",
+                "units": self._unit(kind),
             }
             scaled = dataset[name].variable * scale
             scaled.attrs = attributes
@@ -154,9 +156,9 @@ class Measured:
         return dataset
 
 
-def require_swt(criteria: Iterable[object]) -> None:
-    """Raise a StudyError, a ValueError, where no s of these criteria is of SWT."""
-    names = [str(each) for each in criteria]
+def require_swt(grid: PhysicalGrid) -> None:
+    """Raise a StudyError, a ValueError, where no s of a grid is of SWT."""
+    names = [str(each) for each in grid.values("criterion")]
     if SWT not in names:
         allowed = f"{SWT}; of others solve() has the values in units"
         raise StudyError([Mistake("criterion", ", ".join(names), allowed)])
@@ -172,6 +174,10 @@ class InUnits(ABC):
     @abstractmethod
     def _measured(self, body: int) -> Measured:
         """The scales of one body of one contact."""
+
+    @abstractmethod
+    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
 
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
@@ -203,5 +209,13 @@ class InUnits(ABC):
         from swtstudy.fields.inspection import inspect_point
         from swtstudy.figures.inspection import draw_inspection
 
-        labels = self._measured(body).labels()
-        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels)
+        labels, headlines = self._measured(body).labels(), self._headlines(body)
+        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+
+    def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
+        from swtstudy.figures.profile import draw_shape
+
+        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
+        given, _ = self._headlines(1, at_rest=True)
+        return draw_shape(shape, style, width, self._measured(1).labels(), given)

@@ -12,8 +12,9 @@ from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.margins import margins
 from swtstudy.points.unique import unique_points
 from swtstudy.units.labels import KINDS, Units
-from swtstudy.units.rows import rows
+from swtstudy.units.rows import REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import place_words
 
 if TYPE_CHECKING:
     from swtstudy.contacts.contact import PhysicalContact
@@ -51,14 +52,38 @@ def as_text(contact: PhysicalContact) -> str:
     )
 
 
+def headline(contact: PhysicalContact, body: int, at_rest: bool = False) -> str:
+    """List what is given of one contact with symbols and units: of one of its bodies, or of it at rest."""
+    grid = contact.grid
+    words = {}
+    for name, values in {"profile": grid.values("profile"), **_given(grid)}.items():
+        if grid.row(name).part == "bulk" and body != grid.bulk_stress_body + 1:
+            continue
+        if at_rest and name not in REST_DEPENDS_ON:
+            continue
+        row = grid.row(name)
+        value: Any = values[body - 1 if name in grid.pairs else 0]
+        value = str(value) if row.kind == "name" else value
+        words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
+    return ",  ".join(words.values())
+
+
+def _given(grid: PhysicalGrid) -> dict[str, tuple[Any, ...]]:
+    """The values of what is given of contacts, but for what goes without saying."""
+    values = {name: grid.pairs.get(name) or grid.values(name) for name in grid.rows if name != "body"}
+    return {
+        name: each
+        for name, each in values.items()
+        if each and not all(map(grid.row(name).goes_without_saying, each))
+    }
+
+
 def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
     grid = contact.grid
     table = rows(Units(*(f"the unit of {kind}" for kind in KINDS)))
-    values = {name: grid.pairs.get(name) or grid.values(name) for name in table}
-    for name, each in values.items():
-        if name in _AT_REST or name == "body" or not each or all(map(table[name].goes_without_saying, each)):
-            continue
-        yield "given", name, ", ".join(map(_value, each)), table[name].meaning
+    for name, each in _given(grid).items():
+        if name not in _AT_REST:
+            yield "given", name, ", ".join(map(_value, each)), table[name].meaning
     for name, meaning in _AT_REST.items():
         found = np.unique(getattr(contact, name))
         yield "at rest", name, " to ".join(map(_value, dict.fromkeys((found[0], found[-1])))), meaning

@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from swtstudy.figures.borders import mark_borders
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import draw_lines
 from swtstudy.figures.loop_legend import loops_of
+from swtstudy.figures.outside import mark_cells
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.scale import add_scale, hue_scale
@@ -17,6 +20,7 @@ from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.validity import outside
 from swtstudy.results.quantity import known_regime, quantity, quantity_error
 from swtstudy.results.select import require_points
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
@@ -133,7 +137,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
     )
     for row, y in enumerate(layout.y):
         values = quantity(dataset, y)
-        panels = _slices(_shown(dataset, y, values), layout.panels)
+        panels = _slices(_shown(dataset, y, values, layout.validity), layout.panels)
         words = quantity_words(values, y)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
@@ -142,8 +146,8 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
             surfaces = [panel.value.rename(values.name) for panel in flat]
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-            for one, panel in zip(axes[row], flat, strict=True) if layout.regimes else ():
-                mark_borders(one, panel.regime)
+            for one, panel in zip(axes[row], flat, strict=True):
+                _mark_surface(one, panel, layout)
         across = axis_words(layout.x, dataset[layout.x].attrs)
         if upright:
             across, words = words, across
@@ -164,14 +168,28 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
     return figure
 
 
-def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray) -> xr.Dataset:
-    """Collect what is drawn of a quantity: values, errors and regime where known, with attributes."""
+def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
+    """Mark the borders of regimes, and what is outside of the model."""
+    if layout.regimes:
+        mark_borders(axes, panel.regime)
+    if layout.validity:
+        across, up = (
+            np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
+            for name in (layout.x, layout.vertical)
+        )
+        mark_cells(axes, across, up, panel.outside.values, panel.outside.attrs["long_name"])
+
+
+def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
+    """Collect what is drawn of a quantity: values, errors, and marks where known, with attributes."""
     import xarray as xr
 
     # Of the whole results: a part may lack the place that normalises the quantity.
     shown = {"value": values, "error": quantity_error(dataset, y)}
     if "regime" in dataset:
         shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
+    if validity:
+        shown["outside"] = outside(dataset, values)
     return xr.Dataset({name: values for name, values in shown.items() if values is not None})
 
 

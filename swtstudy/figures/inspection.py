@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
-from swtstudy.figures.in_units import Labels, show_units
+from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
 from swtstudy.figures.inspection_panels import (
     draw_load,
     draw_slip,
@@ -61,6 +61,8 @@ _VARIABLES: dict[Any, tuple[str | None, str | None]] = {
     draw_load_plane: ("tangential_force", "normal_force"),
     draw_force_loop: ("displacement", "tangential_force"),
 }
+#: Panels that name units elsewhere, too.
+_LABELLED: tuple[Any, ...] = (draw_stress, draw_forces, draw_force_loop)
 #: Size of a panel on a screen, inches.
 _PANEL = (4.4, 3.8)
 #: Height of a panel in print, inches, at least: there is much in each.
@@ -93,7 +95,11 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
 
 
 def draw_inspection(
-    dataset: xr.Dataset, style: Style | None = None, width: Width | None = None, labels: Labels | None = None
+    dataset: xr.Dataset,
+    style: Style | None = None,
+    width: Width | None = None,
+    labels: Labels = NO_LABELS,
+    headlines: tuple[str, tuple[str, ...]] | None = None,
 ) -> Figure:
     """Draw a parameter point.
 
@@ -104,7 +110,9 @@ def draw_inspection(
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     labels
-        Of a real contact what the units of its variables are worth, and what its axes say.
+        Of a real contact what its variables are in its units.
+    headlines
+        Of a real contact what is given of it, and the lines of its validity.
 
     Returns
     -------
@@ -121,26 +129,34 @@ def draw_inspection(
         figure = sheet.figure()
         panels = sheet.panels(figure, share_x="none", share_y="none")
         for axes, draw, letter in zip(panels[0], drawn, "ABCDEFGHI", strict=False):
-            draw(axes, dataset)
-            show_units(axes, _VARIABLES.get(draw, (None, None)), labels or {})
+            own: tuple[Any, ...] = (labels,) if draw in _LABELLED else ()
+            draw(axes, dataset, *own)
+            show_units(axes, _VARIABLES.get(draw, (None, None)), labels)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
-        figure.suptitle(_headline(dataset, labels or {}))
+        figure.suptitle(_headline(dataset, labels, headlines))
         wrap_texts(figure)
     return figure
 
 
-def _headline(dataset: xr.Dataset, labels: Labels) -> str:
+def _headline(
+    dataset: xr.Dataset, labels: Labels, headlines: tuple[str, tuple[str, ...]] | None = None
+) -> str:
+    given, validity = headlines or (_given(dataset), validity_lines(dataset))
+    regime = REGIMES[int(dataset.regime)].replace("_", " ")
+    found = f"$s$ = {float(dataset.s):.4f},  {regime}"
+    if "s_local" in labels:
+        swt = labels["s_local"]
+        found += f",  ${swt.symbol}$ = {swt.number(float(dataset.s))}"
+    if not math.isfinite(float(dataset.s)):
+        found = "$s$ is not finite: swt grows without bound towards the edge"
+    return "\n".join([given, found, *validity])
+
+
+def _given(dataset: xr.Dataset) -> str:
+    """The parameters of the point."""
     profile = str(dataset.profile.item())
     names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
     if "load" in dataset.coords:
         names = [name for name in names if name not in ("frequency_ratio", "phase")]
     values = [place_words(name, dataset[name].item()) for name in names if name in dataset.coords]
-    regime = REGIMES[int(dataset.regime)].replace("_", " ")
-    found = f"$s$ = {float(dataset.s):.4f},  {regime}"
-    if "s_local" in labels:
-        scale, words = labels["s_local"]
-        found += f",  {words.replace(' (', f' = {scale * float(dataset.s):.4g} ').rstrip(')')}"
-    if not math.isfinite(float(dataset.s)):
-        found = "$s$ is not finite: swt grows without bound towards the edge"
-    lines = [f"{place_words('profile', profile)},  {',  '.join(values)}", found, *validity_lines(dataset)]
-    return "\n".join(lines)
+    return f"{place_words('profile', profile)},  {',  '.join(values)}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
 from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.figures.panel_marks import (
     DASHED,
@@ -127,7 +128,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
 
 
-def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
+def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """The cycle of σ_n and of what swings on the critical plane, ε_n or τ."""
     time, stress = dataset.time, dataset.normal_stress
     swing = next(dataset[each.name] for each in (NORMAL_STRAIN, SHEAR_STRESS) if each.name in dataset)
@@ -165,7 +166,11 @@ def draw_stress(axes: Axes, dataset: xr.Dataset) -> None:
     axes.legend(handles=handles, loc="lower left", ncols=3, fontsize="small", handlelength=2.0)
     mark_over_time(axes, dataset, 0.94)
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
-    axes.set_title(f"{place} $x/a_H$ = ${float(dataset.shown_x):.3f}$", loc="left")
+    if is_strain:
+        show_units(other, (None, str(swing.name)), labels)
+    x = float(dataset.shown_x)
+    at_x = f"$x$ = {labels['x'].number(x)}" if "x" in labels else f"$x/a_H$ = ${x:.3f}$"
+    axes.set_title(f"{place} {at_x}", loc="left")
 
 
 def _scale_stress(axes: Axes, other: Axes, stress: FloatArray, swing: FloatArray) -> None:

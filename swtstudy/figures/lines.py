@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib import rcParams
 
+from swtstudy.figures.outside import mark_along
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words
 from swtstudy.figures.regimes import LOG_RATIO, in_equal_ratios, mark_regimes, shade_without
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
@@ -42,7 +43,7 @@ def draw_lines(
         The panel.
     panel
         Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; and
-        ``regime``, if that is to be marked.
+        ``regime`` and ``outside``, if these are to be marked.
     y
         The quantity, as the layout names it.
     layout
@@ -72,6 +73,9 @@ def draw_lines(
         ends = np.concatenate([gaps - 1, gaps])
         dots = (curve[ends], x[ends]) if layout.kind == "life" else (x[ends], curve[ends])
         _mark_jumps(axes, *dots, line.get_color())
+        if layout.validity:
+            out, words = np.insert(part.outside.values, gaps, False), part.outside.attrs["long_name"]
+            mark_along(axes, across, up, out, words, line.get_drawstyle())
         banded = layout.kind != "life" and visible > 0.0 and "error" in part
         if banded and np.any(part.error.values > visible):
             low, high = curve - part.error.values, curve + part.error.values

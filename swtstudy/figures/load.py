@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -71,8 +72,9 @@ def draw_load(
         sheet = Sheet(1, 3 if forces else 2, width)
         figure = sheet.figure()
         course, path, *margin = sheet.panels(figure, share_x="none", share_y="none")[0]
-        _draw_course(course, phase, loads, signal)
-        _draw_path(path, study, loads, forces)
+        units = _units(study)
+        _draw_course(course, phase, loads, signal, units)
+        _draw_path(path, study, loads, forces, units)
         for axes in margin:
             _draw_margin(axes, phase, study, loads)
         words = f"{name}: {signal.words}" if signal else name
@@ -84,6 +86,15 @@ def draw_load(
 def _first(study: Study, name: str, otherwise: float) -> float:
     values = study.grid.values(name)
     return as_number(values[0]) if values else otherwise
+
+
+def _units(study: Study) -> tuple[str, str, str]:
+    """Units of both loads and of the bulk stress as words of a figure; empty where there are none."""
+    given = study.grid.control.given_for
+    names = (given("normal_amplitude"), given("tangential_amplitude"), "bulk_stress_amplitude")
+    labels = (study.grid.row(name).units for name in names)
+    one, two, three = ("" if label in ("", "1") else f" ({as_text(label)})" for label in labels)
+    return one, two, three
 
 
 def _loads(study: Study, loop: Loop) -> FloatArray:
@@ -121,7 +132,9 @@ def _mean(study: Study, loop: Loop) -> float:
     )
 
 
-def _draw_course(axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signal | None) -> None:
+def _draw_course(
+    axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signal | None, units: Sequence[str]
+) -> None:
     """Both loads and the bulk stress over the cycle, and the record as far as it is the load itself."""
     names = ("normal", "tangential", "bulk stress")
     if signal is not None and signal.is_absolute:
@@ -131,8 +144,8 @@ def _draw_course(axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signa
             axes.plot(share, cycles[..., column].T, color=f"C{column}", lw=0.5, alpha=0.25, ls="-", marker="")
         # A polygon begins at another vertex than its record.
         loads = _at_begin(loads, signal.mean_cycle)
-    for column, name in zip(range(loads.shape[1]), names, strict=False):
-        axes.plot(phase, loads[:, column], color=f"C{column}", label=name, ls="-", marker="")
+    for column, (name, unit) in enumerate(zip(names[: loads.shape[1]], units, strict=False)):
+        axes.plot(phase, loads[:, column], color=f"C{column}", label=name + unit, ls="-", marker="")
     axes.set(xlabel="share of a cycle", ylabel="loads")
     axes.set_title("course", loc="left")
     axes.legend(frameon=False)
@@ -146,10 +159,10 @@ def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
     return np.concatenate([rolled, rolled[:1]])
 
 
-def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool) -> None:
+def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool, units: Sequence[str]) -> None:
     """The path in the plane of both loads, and where friction ends."""
     axes.plot(loads[:, 0], loads[:, 1], color="C0", ls="-", marker="")
-    axes.set(xlabel="normal load", ylabel="tangential load")
+    axes.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
     axes.set_title("path", loc="left")
     if forces:
         ends = np.array([0.0, 1.05 * loads[:, 0].max()])

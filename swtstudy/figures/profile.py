@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.wrap import wrap_texts
@@ -54,33 +55,65 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     StudyError
         A ValueError with every mistake in the parameters, or in the width.
     """
-    check_width(width)
     wrong = [name for name in parameters if name in PARAMETERS and PARAMETERS[name].part != "shape"]
     if wrong:
         raise StudyError(Mistake(name, "a parameter of the load or the bodies", "a shape") for name in wrong)
+    return draw_shape(parameters, style, width)
+
+
+def draw_shape(
+    parameters: Mapping[str, object],
+    style: Style | None = None,
+    width: Width | None = None,
+    labels: Labels = NO_LABELS,
+    given: str = "",
+) -> Figure:
+    """`draw_profile`, of a real contact with units.
+
+    Parameters
+    ----------
+    parameters
+        Without units, the shape alone.
+    style, width
+        As for `swtstudy.accessor.SwtAccessor.figure`.
+    labels
+        Of a real contact what lengths and stresses are in its units.
+    given
+        What is given of it, for the title.
+    """
+    check_width(width)
     still = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
     grid, mistakes = read_grid({**still, **parameters}, {})
     if grid is None:
         raise StudyError(mistakes)
-    given = grid.fixed["profile"]
-    shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(given).shape}
-    profile = make_profile(given, shape, np.ones(1))  # type: ignore[arg-type]
+    pressed = grid.fixed["profile"]
+    shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(pressed).shape}
+    profile = make_profile(pressed, shape, np.ones(1))  # type: ignore[arg-type]
     edge = float(profile.radius(np.ones((1, 1)))[0, 0])
     with styled(style, width):
         sheet = Sheet(1, 2, width, _PANEL)
         figure = sheet.figure()
         sketch, springs = sheet.panels(figure, share_x="none", share_y="none")[0]
         _draw_sketch(sketch, profile, edge)
-        _draw_lengths(sketch, profile, {name: float(value[0]) for name, value in shape.items()})
-        _draw_springs(springs, profile, edge)
-        if isinstance(given, TabulatedProfile):
-            sketch.plot(given.radius, given.height - 1.0, ".", ms=3, color="C1", label="table")
-        words = [place_words("profile", str(given)), *(place_words(n, float(v[0])) for n, v in shape.items())]
-        if isinstance(given, TabulatedProfile):
-            words.append(f"{given.radius.size} points, missed by {given.deviation:.1e} δ0 at most")
-        figure.suptitle(",  ".join(words))
+        _draw_lengths(sketch, profile, {name: float(value[0]) for name, value in shape.items()}, labels)
+        _draw_springs(springs, profile, edge, labels)
+        show_units(sketch, ("x", "height"), labels)
+        if isinstance(pressed, TabulatedProfile):
+            sketch.plot(pressed.radius, pressed.height - 1.0, ".", ms=3, color="C1", label="table")
+        words = [given] if given else _words(pressed, shape)
+        if isinstance(pressed, TabulatedProfile):
+            missed = f"{pressed.deviation:.1e} δ0"
+            if labels:
+                missed = labels["height"].number(pressed.deviation, 2)
+            words.append(f"{pressed.radius.size} points, missed by {missed} at most")
+        figure.suptitle(("\n" if labels else ",  ").join(words))
         wrap_texts(figure)
     return figure
+
+
+def _words(profile: object, shape: Mapping[str, FloatArray]) -> list[str]:
+    """The profile and its shape in words."""
+    return [place_words("profile", str(profile)), *(place_words(n, float(v[0])) for n, v in shape.items())]
 
 
 def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
@@ -114,7 +147,7 @@ def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
     axes.set_title(f"f, undeformed, {at}", loc="left")
 
 
-def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float]) -> None:
+def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float], labels: Labels) -> None:
     """The radius of the face, or the length of a wave and its height, above the lower end of the indenter."""
     look: dict[str, Any] = {"arrowstyle": "<|-|>", "color": "k", "lw": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
     right = axes.get_xlim()[1]
@@ -132,22 +165,30 @@ def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float]) -> N
         crests = np.array([first, first + length])
         level = float(_height(profile, crests).max()) - 1.0 + 0.12
         axes.annotate("", (crests[1], level), (crests[0], level), arrowprops={**look, "mutation_scale": 6.0})
-        words = f"$\\lambda$, height $2h$ = {2.0 * height:.3g} $\\delta_0$"
+        tall = labels["height"].number(2.0 * height, 3) if labels else f"{2.0 * height:.3g} $\\delta_0$"
+        words = f"$\\lambda$, height $2h$ = {tall}"
         axes.annotate(words, (crests[0], level + 0.03), ha="center", va="bottom", fontsize="small")
 
 
-def _draw_springs(axes: Axes, profile: Profile, edge: float) -> None:
+def _draw_springs(axes: Axes, profile: Profile, edge: float, labels: Labels) -> None:
     """g, or N, and the pressure."""
     r = np.linspace(1e-6, _REACH * edge, _RADII)[None]
-    axes.plot(r[0], profile.depth(r)[0], color="C0", label="$N/P_0$" if profile.plane else "$g/\\delta_0$")
+    springs = "$N/P_0$" if profile.plane else "$g$" if labels else "$g/\\delta_0$"
+    axes.plot(r[0], profile.depth(r)[0], color="C0", label=springs)
     axes.axvline(edge, color="0.6", lw=0.8, ls=":")
     axes.axhline(1.0, color="0.6", lw=0.8, ls=":")
     inside = r[:, r[0] < edge]
     pressure = profile.primitives(inside, _DIGITS).outer(np.full(inside.shape, edge))[0, 0] / np.pi
-    axes.plot(inside[0], pressure, color="C3", label="$p\\,a_H/(E^*\\delta_0)$")
+    axes.plot(inside[0], pressure, color="C3", label="$p$" if labels else "$p\\,a_H/(E^*\\delta_0)$")
     axes.set(
         xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="half-width$/a_H$" if profile.plane else "radius$/a_H$"
     )
+    if labels:
+        show_units(axes, ("r", None if profile.plane else "spring_depth"), labels)
+        other = axes.twinx()
+        other.set_ylim(axes.get_ylim())
+        other.grid(False)
+        show_units(other, (None, "pressure"), labels)
     what = "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0"
     axes.set_title(what, loc="left")
     axes.legend(frameon=False, loc="upper left")

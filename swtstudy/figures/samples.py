@@ -9,11 +9,13 @@ from matplotlib import rcParams
 from matplotlib.lines import Line2D
 
 from swtstudy.figures.legend import add_legend
+from swtstudy.figures.outside import mark_points
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.validity import outside
 from swtstudy.results.quantity import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -47,13 +49,17 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
     figure = sheet.figure()
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
+        words = outside(dataset, quantity(dataset, y)).attrs["long_name"]
         for one, name in zip(axes[row], names, strict=True):
             for index, (label, part) in enumerate(_by(dataset, layout.hue)):
-                values = quantity(part, y).values
+                drawn = quantity(part, y)
+                values = drawn.values
                 x, at = _numbers(part[name])
                 faint = min(1.0, (_OPAQUE / len(values)) ** 0.5)
-                look = _look(index)
-                one.plot(x, values, **look, alpha=faint, label=label)
+                one.plot(x, values, **_look(index), alpha=faint, label=label)
+                if layout.validity:
+                    out = outside(part, drawn).values
+                    mark_points(one, x[out], values[out], words)
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
             one.set_xlabel(axis_words(name, dataset[name].attrs))

@@ -34,22 +34,38 @@ class Limit:
         What is so beyond it.
     value
         What the variable is, in words.
+    short
+        What the limit is, in a word or two.
     """
 
     variable: str
     largest: float
     words: str
     value: str
+    short: str
 
 
 LIMITS = (
-    Limit("yield_ratio", 1.0, "beyond first yield", "largest von Mises stress over the yield strength"),
-    Limit("radius_ratio", 0.1, "with a contact too large for half-spaces", "contact radius over R"),
+    Limit(
+        "yield_ratio",
+        1.0,
+        "beyond first yield",
+        "largest von Mises stress over the yield strength",
+        "first yield",
+    ),
+    Limit(
+        "radius_ratio",
+        0.1,
+        "with a contact too large for half-spaces",
+        "contact radius over R",
+        "half-spaces",
+    ),
     Limit(
         "bulk_shift_ratio",
         0.5,
         "where the bulk strain moves the stick zone, which is left out",
         "shift over the width of the slip zone",
+        "bulk strain",
     ),
 )
 
@@ -83,15 +99,31 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     return (*lines, *(within if inside else ()))
 
 
-def outside(dataset: xr.Dataset) -> xr.DataArray:
-    """Which points are outside of a limit, over the dimensions of s."""
-    found = np.zeros(dataset.s.shape, bool)
-    for limit in LIMITS:
-        if limit.variable in dataset:
-            found |= _over_points(dataset, dataset[limit.variable]) > limit.largest
-    for _, values in _every_life(dataset):
-        found |= _beyond(values)
-    return xr.DataArray(found, dims=dataset.s.dims)
+def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
+    """Which values of a quantity are outside of a limit.
+
+    Parameters
+    ----------
+    dataset
+        Results.
+    values
+        A quantity of theirs. Of a life the range that constants are known for counts as well.
+
+    Returns
+    -------
+    xarray.DataArray
+        True and False over the dimensions of the values; its ``long_name`` says of which limits.
+    """
+    found = xr.zeros_like(values, bool).drop_attrs()
+    limits = {
+        limit.short: dataset[limit.variable] > limit.largest for limit in LIMITS if limit.variable in dataset
+    }
+    if _is_life(dataset, str(values.name)):
+        limits["known lives"] = values.copy(data=_beyond(values.values))
+    for each in limits.values():
+        found = found | each.any([dim for dim in each.dims if dim not in values.dims])
+    words = ", ".join(name for name, each in limits.items() if each.any())
+    return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
 
 
 def _without_s(dataset: xr.Dataset) -> Iterator[str]:
@@ -147,9 +179,14 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
 def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
     """Lives of the points, the shortest over what each has several of, in the shape of s."""
     for name in map(str, dataset.data_vars):
-        if has_units(dataset) and name.partition("_")[0] == "cycles":
+        if _is_life(dataset, name):
             own = [dim for dim in dataset[name].dims if dim not in dataset.s.dims]
             yield name, dataset[name].min(own).transpose(*dataset.s.dims).values
+
+
+def _is_life(dataset: xr.Dataset, name: str) -> bool:
+    """Return whether a data variable is a life, in rounds."""
+    return has_units(dataset) and name.partition("_")[0] == "cycles"
 
 
 def _beyond(lives: NDArray[np.float64]) -> NDArray[np.bool_]:

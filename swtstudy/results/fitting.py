@@ -14,12 +14,11 @@ import numpy as np
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.solving import solve_grid
-from swtstudy.study.definition import study_from
+from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.sampling.points_file import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.axes import DIRECTIONS
-from swtstudy.vocabulary.files import parse_toml, read_text
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, nearest, plain_number
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
@@ -258,11 +257,7 @@ def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[P
     if mistakes:
         raise StudyError(mistakes)
     path = Path(study)
-    try:
-        raw = parse_toml(read_text(path))
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError([Mistake("", reason, "a readable study file (TOML)", str(study))]) from None
+    raw = tables_of(path)
     kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
     own = columns.keys() | {DISTANCE}
     kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.points.blocks import block_ends
 from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, select
 from swtstudy.points.cost import weights
@@ -17,6 +19,8 @@ from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 #: How many kinds of points (profile and frequency ratio) are timed at most, and seconds that all of it may
 #: take: a plan is quick. A point that takes longer is timed alone.
 _TIMED_KINDS, _BUDGET = 4, 1.5
+#: A loop of more vertices is timed by one with some of its own, no more than so many.
+_VERTICES = 200
 
 
 def estimate(
@@ -49,6 +53,8 @@ def estimate(
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends, weight = block_ends(table), weights(table)
+    lean, growth = _thinned(points)
+    loads = select(table, ("load",))[:, 0]
     spent, total, work = 0.0, 0.0, 0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
@@ -57,19 +63,32 @@ def estimate(
         inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
         if index == 0:
             # Warm-up call: the first one imports modules and fills tables.
-            result = solve_chunk(Chunk.of(points, [inside[:1]], asked), rtol, solver)
+            result = solve_chunk(Chunk.of(lean, [inside[:1]], asked), rtol, solver)
             spent = result.seconds
         elif spent > _BUDGET:
             break
         if index or spent <= _BUDGET:
             share = (_BUDGET - spent) / (len(largest) - index)
-            result, seconds = _timed(points, inside, asked, rtol, solver, share)
+            result, seconds = _timed(lean, inside, asked, rtol, solver, share)
             spent += seconds
         timed(result)
-        total += result.seconds / len(result) * sizes[each]
+        total += growth.get(float(loads[middle]), 1.0) * result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
     return float(total + total / work * others)
+
+
+def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[float, float]]:
+    """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
+    lean, growth = dict(points.definitions), {}
+    for code, loop in points.definitions.items():
+        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
+            thin = loop.thinned(_VERTICES)
+            lean[code] = thin
+            # As k log k: results/vertices.md.
+            many, few = (len(each.vertices) for each in (loop, thin))
+            growth[code] = many * np.log(many) / (few * np.log(few))
+    return replace(points, definitions=lean), growth
 
 
 def _timed(

@@ -23,7 +23,7 @@ def read_given(
             report("material", "constants without [units]", "with [units] only: a life needs a real contact")
         return None, None
     from swtstudy.units.labels import Units, read_units
-    from swtstudy.units.material import read_material
+    from swtstudy.units.material import read_material, warn_of_units
     from swtstudy.units.reading import ContactDetails
 
     # Wrong units are reported: meanwhile others stand for them.
@@ -32,21 +32,25 @@ def read_given(
         return ContactDetails(units), None
     young = fixed.get("young_modulus")
     pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
-    known = None if young is None else (_sound(pair[0]), _sound(pair[1]))
+    sound = [_sound(each) for each in pair]
+    # A wrong one is reported elsewhere: meanwhile any stands for it.
+    known = None if young is None else (sound[0] or 1.0, sound[1] or 1.0)
     materials = read_material(raw["material"], known, units, folder, report)
+    if all(sound):
+        warn_of_units(materials, (sound[0], sound[1]), units)
     given = ContactDetails(units, materials.constants, yield_strengths=materials.yield_strengths)
     return given, materials.critical_distance
 
 
 def _sound(young: object) -> float:
-    """A Young's modulus; any for one that is wrong, which is reported elsewhere."""
+    """A Young's modulus; 0 for one that is wrong."""
     from swtstudy.points.values import read_exact
 
     try:
         number = float(read_exact(young))
     except ValueError:
-        return 1.0
-    return number if number > 0.0 else 1.0
+        return 0.0
+    return max(number, 0.0)
 
 
 def every_name() -> set[str]:

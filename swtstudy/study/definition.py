@@ -152,6 +152,15 @@ class Study:
         return study_from(raw, text, source, Path(folder))
 
 
+def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
+    """Read the tables of a study file; a StudyError with the reason if that cannot be."""
+    try:
+        return parse_toml(read_text(path))
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise StudyError([Mistake("", reason, "a readable study file (TOML)", str(path))]) from None
+
+
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
     """The study of the tables of a file; see `Study.from_text`."""
     from swtstudy.study.structure import read_structure

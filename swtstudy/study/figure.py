@@ -54,6 +54,8 @@ class FigureLayout:
     regimes
         Whether to mark where a regime of the contact begins along a line, or the borders of regimes on a
         contour map.
+    validity
+        Whether to mark the points that are outside of what the model holds for.
     caption
         What there is to say beneath it, in reports; or None.
     """
@@ -66,6 +68,7 @@ class FigureLayout:
     kind: str = "lines"
     vertical: str | None = None
     regimes: bool = False
+    validity: bool = False
     caption: str | None = None
 
     def to_json(self) -> str:

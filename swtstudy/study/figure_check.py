@@ -56,6 +56,8 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield "figure.panels", literal(layout.panels), f"none for {kind}: every sampled parameter has its own"
     if layout.regimes:
         yield "figure.regimes", "True", f"False for {kind}"
+    if layout.validity and layout.kind == "histogram":
+        yield "figure.validity", "True", f"False for {kind}"
 
 
 def wrong_axes(

@@ -119,6 +119,9 @@ class FigureTable(Table):
     title: Text = _key("Title over the figure.", None)
     regimes: Flag = _key("Whether to mark where a regime of the contact begins along a line.", False)
     caption: Text = _key("What there is to say beneath the figure, in reports.", None)
+    validity: Flag = _key(
+        "Whether to mark points outside of what the model holds for, such as beyond first yield.", False
+    )
 
 
 *_OPTIONAL, _LAST = (name for name, field in FigureTable.model_fields.items() if not field.is_required())

@@ -80,6 +80,14 @@ strength = 927
 strength_exponent = -0.113
 ductility = 0.409
 ductility_exponent = -0.713
+# yield_strength = …  # a stress: tells where the contact begins to yield
+
+# A load that was measured, by its file: then load = "mine" below, and neither normal_force nor amplitudes.
+# [loads.mine]
+# file = "rig.csv"
+# columns = {{ normal = "Fn [N]", tangential = "Ft [N]" }}
+# absolute = true
+# recorded_cycles = 20
 
 # Parameters with one value; numbers may also be texts: "1/3", "pi/2".
 [fixed]

@@ -63,8 +63,7 @@ def to_toml(
         lines.append(f"y = [{', '.join(map(quoted, figure.y))}]")
         if figure.title:
             lines.append(f"title = {quoted(figure.title)}")
-        if figure.regimes:
-            lines.append("regimes = true")
+        lines += [f"{mark} = true" for mark in ("regimes", "validity") if getattr(figure, mark)]
         if figure.caption:
             lines.append(f"caption = {quoted(figure.caption)}")
     return "\n".join(lines) + "\n"

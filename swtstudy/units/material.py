@@ -30,6 +30,8 @@ PROPERTIES = (*CONSTANTS, STRENGTH, *RANGES, LOAD_RATIO)
 KEYS = (*PROPERTIES, *BY_NAME)
 _STRESSES = ("young_modulus", "strength", STRENGTH, "fatigue_limit_range")
 _FILE = "a TOML file with a table of constants for each material"
+#: Strengths over Young's modulus: metals are well within.
+USUAL_STRAINS = 2e-4, 0.05
 #: Of each body.
 _BOTH = 2
 
@@ -116,6 +118,17 @@ def _constants(
                 if not lacks or each.key not in intended:
                     mistakes.append(Mistake(each.key, "nothing" if lacks else each.found, each.allowed))
     return tuple(found) if len(found) == _BOTH else ()
+
+
+def warn_of_units(materials: Materials, young: tuple[float, float], units: Units) -> None:
+    """Warn of strengths that no metal has beside the modulus of its body: one is in another unit."""
+    given = {"strength": [each.strength for each in materials.constants], STRENGTH: materials.yield_strengths}
+    for name, values in given.items():
+        for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
+            if not USUAL_STRAINS[0] <= value / modulus <= USUAL_STRAINS[1]:
+                words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
+                ends = " to ".join(f"{end:g}" for end in USUAL_STRAINS)
+                warnings.warn(f"{words}, of metals {ends}: are both in {units.stress}?", stacklevel=2)
 
 
 def _strengths(tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:

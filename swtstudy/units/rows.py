@@ -33,6 +33,11 @@ _KINDS = {
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Of which exactly one is given.
 MEAN_LOADS = ("depth", "normal_force")
+#: What a contact at rest depends on.
+REST_DEPENDS_ON = (
+    *("young_modulus", "poisson_ratio", "radius", *MEAN_LOADS, "load", "contact_length", "body"),
+    *(name for name, row in PARAMETERS.items() if row.part == "shape"),
+)
 
 
 def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:

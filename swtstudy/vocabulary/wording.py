@@ -13,7 +13,8 @@ from swtstudy.vocabulary.axes import AXES
 _TOLERANCE = 1e-9
 #: Fractions with larger denominators are harder to read than decimals.
 _LARGEST_DENOMINATOR = 20
-
+#: A decimal of so many digits at most is read more easily than a fraction that is equal to it.
+_EXACT = 6
 
 #: Numbers below this power of ten are written out.
 _PLAIN = 6
@@ -71,6 +72,8 @@ def value_words(name: str, value: float | str) -> str:
     ('√20', 'rounded punch')
     >>> value_words("young_modulus", 73.1e3), value_words("friction", 5e-7)
     ('73100', '5·10⁻⁷')
+    >>> value_words("normal_force", 143.75), value_words("phase", 1.23456789)
+    ('143.75', '1.235')
     """
     if isinstance(value, str):
         return value.replace("_", " ")
@@ -80,8 +83,8 @@ def value_words(name: str, value: float | str) -> str:
         multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
         if multiple is not None:
             return pi_words(multiple)
-    if float(f"{value:.4g}") == value:
-        return number_words(value)
+    if float(f"{value:.{_EXACT}g}") == value:
+        return number_words(value, _EXACT)
     fraction = _fraction(value, _LARGEST_DENOMINATOR)
     if fraction is not None:
         return str(fraction)

@@ -12,6 +12,7 @@ from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
 from swtstudy.cli import main
 from swtstudy.contacts.measured import InUnits
+from swtstudy.contacts.of_results import contact_of_study
 from swtstudy.study.writing import to_toml
 
 RIG = {
@@ -186,6 +187,50 @@ def test_a_contact_is_drawn_in_its_units(rig):
     # Where 50 is written there are 50 of the 100 that friction bears.
     np.testing.assert_allclose(plane.get_xticks(), np.array(ticks) / 100.0)
     assert 50.0 in ticks
+
+
+def shown_numbers(axis):
+    """What the ticks of an axis stand for, over where they are."""
+    words = [label.get_text().replace("−", "-") for label in axis.get_ticklabels()]
+    return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
+
+
+def test_all_panels_of_a_contact_have_its_units(rig):
+    figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
+    panels = {each.get_title("left")[5:]: each for each in figure.axes}
+    at = f"on the critical plane at $x$ = {float(point.shown_x):.4g} unit of length"
+    (strain,) = [each for each in figure.axes if each.get_ylabel() == r"$\varepsilon_n$"]
+    assert at in panels
+    # Where 0.002 is written there is a strain of 0.002: that of the line drawn.
+    numbers, places = shown_numbers(strain.yaxis)
+    (drawn,) = [line for line in strain.lines if line.get_label() == r"$\varepsilon_n$"]
+    scale = point.normal_strain.values / np.where(drawn.get_ydata(), drawn.get_ydata(), np.nan)
+    np.testing.assert_allclose(numbers, places * np.nanmedian(scale), atol=1e-12)
+    forces = panels[r"forces over the cycle, dotted: $\pm\mu F_N$"]
+    assert forces.get_ylabel() == "force (unit of force)"
+    normal, tangential, *bounds = (line.get_ydata() for line in forces.lines[:4])
+    np.testing.assert_allclose(normal, 200.0)
+    assert tangential.max() == pytest.approx(60.0, rel=1e-3)
+    np.testing.assert_allclose(bounds, [[100.0] * len(normal), [-100.0] * len(normal)])
+    # The area of the loop, as a polygon.
+    u, force = point.displacement.values, point.tangential_force.values
+    area = 0.5 * abs(np.sum(u[:-1] * np.diff(force) - force[:-1] * np.diff(u)))
+    (words,) = [title for title in panels if title.startswith("force loop, work ")]
+    assert float(words.split()[3]) == pytest.approx(area, rel=2e-2)
+    assert words.endswith(" unit of work")
+
+
+def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path):
+    file = tmp_path / "pad.toml"
+    strength = "[material]\nyield_strength = 150\n[fixed]"
+    file.write_text(STUDY.replace("[fixed]", strength), encoding="utf-8")
+    contact = contact_of_study(str(file), {"phase": "90 deg"})
+    words = contact.inspect(body=1).get_suptitle().replace("\n", " ")
+    for given in ("$F_0$ = 200 N", "$R$ = 50 mm", r"$Q_A$ = 60 N", r"$\sigma_{B,A}$ = 30 MPa"):
+        assert given in words
+    assert "a_H" not in words
+    assert "beyond first yield: largest von Mises stress over the yield strength up to" in words
+    assert "sigma" not in contact._headlines(2)[0]  # the other body carries no bulk stress
 
 
 def test_the_command_shows_a_study(tmp_path, monkeypatch):

@@ -1,10 +1,16 @@
 """The picture of a profile: what its curves are."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+from click.testing import CliRunner
+from matplotlib.figure import Figure
 from oracles import profiles as oracle
 
 import swtstudy
+from swtstudy.cli import main
+from swtstudy.contacts.measured import InUnits
 from swtstudy.figures.profile import draw_profile
 
 
@@ -56,3 +62,71 @@ def test_lengths_of_a_shape_are_drawn():
     assert arrow.xy[0] - arrow.xyann[0] == pytest.approx(0.5)
     assert arrow.xyann[0] / 0.5 % 1.0 == pytest.approx(0.5)
     assert not [t for t in draw_profile(profile="paraboloid").axes[0].texts if "b$" in t.get_text()]
+
+
+RIG = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "friction": 0.5, "normal_force": 200.0}
+
+
+def shown(axis):
+    """The numbers at the ticks of an axis, and where these are."""
+    words = [label.get_text().replace("−", "-") for label in axis.get_ticklabels()]
+    return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
+
+
+def test_a_profile_of_a_real_contact_has_its_lengths():
+    """Hertz: δ0 = a²/R, p0 = 3F/(2πa²)."""
+    contact = swtstudy.physical(**RIG, radius=50.0, tangential_amplitude=0.0)
+    figure = contact.draw_profile()
+    sketch, springs, pressures = figure.axes
+    assert "$R$ = 50" in figure.get_suptitle()
+    assert "\\mu" not in figure.get_suptitle()
+    a, δ0 = contact.contact_radius, contact.contact_radius**2 / 50.0
+    p0 = 3.0 * 200.0 / (2.0 * np.pi * a**2)
+    radius, at = shown(springs.xaxis)
+    np.testing.assert_allclose(radius, a * at, rtol=1e-5)  # a = a_H
+    numbers, at = shown(pressures.yaxis)
+    (p,) = [line for line in springs.lines if line.get_label() == "$p$"]
+    largest = p.get_ydata().max()
+    np.testing.assert_allclose(numbers, at * p0 / largest, rtol=1e-4)
+    for axis in (springs.yaxis, sketch.yaxis):
+        numbers, at = shown(axis)
+        np.testing.assert_allclose(numbers, δ0 * at, rtol=1e-4)
+    assert pressures.get_ylim() == springs.get_ylim()
+
+
+STUDY = """
+title = "A worn tip"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+friction = 0.5
+normal_force = 200
+[axes]
+tangential_force_amplitude = [30, 60]
+"""
+
+
+def test_the_command_draws_a_table_with_a_study(tmp_path, monkeypatch):
+    rows = np.random.default_rng(0).normal(0.0, 2e-5, 80) * (np.arange(80) > 0)
+    radius = np.linspace(0.0, 2.0, 80)
+    table = np.stack([radius, radius**2 / 100.0 + rows], axis=1)
+    monkeypatch.chdir(tmp_path)
+    np.savetxt("tip.csv", table, delimiter=",", header="radius,height", comments="")
+    Path("rig.toml").write_text(STUDY, encoding="utf-8")
+    drawn = []
+    monkeypatch.setattr(InUnits, "draw_profile", lambda contact, *_: drawn.append(contact) or Figure())
+    arguments = ["show", "rig.toml", "--profile", "tip.csv", "--smoothing", "2e-5"]
+    done = CliRunner().invoke(main, arguments)
+    assert done.exit_code == 0, done.stderr
+    (contact,) = drawn
+    (table,) = contact.grid.values("profile")
+    assert (table.name, table.smoothing, table.radius[-1]) == ("tip", 2e-5, 2.0)
+    rough = CliRunner().invoke(main, arguments[:4])
+    assert rough.exit_code == 2
+    assert "ask for smoothing" in rough.stderr
+    none = CliRunner().invoke(main, ["show", "rig.toml", "--profile", "paraboloid", "--smoothing", "1"])
+    assert "smoothing: found 1 of 'paraboloid'; allowed: for a table alone" in none.stderr

@@ -49,6 +49,9 @@ def test_the_picture_has_the_record_the_path_and_the_friction_margin(rig: Path) 
     # The largest of |Q|/(μP) by hand.
     assert margin.get_lines()[0].get_ydata().max() == pytest.approx(57 / (0.5 * 190))
     assert "at most 0.60" in margin.get_title(loc="left")
+    words = [text.get_text() for text in course.get_legend().get_texts()]
+    assert words == ["normal (N)", "tangential (N)", "bulk stress (MPa)"]
+    assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (N)", "tangential load (N)")
 
 
 def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig: Path) -> None:
@@ -69,5 +72,14 @@ def test_a_smooth_loop_without_units_is_drawn_too() -> None:
     course, path = draw_load(Study.from_text(text), "mine").axes
     assert course.get_lines()[0].get_ydata().max() == pytest.approx(1.5, rel=1e-4)
     assert path.get_lines()[0].get_ydata().max() == pytest.approx(0.3, rel=1e-4)
+    assert (path.get_xlabel(), course.get_legend().get_texts()[0].get_text()) == ("normal load", "normal")
     with pytest.raises(StudyError, match="load: found 'harmonic'"):
         draw_load(Study.from_text(text), "harmonic")
+
+
+def test_a_depth_and_a_force_have_units_each() -> None:
+    mixed = "depth = 0.006\ntangential_force_amplitude = 1\nload = "
+    text = RIG.replace("load = ", mixed, 1)
+    text = text[: text.index("file = ")] + "vertices = [[0, -20], [0, 20]]\n"
+    path = draw_load(Study.from_text(text), "rig").axes[1]
+    assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (mm)", "tangential load (N)")

@@ -138,7 +138,7 @@ def test_what_is_outside_is_said(rig):
     assert validity_lines(rig.sel(tangential_force_amplitude=30)) == ()
     within = validity_lines(rig.sel(tangential_force_amplitude=[30]), inside=True)
     assert "contact radius over R up to 0.0114, within 0.1" in within
-    assert outside(rig).values.tolist() == [False, True, False]
+    assert outside(rig, rig.s).values.tolist() == [False, True, False]
     assert [line for line in describe(rig) if "validity" in line][:2] == [
         f"  validity       {line}" for line in lines
     ]

@@ -1,6 +1,7 @@
 """The critical distance from properties, and fitted to tests."""
 
 import logging
+import warnings
 
 import numpy as np
 import pytest
@@ -187,6 +188,28 @@ def test_a_threshold_of_other_units_is_warned_of():
     """3.5 MPa√m are 110.7 MPa√mm: taken for the latter ℓ is a thousandth."""
     with pytest.warns(UserWarning, match="1 MPa√m is 31.62 MPa√mm"):
         Study.from_text(with_material("threshold_stress_intensity_range = 3.5", RANGES[1]))
+
+
+@pytest.mark.parametrize(
+    ("young", "line", "words"),
+    [
+        ("73.1", "", r"material.strength 927 over young_modulus 73.1 is 12.7, of metals 0.0002 to 0.05: are"),
+        ("73.1e9", "", "material.strength 927 over young_modulus 7.31e.10 is 1.27e-08, .* both in MPa"),
+        ("73.1e3", "yield_strength = 0.35", "material.yield_strength 0.35 over young_modulus 73100 is"),
+    ],
+)
+def test_a_modulus_of_another_unit_is_warned_of(young, line, words):
+    text = with_material(*[line] if line else []).replace(
+        "young_modulus = 73.1e3", f"young_modulus = {young}"
+    )
+    with pytest.warns(UserWarning, match=words):
+        Study.from_text(text)
+
+
+def test_usual_moduli_are_not():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Study.from_text(with_material("yield_strength = 350"))
 
 
 @pytest.mark.parametrize(

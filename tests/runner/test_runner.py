@@ -20,6 +20,7 @@ from swtstudy import Study, StudyError, run
 from swtstudy.archive.error import ArchiveError
 from swtstudy.points.canonical import COLUMNS
 from swtstudy.points.cost import SECONDS_PER_WEIGHT, duration, weights
+from swtstudy.points.grid import Grid
 from swtstudy.points.result import Result
 from swtstudy.points.unique import unique_points
 from swtstudy.runner import engine
@@ -317,6 +318,26 @@ def test_a_plan_times_no_more_points_than_its_budget_allows():
     assert seconds == pytest.approx(
         50.0 * weight.sum() / weight[points.table[:, COLUMNS.index("q")] == 1].sum()
     )
+
+
+def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
+    """Of k log k seconds a point, whatever is timed."""
+    t = 2.0 * np.pi * np.arange(1600) / 1600
+    loop = swtstudy.LoadPath("long", np.stack([0.2 * np.cos(t), 0.2 * np.sin(t)], axis=1))
+    grid = Grid({"load": loop}, {"friction": (0.3, 0.5)})
+    points, counts = unique_points(grid), []
+
+    def solve(chunk, rtol, solver):
+        (load,) = chunk.definitions.values()
+        k = len(load.vertices)
+        counts.append(k)
+        seconds = float(len(chunk) * 1e-4 * k * np.log(k))
+        return Result(np.arange(len(chunk)), None, np.zeros(len(chunk), bool), {}, seconds, "1")
+
+    with mock.patch("swtstudy.runner.estimate.solve_chunk", solve):
+        seconds = estimate(points, np.ones(2, bool), 1e-3, None)
+    assert 100 < max(counts) <= 200
+    assert seconds == pytest.approx(2 * 1e-4 * 1600 * np.log(1600))
 
 
 def timed_by_ratio(timed, chunk, rtol, solver):

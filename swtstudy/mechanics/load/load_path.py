@@ -174,6 +174,10 @@ class LoadPath(Loop):
             return cls(name, content["vertices"], content.get("mean_normal"))
         return SmoothPath.of_content(name, content)
 
+    def thinned(self, most: int) -> LoadPath:
+        """A loop of every second, third … of its vertices: of no more than so many."""
+        return LoadPath(self.name, self.vertices[:: -(-len(self.vertices) // most)], self.mean_normal)
+
     @cached_property
     def cost(self) -> int:
         return 1 + len(self.vertices) // SIDES_PER_OSCILLATION

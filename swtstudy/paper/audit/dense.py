@@ -50,12 +50,12 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
     turn = 2.0 * np.pi / planes
     angles = np.asarray(turn * np.arange(planes))
     best, position = 0.0, np.nan
-    found = []
+    found: list[tuple[float, float, int, float]] = []
     for side in (1.0, -1.0):
-        swt, plane = _highest(scene, r, side, angles, INSTANTS)
+        swt, best_plane = _highest(scene, r, side, angles, INSTANTS)
         framed = np.pad(swt, 1, constant_values=-1.0)
         peak = (swt > framed[:-2]) & (swt >= framed[2:])
-        found += [(swt[k], side, k, plane[k]) for k in np.flatnonzero(peak)]
+        found += [(swt[k], side, k, best_plane[k]) for k in np.flatnonzero(peak).tolist()]
     found.sort(reverse=True)
     for height, side, k, plane in found[:KEPT]:
         if height >= HIGH * found[0][0]:

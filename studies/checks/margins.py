@@ -1,0 +1,74 @@
+"""By how much may the first look be wrong? Where swt is largest, over the highest that was seen.
+
+``python studies/checks/margins.py``, from the project folder, writes results/margins.md. The search climbs
+from places within three shares of the highest that a first look sees, see `SHARE` of
+`swtstudy.mechanics.line.first_look`. At random points of `overlooked.py`, of another seed: how low was what
+was seen at the neighbours of the place that turned out to be the highest? What is far above the margin cannot
+be lost by a first look.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from overlooked import SCENES
+
+from swtstudy.mechanics.line.accuracy import Accuracy
+from swtstudy.mechanics.line.first_look import SHARE, resolved
+from swtstudy.mechanics.line.many_cusps import joined_pieces
+from swtstudy.mechanics.line.maximum import maximum
+from swtstudy.mechanics.line.positions import Pieces
+from swtstudy.mechanics.line.singular_edge import not_finite
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.solver import scenes
+
+SEED, RTOL = 5, 1e-4
+
+
+def seen_there(points: Points) -> FloatArray:
+    """What was seen beside the places of the maxima, over the highest seen, where there is tension."""
+    found = []
+    for _, scene in scenes(points):
+        scene = scene.take(np.flatnonzero(~not_finite(scene)))
+        if not len(scene):
+            continue
+        positions, seen = resolved(scene, joined_pieces(scene, Pieces.of(scene.split_at_breakpoints())))
+        top = maximum(scene, Accuracy.for_tolerance(RTOL))
+        for k in np.flatnonzero((top.swt > 0.0) & np.isfinite(top.position)):
+            own = np.flatnonzero(positions.point == k)
+            swt = seen.swt[own]
+            side = 0 if top.position[k] > 0.0 or swt.shape[1] == 1 else 1
+            at = np.searchsorted(positions.r[own], abs(top.position[k]))
+            found.append(swt[max(at - 1, 0) : at + 2, side].max() / swt.max())
+    return np.array(found)
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
+    arguments.add_argument("--quick", action="store_true", help="one scene, to see that it runs")
+    given = arguments.parse_args()
+    lines = [
+        "# By how much may the first look be wrong?",
+        "",
+        "What the first look saw at the neighbours of the place of the largest swt, over the highest that it "
+        f"saw. The search climbs from {1.0 - 3.0 * SHARE:.2f} on. `python studies/checks/margins.py`",
+        "",
+        "| scene | points | lowest | next | 1 in 100 below |",
+        "|---|---|---|---|---|",
+    ]
+    for number, (name, (drawn, _)) in enumerate(list(SCENES.items())[: 1 if given.quick else None]):
+        chunks = range(1 if given.quick else 10)
+        drawn_points = [drawn(np.random.default_rng([SEED, number, chunk])) for chunk in chunks]
+        seen = np.sort(np.concatenate([seen_there(points) for points in drawn_points]))
+        lines.append(
+            f"| {name} | {seen.size} | {seen[0]:.3f} | {seen[1]:.3f} | {np.quantile(seen, 0.01):.3f} |"
+        )
+        print(lines[-1], flush=True)
+    (given.results / "margins.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,121 @@
+"""Marks in figures of the points that are outside of what the model holds for."""
+
+import numpy as np
+import pytest
+from made_up import made_up
+
+from swtstudy import Study
+from swtstudy.figures.draw import draw
+from swtstudy.points.requested import CONTACT
+from swtstudy.points.validity import outside
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.writing import to_toml
+
+AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 10), np.linspace(0.2, 0.8, 7)
+
+
+@pytest.fixture
+def results():
+    """Beyond first yield where u + μ > 1.3; N = 10⁵/u³, above 10⁷ where u < 0.2154."""
+    dataset = made_up(
+        lambda friction, tangential_amplitude: friction * tangential_amplitude,
+        friction=FRICTION,
+        tangential_amplitude=AMPLITUDE,
+    )
+    ratio = (dataset.tangential_amplitude + dataset.friction) / 1.3 - 1e-9
+    cycles = 1e5 / dataset.tangential_amplitude**3 + 0.0 * dataset.friction
+    dims = dataset.s.dims
+    dataset = dataset.assign(yield_ratio=ratio.transpose(*dims), cycles=cycles.transpose(*dims))
+    return dataset.assign_attrs({CONTACT: "{}"})
+
+
+BEYOND = AMPLITUDE[None, :] + FRICTION[:, None] > 1.3 + 1e-6
+LONG = np.broadcast_to(AMPLITUDE < 0.2154, BEYOND.shape)
+
+
+def marks(axes, words):
+    return [line for line in axes.lines if str(line.get_label()) == words]
+
+
+def test_outside_of_what_a_quantity_is(results):
+    found = outside(results, results.s)
+    np.testing.assert_array_equal(found, BEYOND)
+    assert found.attrs["long_name"] == "outside: first yield"
+    life = outside(results, results.cycles.transpose())
+    np.testing.assert_array_equal(life, (BEYOND | LONG).T)
+    assert life.attrs["long_name"] == "outside: first yield, known lives"
+    # A quantity that is one for several points is outside where one of them is.
+    np.testing.assert_array_equal(outside(results, results.s.isel(friction=0)), BEYOND.any(axis=0))
+
+
+@pytest.mark.parametrize("kind", ["lines", "life"])
+def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
+    layout = FigureLayout("tangential_amplitude", "friction", y=("cycles",), kind=kind, validity=True)
+    axes = draw(results, layout).axes[0]
+    bands = marks(axes, "outside: first yield, known lives")
+    assert len(bands) == len(FRICTION)
+    for band, row in zip(bands, BEYOND | LONG, strict=True):
+        x = np.asarray(band.get_ydata() if kind == "life" else band.get_xdata())
+        # Each point, and one beside it, so that a point alone has a band too.
+        np.testing.assert_allclose(x[::2][row], AMPLITUDE[row])
+        np.testing.assert_allclose(x[1::2][row], AMPLITUDE[row], atol=1.1e-4)
+        assert np.isnan(x.reshape(-1, 2)[~row]).all()
+        assert (x[1::2] != x[::2]).all()
+        assert band.get_zorder() < min(line.get_zorder() for line in axes.lines if line not in bands)
+    plain = draw(results, FigureLayout("tangential_amplitude", "friction", y=("cycles",), kind=kind))
+    assert not marks(plain.axes[0], "outside: first yield, known lives")
+
+
+def test_a_map_has_dots_on_the_points_that_are_outside(results):
+    layout = FigureLayout("tangential_amplitude", kind="contour", vertical="friction", validity=True)
+    (dots,) = marks(draw(results, layout).axes[0], "outside: first yield")
+    rows, columns = np.nonzero(BEYOND)
+    np.testing.assert_array_equal(dots.get_xydata(), np.stack([AMPLITUDE[columns], FRICTION[rows]], axis=1))
+    (cells,) = marks(
+        draw(
+            results, FigureLayout("tangential_amplitude", kind="heatmap", vertical="friction", validity=True)
+        ).axes[0],
+        "outside: first yield",
+    )
+    np.testing.assert_array_equal(cells.get_xydata(), np.stack([columns, rows], axis=1))
+
+
+def test_a_fine_map_has_fewer_dots_and_none_that_is_inside():
+    fine = made_up(
+        lambda friction, tangential_amplitude: friction * tangential_amplitude,
+        friction=np.linspace(0.1, 0.9, 101),
+        tangential_amplitude=np.linspace(0.1, 0.9, 90),
+    )
+    fine = fine.assign(yield_ratio=3.0 * fine.s)
+    layout = FigureLayout("tangential_amplitude", kind="contour", vertical="friction", validity=True)
+    (dots,) = marks(draw(fine, layout).axes[0], "outside: first yield")
+    at = np.asarray(dots.get_xydata())
+    assert 20 < len(at) < 32**2
+    assert (3.0 * at.prod(axis=1) > 1.0).all()
+
+
+def test_a_scatter_has_them_and_a_histogram_has_not(results):
+    some = results.stack(sample=("friction", "tangential_amplitude")).reset_index("sample")
+    axes = draw(some, FigureLayout("sample", kind="scatter", validity=True)).axes[0]
+    (dots,) = marks(axes, "outside: first yield")
+    assert len(dots.get_xdata()) == BEYOND.sum()
+    with pytest.raises(ValueError, match=r"figure\.validity: found True; allowed: False for kind = \"hist"):
+        draw(some, FigureLayout("sample", kind="histogram", validity=True))
+
+
+def test_nothing_outside_has_no_mark(results):
+    inside = results.assign(yield_ratio=0.0 * results.yield_ratio)
+    layout = FigureLayout("tangential_amplitude", "friction", validity=True)
+    plain = FigureLayout("tangential_amplitude", "friction")
+    assert len(draw(inside, layout).axes[0].lines) == len(draw(inside, plain).axes[0].lines)
+
+
+def test_a_study_may_ask_for_them():
+    text = 'title = "t"\n[axes]\nphase = [0, 1]\n[figure]\nx = "phase"\nvalidity = true\n'
+    study = Study.from_text(text)
+    assert study.figure is not None
+    assert study.figure.validity
+    assert FigureLayout.from_json(study.figure.to_json()) == study.figure
+    with pytest.raises(ValueError, match=r"figure\.validity: found 3; allowed: true or false"):
+        Study.from_text(text.replace("true", "3"))
+    assert Study.from_text(to_toml("t", 1e-3, study.grid, study.figure)).figure == study.figure
