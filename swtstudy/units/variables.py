@@ -14,7 +14,7 @@ from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
 from swtstudy.units.shear_life import ShearConstants
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT, WORDS
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 
 if TYPE_CHECKING:
@@ -279,10 +279,10 @@ def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterio
 
 _ESTIMATED = " by shear constants estimated from the tensile ones"
 _KINDS = (
-    _Kind(SWT, "SWT", r"\mathrm{SWT}", WORDS[SWT], "stress", _swt_scale, "cycles"),
+    _Kind(SWT, "SWT", r"\mathrm{SWT}", "SWT", "stress", _swt_scale, "cycles"),
     _Kind(
-        *(FATEMI_SOCIE, "FS", r"\mathrm{FS}", WORDS[FATEMI_SOCIE], "1", _strain_scale),
+        *(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "Fatemi-Socie parameter", "1", _strain_scale),
         *("FS_cycles", "FS", _ESTIMATED),
     ),
-    _Kind(FINDLEY, "findley_stress", "f", WORDS[FINDLEY], "stress", _stress_scale),
+    _Kind(FINDLEY, "findley_stress", "f", "Findley stress", "stress", _stress_scale),
 )
