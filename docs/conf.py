@@ -45,6 +45,7 @@ napoleon_use_ivar = True
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_static_path = ["static"]
+html_extra_path = ["generated/example"]  # pages that are none of Sphinx's, as they are
 html_css_files = ["style.css"]
 html_title = f"swtstudy {release}"
 html_show_copyright = False

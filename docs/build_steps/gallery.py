@@ -22,6 +22,7 @@ def gallery(root: Path) -> str:
             caption = layout_of(results[name]).caption or ""
             title, source = str(results[name].title), f"studies/{name}.toml"
             parts.append(_entry(name, title, source, f"{said} {_plain(caption)}".strip(), root))
+            parts.append(f"[A page of it](report.md) to send: `swtstudy report results/{name}.nc`\n")
     parts.append("## Scripts\n")
     for path in sorted((root / "studies" / "maps").glob("*.py")):
         title = path.read_text(encoding="utf-8").partition('"""')[2].partition("\n")[0].rstrip(".")

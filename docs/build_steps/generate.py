@@ -13,6 +13,8 @@ from build_steps.profiles import draw_profiles
 from build_steps.rooms import MECHANICS, WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
+from swtstudy import open_results
+from swtstudy.reports.page import page
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -36,6 +38,9 @@ def generate(folder: Path) -> None:
     draw_house(MECHANICS, folder / "mechanics.svg")
     draw_profiles(folder)
     draw_best_and_worst(ROOT, folder / "best_and_worst.svg")
+    report = folder / "example" / "report_figure3.html"
+    report.parent.mkdir(exist_ok=True)
+    report.write_text(page(open_results(ROOT / "results" / "figure3.nc"), "figure3"), encoding="utf-8")
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
 
 

@@ -20,7 +20,7 @@ _ELSEWHERE = {
 }
 #: Sections of pages that show what a table in the package holds.
 _TABLES = {
-    "swtstudy.vocabulary.parameters.PARAMETERS": ("study_reference", "parameters"),
+    "swtstudy.vocabulary.parameters.PARAMETERS": ("api/solve", "parameters"),
     "swtstudy.vocabulary.quantities.NAMED": ("study_file", "what-is-computed-beside-s"),
     "swtstudy.vocabulary.quantities.QUANTITIES": ("study_file", "what-is-computed-beside-s"),
 }

@@ -14,12 +14,14 @@ def study_file() -> str:
     schema = study_schema()
     keys, parts = schema["properties"], schema["$defs"]
     required = set(schema.get("required", ()))
-    own = ("fixed", "axes", "figure", "sample", "loads", "profiles")
+    own = ("units", "material", "fixed", "axes", "figure", "sample", "loads", "blocks", "profiles")
     plain = {name: entry for name, entry in keys.items() if name not in own}
     return "\n".join(
         [
             "## Top of the file\n",
             _table(plain, required),
+            *_section("units", keys, keys["units"]),
+            *_section("material", keys, keys["material"]),
             f"## `[fixed]`\n\n{keys['fixed']['description']}\n",
             _parameters(keys["fixed"]["properties"]),
             f"## `[axes]`\n\n{keys['axes']['description']} The names and ranges of their values are those of "
@@ -27,6 +29,8 @@ def study_file() -> str:
             _table(parts["RangeTable"]["properties"], set(parts["RangeTable"]["required"])),
             *_section("sample", keys, parts["SampleTable"]),
             *_section("loads", keys, parts["LoadTable"], ".NAME"),
+            f"## `[[blocks]]`\n\n{keys['blocks']['description']}\n",
+            _table(parts["BlockTable"]["properties"], set(parts["BlockTable"]["required"])),
             *_section("profiles", keys, parts["ProfileTable"], ".NAME"),
             f"## `[figure]`\n\n{keys['figure']['description']}\n",
             _table(parts["FigureTable"]["properties"], set(parts["FigureTable"]["required"])),
@@ -79,6 +83,8 @@ def _value(entry: dict[str, Any]) -> str:
         return ", ".join(f"`{name}`" for name in names) if len(names) <= 5 else "name of an axis"
     if "anyOf" in entry:
         return " or ".join(_value(each) for each in entry["anyOf"] if each.get("type") != "null")
+    if "examples" in entry:
+        return f"text such as {', '.join(f'`{each}`' for each in entry['examples'][:3])}"
     if entry.get("type") == "array":
         items = entry["items"]
         return f"a list of {_value(items)}{'' if 'anyOf' in items else 's'}"
@@ -88,5 +94,5 @@ def _value(entry: dict[str, Any]) -> str:
     return " ".join([words, ", ".join(limits)]).strip()
 
 
-_WORDS = {"object": "table", "string": "text", "boolean": "true or false"}
+_WORDS = {"object": "table", "array": "a pair", "string": "text", "boolean": "true or false"}
 _LIMITS = {"exclusiveMinimum": ">", "minimum": "≥", "maximum": "≤"}

@@ -125,7 +125,7 @@ class PhysicalContact(InUnits):
 
     @property
     def shape(self) -> dict[str, Any]:
-        """Shape parameters of the profile: lengths but for the exponent."""
+        """Shape parameters of the profile, lengths but for the exponent."""
         profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 

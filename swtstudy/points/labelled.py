@@ -17,7 +17,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.records import STATES
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.vocabulary.criteria import BENEATH, MEANING, SWT
+from swtstudy.vocabulary.criteria import BENEATH, MEANING, SWT, WORDS, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.prescribed import CONTROLS
@@ -158,7 +158,7 @@ def label(
         shaped = values.reshape((*grid.shape, *values.shape[1:]))
         variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
     dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
-    _name_criteria(dataset, grid)
+    _name_criteria(dataset, grid, asked)
     dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
@@ -168,8 +168,8 @@ def label(
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
-def _name_criteria(dataset: xr.Dataset, grid: Grid) -> None:
-    """Say of s which criterion it is, unless it is the paper's."""
+def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
+    """Say of s and of what is made of it which criterion it is, unless it is the paper's."""
     criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
     if criteria == [SWT]:
         return
@@ -180,6 +180,11 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid) -> None:
         "comment": f"{words}; on the surface line y = 0: {BENEATH}",
         "criterion": " ".join(criteria),
     }
+    value = WORDS[criteria[0]] if single else "criterion"
+    for name in asked.variables:
+        own = dataset[name].attrs
+        own |= {key: with_values_of(own[key], value) for key in ("long_name", "comment")}
+        own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:

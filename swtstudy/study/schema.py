@@ -26,6 +26,20 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
+#: What properties of a material are; the names of others say so.
+_PROPERTIES = {
+    "young_modulus": "Young's modulus of the constants, if it is not that of the body.",
+    "strength": "σf′ of the strain–life constants, a stress.",
+    "strength_exponent": "b, below 0.",
+    "ductility": "εf′.",
+    "ductility_exponent": "c, below 0.",
+    "yield_strength": "Stress above which the body yields: for von Mises stresses, and marks of validity.",
+    "threshold_stress_intensity_range": "ΔK_th, a range, in stress times √length; for the critical distance.",
+    "fatigue_limit_range": "Δσ_0, a range of stress; for the critical distance.",
+    "load_ratio": "Least over largest load at which both ranges were found; not used, but said.",
+    "file": "Path of a TOML file with a table of properties for each material, relative to the study.",
+    "name": "Name of the material in that file.",
+}
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
 #: Where a sample may be beside axes.
@@ -89,14 +103,19 @@ def schema_text() -> str:
 def _units() -> dict[str, Any]:
     """Schema of the units."""
     label = {"type": "string", "minLength": 1}
-    kinds = {kind: label | {"examples": list(KNOWN[kind])} for kind in UNITS}
+    kinds = {
+        kind: {"description": f"Of each {kind}.", **label, "examples": list(KNOWN[kind])} for kind in UNITS
+    }
     return {"type": "object", "properties": kinds, "required": [*UNITS], "additionalProperties": False}
 
 
 def _material() -> dict[str, Any]:
     """Schema of fatigue constants."""
     of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
-    return {"type": "object", "properties": dict.fromkeys(KEYS, of_both), "additionalProperties": False}
+    properties = {
+        key: {"description": _PROPERTIES.get(key, key.replace("_", " ")), **of_both} for key in KEYS
+    }
+    return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
 def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:

@@ -145,7 +145,7 @@ NAMES = (
 
 @dataclass(frozen=True)
 class _Kind:
-    """What s of a criterion is with units.
+    """Names and words that s of a criterion has with units.
 
     Attributes
     ----------
@@ -200,7 +200,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
 
 
 def _ends(asked: Request) -> Iterator[str]:
-    """How the names of s, its means and their errors end."""
+    """Endings of the names of s, its means and their errors."""
     for name in ("s", *(name for name in MEANS if name in asked.variables)):
         for of in (name, error_of(name)):
             yield of.removeprefix("s")

@@ -69,6 +69,52 @@ def test_nonlocal_values():
     assert found.direction.values.tolist() == ["depth", "critical_plane"]
 
 
+@pytest.mark.parametrize(
+    ("criterion", "value"),
+    [
+        ("findley", "Findley stress"),
+        ("fatemi_socie", "Fatemi-Socie parameter"),
+        (["findley", "swt"], "criterion"),
+    ],
+)
+def test_nonlocal_values_are_of_the_criterion(criterion, value):
+    found = swtstudy.solve(
+        criterion=criterion,
+        normal_sensitivity=0.3,
+        critical_distance=0.1,
+        tangential_amplitude=0.5,
+        rtol=1e-2,
+    )
+    told = {name: values.attrs for name, values in found.data_vars.items() if name not in ATTRIBUTES}
+    assert told["s_volume"]["long_name"] == f"mean of {value} over a volume"
+    assert told["s_point"]["long_name"] == f"{value} at a distance"
+    assert told["s_line"]["comment"] == (
+        f"largest mean of {value} in the unit of s over twice the critical distance from local maxima of "
+        f"{value}, which is that from line_x"
+    )
+    assert not [each for each in told.values() if "swt" in " ".join(map(str, each.values())).lower()]
+
+
+def test_counted_cycles_are_of_the_criterion():
+    own = {
+        "young_modulus": 210e3,
+        "poisson_ratio": 0.3,
+        "radius": 50.0,
+        "friction": 0.5,
+        "normal_force": 200.0,
+    }
+    contacts = swtstudy.physical(
+        **own,
+        tangential_force_amplitude=[30.0, 60.0],
+        criterion="fatemi_socie",
+        normal_sensitivity=0.3,
+        yield_strength=400.0,
+    )
+    found = contacts.solve(constants=swtstudy.FatigueConstants(210e3, 900.0, -0.1, 0.5, -0.6), rtol=1e-2)
+    assert found.counted.attrs["symbol"] == "s_i/s"
+    assert not [each for each in found.counted.attrs.values() if "swt" in str(each).lower()]
+
+
 def test_one_point():
     point = swtstudy.inspect_point()
     expected = {
