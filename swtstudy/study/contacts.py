@@ -52,7 +52,7 @@ def read_given(
 
 
 def _two(value: object) -> list[object]:
-    """What each body has."""
+    """Values of both bodies."""
     return value if isinstance(value, list) and len(value) == 2 else [value, value]
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.points.values import as_number
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
@@ -270,30 +271,49 @@ def _work(grid: PhysicalGrid) -> xr.DataArray:
     return grid.at_rest.each(lambda contact: contact.work_scale)
 
 
-def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
-    """Rounds to a crack at SWT, or at a Fatemi–Socie parameter, of strain cycles if they are counted.
+def _cycles(value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
+    """Rounds to a crack at SWT, or at a Fatemi–Socie parameter, of strain cycles if they are counted."""
+    import xarray as xr
 
-    With the constants of each body.
-    """
-    materials = _constants(grid, criterion)
     # Runs of before have means that are below 0 by rounding.
-    swt = swt.clip(min=0.0)
-    if COUNTED.keys() <= {*dataset.data_vars}:
-        counted = [dataset[name] for name in COUNTED]
-        one, two = (each.rounds(swt, *counted) for each in materials)
+    value = value.clip(min=0.0)
+    counted = dataset[[name for name in COUNTED if name in dataset.data_vars]]
+    constants, dim = _constants(grid, criterion), grid.dimension("poisson_ratio")
+    if len(constants) == 1:
+        return _of_bodies(value, counted, grid.bodies, constants[0])
+    # Estimated ones, which differ from one Poisson ratio to another.
+    parts = []
+    for k, both in enumerate(constants):
+        own = [each.isel({dim: [k]}, missing_dims="ignore") for each in (value, counted, grid.bodies)]
+        parts.append(_of_bodies(*own, both))
+    return xr.concat(parts, dim).transpose(*value.dims)
+
+
+def _of_bodies(
+    value: xr.DataArray,
+    counted: xr.Dataset,
+    bodies: xr.DataArray,
+    constants: Sequence[FatigueConstants | ShearConstants],
+) -> xr.DataArray:
+    """Rounds to a crack by the constants of each body."""
+    if len(counted) == len(COUNTED):
+        one, two = (each.rounds(value, *(counted[name] for name in COUNTED)) for each in constants)
     else:
-        one, two = (swt.copy(data=each.cycles(swt.values)) for each in materials)
-    return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]
+        one, two = (value.copy(data=each.cycles(value.values)) for each in constants)
+    return one.where(bodies == 0, two) if np.ndim(bodies) else (one, two)[int(bodies)]
 
 
-def _constants(grid: PhysicalGrid, criterion: str) -> Sequence[FatigueConstants | ShearConstants]:
-    """Those of both bodies that a criterion has its life of; none if there are none."""
-    if criterion != FATEMI_SOCIE:
-        return grid.materials
-    if grid.shear_materials or not grid.materials:
-        return grid.shear_materials
-    poisson = grid.at_rest.contacts.flat[0].moduli.poisson
-    return [ShearConstants.estimated(*both) for both in zip(grid.materials, poisson, strict=True)]
+def _constants(grid: PhysicalGrid, criterion: str) -> list[tuple[FatigueConstants | ShearConstants, ...]]:
+    """Constants of both bodies for the life of a criterion, of each Poisson ratio where that matters."""
+    given = grid.shear_materials if criterion == FATEMI_SOCIE else grid.materials
+    if given or not grid.materials:
+        return [given] if given else []
+    name = "poisson_ratio"
+    ratios = [grid.pairs[name]] if name in grid.pairs else [(as_number(v),) * 2 for v in grid.values(name)]
+    return [
+        tuple(ShearConstants.estimated(*each) for each in zip(grid.materials, both, strict=True))
+        for both in ratios
+    ]
 
 
 def _life_words(grid: PhysicalGrid, criterion: str) -> str:

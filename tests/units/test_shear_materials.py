@@ -87,6 +87,22 @@ def test_given_constants_take_the_place_of_estimated_ones(tmp_path):
     assert same.FS_cycles.item() == pytest.approx(estimated.FS_cycles.item(), rel=1e-12)
 
 
+def test_estimated_constants_are_of_each_poisson_ratio(tmp_path):
+    """G is E/(2 + 2ν): lives of an axis are those of its values one by one."""
+    fixed = FIXED.replace("poisson_ratio = 0.3", 'criterion = "fatemi_socie"')
+    fixed = fixed.replace("normal_sensitivity = 0.3", "")
+    text = f'title = "t"\nrtol = 1e-2\n{UNITS}[material]\nyield_strength = 400\n{TENSILE}\n[fixed]\n{fixed}\n'
+    text += "[axes]\nnormal_sensitivity = [0.2, 0.3]\npoisson_ratio = [0.2, 0.3, 0.4]\n"
+    found = solved(Study.from_text(text), tmp_path / "t.nc")
+    assert found.FS_cycles.dims == found.FS.dims
+    for ratio in (0.2, 0.3, 0.4):
+        each = found.sel(poisson_ratio=ratio)
+        for fs, life in zip(each.FS.values.ravel(), each.FS_cycles.values.ravel(), strict=True):
+            strength, ductility = 900.0 / math.sqrt(3.0), 0.5 * math.sqrt(3.0)
+            expected = root(fs, 210e3 / (2.0 + 2.0 * ratio), strength, -0.1, ductility, -0.6)
+            assert life == pytest.approx(expected, rel=1e-9)
+
+
 def test_usage_is_the_stress_over_the_limit_of_the_body(tmp_path):
 
     both = '["swt", "findley"]'
