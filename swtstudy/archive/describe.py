@@ -14,6 +14,7 @@ from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.validity import validity_lines
 from swtstudy.study.figure import FigureLayout
+from swtstudy.units.labels import Units
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.axes import AXES, CONTACT_AXES
@@ -134,11 +135,19 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
             yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())
+        for torsion in dict.fromkeys(given.shear_materials):
+            yield "in torsion", ", ".join(f"{name} {v:g}" for name, v in vars(torsion).items())
         if given.yield_strengths:
-            strengths = ", ".join(f"{each:g}" for each in dict.fromkeys(given.yield_strengths))
-            yield "yields at", f"{strengths} {given.units.stress}"
-        if given.materials:
+            yield "yields at", _stresses(given.yield_strengths, given.units)
+        if given.findley_limits:
+            yield "Findley limit", _stresses(given.findley_limits, given.units)
+        if given.materials or given.shear_materials:
             yield "lives", _counted_words(dataset)
+
+
+def _stresses(values: tuple[float, ...], units: Units) -> str:
+    """The stresses of both bodies, once where they are alike."""
+    return f"{', '.join(f'{each:g}' for each in dict.fromkeys(values))} {units.stress}"
 
 
 def _counted_words(dataset: xr.Dataset) -> str:

@@ -24,7 +24,7 @@ from swtstudy.units.bodies import (
     checked_body,
     constants_of_both,
     cycles_from,
-    strengths_of_both,
+    stresses_of_both,
     swt_from,
 )
 from swtstudy.units.grid import PhysicalGrid
@@ -333,7 +333,7 @@ class PhysicalContact(InUnits):
             materials = () if constants is None else constants_of_both(constants)
         except StudyError as error:
             mistakes += error.mistakes
-        strengths = strengths_of_both(yield_strength, mistakes) or self.grid.yield_strengths
+        strengths = stresses_of_both("yield_strength", yield_strength, mistakes) or self.grid.yield_strengths
         sequence: tuple[Block, ...] = ()
         try:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
@@ -345,7 +345,7 @@ class PhysicalContact(InUnits):
             raise StudyError(mistakes)
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
         grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
-        return grid, Request(names, *distances, counts=constants is not None)
+        return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))
 
     def optimise(
         self,
@@ -394,7 +394,7 @@ class PhysicalContact(InUnits):
         return Measured(self._one, checked_body(body) - 1, self.grid.labels, str(self.criterion))
 
     def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
-        grid = replace(self._with_bodies((float(body),)), materials=(), blocks=())
+        grid = replace(self._with_bodies((float(body),)), materials=(), shear_materials=(), blocks=())
         asked = Request((YIELD,) if grid.yield_strengths else ())
         validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
         return headline(self, body, at_rest), validity

@@ -6,7 +6,7 @@ from typing import Any
 
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
-from swtstudy.units.bodies import LABELS, checked_body, strengths_of_both
+from swtstudy.units.bodies import LABELS, checked_body, shear_constants_of_both, stresses_of_both
 from swtstudy.units.reading import ContactDetails, read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
 from swtstudy.vocabulary.definition import Definition
@@ -30,6 +30,8 @@ def physical(
     bulk_stress_body: Any = 1,
     bodies: Any = None,
     yield_strength: Any = None,
+    findley_limit: Any = None,
+    shear_constants: Any = None,
     **parameters: Any,
 ) -> PhysicalContact:
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
@@ -57,6 +59,12 @@ def physical(
         Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
     yield_strength
         A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
+    findley_limit
+        A stress, of both bodies or a pair: with the criterion "findley" results have findley_usage, the
+        Findley stress over it.
+    shear_constants
+        `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
+        Unless given they are estimated from the constants that ``solve`` is given.
     contact_length
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
@@ -109,10 +117,14 @@ def physical(
     ]
     fixed, axes, wrong = spanned({n: value for n, value in parameters.items() if n not in _ASKED})
     fixed |= {n: _pair(value) for n, value in of_bodies.items() if value is not None}
-    strengths = strengths_of_both(yield_strength, mistakes)
+    properties: dict[str, Any] = {
+        "yield_strengths": stresses_of_both("yield_strength", yield_strength, mistakes),
+        "findley_limits": stresses_of_both("findley_limit", findley_limit, mistakes),
+        "shear_materials": shear_constants_of_both(shear_constants, mistakes),
+    }
     try:
         carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
-        about = ContactDetails(bulk_stress_body=carrier, yield_strengths=strengths)
+        about = ContactDetails(bulk_stress_body=carrier, **properties)
     except StudyError as error:
         about, mistakes = ContactDetails(), [*mistakes, *error.mistakes]
     if "body" not in parameters:

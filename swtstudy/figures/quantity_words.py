@@ -48,8 +48,9 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
 
 
 def _is_unfamiliar(name: str) -> bool:
-    """Return whether a symbol alone says too little: lives, means of SWT, places."""
-    return name.startswith(("cycles", "SWT_", "critical_")) and name not in ("critical_angle",)
+    """Return whether a symbol alone says too little: lives, means of SWT, usages, places."""
+    known = "cycles", "FS_cycles", "SWT_", "findley_usage", "critical_"
+    return name.startswith(known) and name not in ("critical_angle",)
 
 
 def _meaning(values: xr.DataArray) -> str:

@@ -186,7 +186,7 @@ def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
     """Return whether a data variable is a life, in rounds."""
-    return has_units(dataset) and name.partition("_")[0] == "cycles"
+    return has_units(dataset) and name.removeprefix("FS_").partition("_")[0] == "cycles"
 
 
 def _beyond(lives: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -146,9 +146,15 @@ def _values(name: str, values: xr.DataArray) -> str:
 def _materials(dataset: xr.Dataset) -> Iterator[str]:
     if has_units(dataset):
         given, _ = read_contact(dataset.attrs[CONTACT])
-        for material in dict.fromkeys(given.materials):
-            rows = [(escape(name.replace("_", " ")), number_words(v)) for name, v in vars(material).items()]
-            yield "<h3>Strain-life constants</h3>" + table(("", ""), rows, numbers=(1,))
+        for title, several in (
+            ("Strain-life constants", given.materials),
+            ("Strain-life constants in torsion", given.shear_materials),
+        ):
+            for material in dict.fromkeys(several):
+                rows = [
+                    (escape(name.replace("_", " ")), number_words(v)) for name, v in vars(material).items()
+                ]
+                yield f"<h3>{title}</h3>" + table(("", ""), rows, numbers=(1,))
 
 
 def sureness_section(dataset: xr.Dataset, validity: list[str]) -> Section:

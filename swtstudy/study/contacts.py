@@ -24,6 +24,7 @@ def read_given(
         return None, None
     from swtstudy.units.labels import Units, read_units
     from swtstudy.units.material import read_material, warn_of_units
+    from swtstudy.units.moduli import Moduli
     from swtstudy.units.reading import ContactDetails
 
     # Wrong units are reported: meanwhile others stand for them.
@@ -31,19 +32,32 @@ def read_given(
     if not isinstance(raw.get("material"), dict):
         return ContactDetails(units), None
     young = fixed.get("young_modulus")
-    pair = young if isinstance(young, list) and len(young) == 2 else [young, young]
-    sound = [_sound(each) for each in pair]
+    sound = [_sound(each) for each in _two(young)]
     # A wrong one is reported elsewhere: meanwhile any stands for it.
     known = None if young is None else (sound[0] or 1.0, sound[1] or 1.0)
-    materials = read_material(raw["material"], known, units, folder, report)
+    poisson = fixed.get("poisson_ratio")
+    ratios = [_sound(each) for each in _two(poisson)]
+    shear = None if known is None or poisson is None else Moduli(known, (ratios[0], ratios[1])).shear
+    materials = read_material(raw["material"], known, shear, units, folder, report)
     if all(sound):
         warn_of_units(materials, (sound[0], sound[1]), units)
-    given = ContactDetails(units, materials.constants, yield_strengths=materials.yield_strengths)
+    given = ContactDetails(
+        units,
+        materials.constants,
+        yield_strengths=materials.yield_strengths,
+        shear_materials=materials.shear_constants,
+        findley_limits=materials.findley_limits,
+    )
     return given, materials.critical_distance
 
 
+def _two(value: object) -> list[object]:
+    """What each body has."""
+    return value if isinstance(value, list) and len(value) == 2 else [value, value]
+
+
 def _sound(young: object) -> float:
-    """A Young's modulus; 0 for one that is wrong."""
+    """A modulus, or Poisson ratio; 0 for one that is wrong."""
     from swtstudy.points.values import read_exact
 
     try:

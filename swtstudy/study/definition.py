@@ -199,7 +199,8 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     names = read_quantities(raw.get("quantities", []), "quantities", report)
     if contacts is not None and contacts.yield_strengths:
         names = tuple(dict.fromkeys((*names, YIELD)))
-    asked = Request(names, *distances, counts=contacts is not None and bool(contacts.materials))
+    counts = contacts is not None and bool(contacts.materials or contacts.shear_materials)
+    asked = Request(names, *distances, counts=counts)
     grid: Grid | None
     if contacts is None:
         grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)

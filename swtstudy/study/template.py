@@ -81,6 +81,7 @@ strength_exponent = -0.113
 ductility = 0.409
 ductility_exponent = -0.713
 # yield_strength = …  # a stress: tells where the contact begins to yield
+# findley_limit = …  # a stress, for the criterion findley; for fatemi_socie shear_strength = … and so on
 
 # A load that was measured, by its file: then load = "mine" below, and neither normal_force nor amplitudes.
 # [loads.mine]

@@ -72,14 +72,21 @@ def to_toml(
 def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
     from swtstudy.units.grid import PhysicalGrid
+    from swtstudy.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
 
     if not isinstance(grid, PhysicalGrid):
         return [], []
     tables = ["", "[units]", *(f"{kind} = {quoted(label)}" for kind, label in vars(grid.units).items())]
-    tables += ["", "[material]"] * bool(grid.materials or grid.yield_strengths)
     pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
-    tables += (f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs)
-    tables += [f"yield_strength = {[*grid.yield_strengths]}"] * bool(grid.yield_strengths)
+    material = [f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs]
+    material += [
+        f"{key} = {[getattr(each, name) for each in grid.shear_materials]}"
+        for key, name in SHEAR_CONSTANTS.items()
+        if grid.shear_materials
+    ]
+    material += [f"{STRENGTH} = {[*grid.yield_strengths]}"] * bool(grid.yield_strengths)
+    material += [f"{LIMIT} = {[*grid.findley_limits]}"] * bool(grid.findley_limits)
+    tables += ["", "[material]", *material] if material else []
     fixed = [f"{name} = {[*two]}" for name, two in grid.pairs.items()]
     fixed += [f"bodies = [{', '.join(map(quoted, grid.body_names))}]"] * bool(grid.body_names)
     return tables, [*fixed, f"similar = {grid.similar!r}"]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negative
 from swtstudy.units.moduli import Moduli
+from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.sizes import wrong_size
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.vocabulary.quantities import COUNTED
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
     #: Values with names for their dimensions keep them.
     Values = NDArray[np.float64] | xr.DataArray
+
+#: Constants of one kind.
+_Kind = TypeVar("_Kind", FatigueConstants, ShearConstants)
 
 #: Labels of the bodies along the dimension ``body``.
 LABELS = (1, 2)
@@ -114,13 +118,26 @@ def constants_of_both(constants: object) -> tuple[FatigueConstants, FatigueConst
     StudyError
         If they are neither those of both bodies nor a pair.
     """
-    pair: Any = (constants, constants) if isinstance(constants, FatigueConstants) else constants
-    if not isinstance(pair, list | tuple) or len(pair) != 2:
-        pair = (None, None)
-    if not all(isinstance(one, FatigueConstants) for one in pair):
-        allowed = "a FatigueConstants, or a pair of them for bodies of different materials"
-        raise StudyError([Mistake("constants", literal(constants), allowed)])
-    return pair[0], pair[1]
+    mistakes: list[Mistake] = []
+    both = _of_both("constants", constants, FatigueConstants, mistakes)
+    if mistakes:
+        raise StudyError(mistakes)
+    return both[0], both[1]
+
+
+def shear_constants_of_both(constants: object, mistakes: list[Mistake]) -> tuple[ShearConstants, ...]:
+    """The constants of each body in torsion, none if none are given; what is wrong with them is added."""
+    return () if constants is None else _of_both("shear_constants", constants, ShearConstants, mistakes)
+
+
+def _of_both(name: str, constants: object, kind: type[_Kind], mistakes: list[Mistake]) -> tuple[_Kind, ...]:
+    """Constants of each body of those of both, or of a pair."""
+    pair: Any = (constants, constants) if isinstance(constants, kind) else constants
+    if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
+        return pair[0], pair[1]
+    allowed = f"a {kind.__name__}, or a pair of them for bodies of different materials"
+    mistakes.append(Mistake(name, literal(constants), allowed))
+    return ()
 
 
 def _labelled(
@@ -134,13 +151,13 @@ def _labelled(
     return xr.DataArray(values, like.coords, like.dims, name, attributes)
 
 
-def strengths_of_both(strength: object, mistakes: list[Mistake]) -> tuple[float, ...]:
-    """The yield strengths of both bodies, none if none is given; what is wrong with them is added."""
-    if strength is None:
+def stresses_of_both(name: str, stress: object, mistakes: list[Mistake]) -> tuple[float, ...]:
+    """A property of both bodies that is a stress, none if not given; what is wrong with it is added."""
+    if stress is None:
         return ()
-    pair: Any = (strength, strength) if np.ndim(strength) == 0 else tuple(strength)  # type: ignore[arg-type]
-    wrong = [each for value in pair for each in wrong_size("yield_strength", value, "a positive stress")]
+    pair: Any = (stress, stress) if np.ndim(stress) == 0 else tuple(stress)  # type: ignore[arg-type]
+    wrong = [each for value in pair for each in wrong_size(name, value, "a positive stress")]
     if len(pair) != 2:
-        wrong = [Mistake("yield_strength", literal(strength), "one, or a pair, one for each body")]
+        wrong = [Mistake(name, literal(stress), "one, or a pair, one for each body")]
     mistakes += dict.fromkeys(wrong)
     return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))

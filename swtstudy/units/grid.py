@@ -21,6 +21,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ends_of_bulk, mean_of_bulk, mean_of_loads
 from swtstudy.units.rows import rows
+from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.strips import labels_of
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE
 from swtstudy.vocabulary.definition import Definition
@@ -60,6 +61,10 @@ class PhysicalGrid(Grid):
         Of both bodies; none if they are not given.
     body_names
         What both are called; none if they are 1 and 2 alone.
+    shear_materials
+        Constants of both bodies in torsion; none if they are estimated from the others.
+    findley_limits
+        What the Findley stress of each body is compared with; none if they are not given.
     """
 
     units: Units = field(default_factory=Units)
@@ -70,6 +75,8 @@ class PhysicalGrid(Grid):
     blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
     body_names: tuple[str, ...] = ()
+    shear_materials: tuple[ShearConstants, ...] = ()
+    findley_limits: tuple[float, ...] = ()
 
     @property
     def of_loads(self) -> str | None:
@@ -101,7 +108,7 @@ class PhysicalGrid(Grid):
         """The facts of the contacts besides the values of the parameters."""
         names = (
             *("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks"),
-            *("yield_strengths", "body_names"),
+            *("yield_strengths", "body_names", "shear_materials", "findley_limits"),
         )
         return {name: getattr(self, name) for name in names}
 

@@ -12,6 +12,7 @@ from typing import Any
 from swtstudy.points.values import read_exact
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
+from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.sizes import wrong_size
 from swtstudy.units.threshold import LOAD_RATIO, RANGES, critical_distance
 from swtstudy.vocabulary.files import parse_toml, read_text
@@ -23,12 +24,17 @@ _log = logging.getLogger(__name__)
 CONSTANTS = tuple(item.name for item in fields(FatigueConstants))
 #: Above which von Mises stress it yields.
 STRENGTH = "yield_strength"
+#: What the Findley stress is compared with.
+LIMIT = "findley_limit"
+#: Constants in torsion by their keys; the shear modulus is that of the body unless it is given.
+SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
+_MODULUS = "shear_modulus"
 #: The other way: names from a file.
 BY_NAME = ("file", "name")
 #: What may stand in the table.
-PROPERTIES = (*CONSTANTS, STRENGTH, *RANGES, LOAD_RATIO)
+PROPERTIES = (*CONSTANTS, *SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES, LOAD_RATIO)
 KEYS = (*PROPERTIES, *BY_NAME)
-_STRESSES = ("young_modulus", "strength", STRENGTH, "fatigue_limit_range")
+_STRESSES = ("young_modulus", "strength", _MODULUS, "shear_strength", STRENGTH, LIMIT, "fatigue_limit_range")
 _FILE = "a TOML file with a table of constants for each material"
 #: Strengths over Young's modulus: metals are well within.
 USUAL_STRAINS = 2e-4, 0.05
@@ -42,7 +48,7 @@ class Materials:
 
     Attributes
     ----------
-    constants, yield_strengths
+    constants, shear_constants, yield_strengths, findley_limits
         Of each body, or none.
     critical_distance
         From the threshold and the fatigue limit, None without them.
@@ -51,10 +57,17 @@ class Materials:
     constants: tuple[FatigueConstants, ...] = ()
     yield_strengths: tuple[float, ...] = ()
     critical_distance: float | None = None
+    shear_constants: tuple[ShearConstants, ...] = ()
+    findley_limits: tuple[float, ...] = ()
 
 
 def read_material(
-    raw: Mapping[str, Any], young: tuple[object, object] | None, units: Units, folder: Path, report: Report
+    raw: Mapping[str, Any],
+    young: tuple[object, object] | None,
+    shear: tuple[object, object] | None,
+    units: Units,
+    folder: Path,
+    report: Report,
 ) -> Materials:
     """Read the materials of both bodies, as far as they are sound; mistakes are reported.
 
@@ -62,8 +75,8 @@ def read_material(
     ----------
     raw
         The table: properties, each a value or one for each body; or the names of materials in a file.
-    young
-        Young's moduli of the bodies, None if they are not single values.
+    young, shear
+        Young's and shear moduli of the bodies, None if they are not single values.
     units, folder
         Of the study.
     report
@@ -78,19 +91,21 @@ def read_material(
     intended = {meant(str(name), KEYS) for name in unknown}
     mistakes: list[Mistake] = []
     constants = _constants(tables, young, intended, mistakes)
-    strengths = _strengths(tables, mistakes)
+    shears = _shear_constants(tables, shear, intended, mistakes)
+    strengths, limits = (_stresses(name, tables, mistakes) for name in (STRENGTH, LIMIT))
     distance = None if len(tables) < _BOTH else critical_distance(tables, mistakes)
     for mistake in dict.fromkeys(mistakes):  # both bodies may have the same one
         report(*_in_units(mistake, units))
     if mistakes or unknown:
-        return Materials()
+        return Materials(yield_strengths=strengths)  # which a criterion may need: they are not lacking, too
     if distance is not None:
         usual, words = distance.words(units)
         if usual:
             _log.info(words)
         else:
             warnings.warn(words, stacklevel=2)
-    return Materials(constants, strengths, None if distance is None else distance.length)
+    length = None if distance is None else distance.length
+    return Materials(constants, strengths, length, shears, limits)
 
 
 def _constants(
@@ -100,7 +115,7 @@ def _constants(
     mistakes: list[Mistake],
 ) -> tuple[FatigueConstants, ...]:
     """The strain–life constants of both bodies; none if there are none, or mistakes."""
-    others = {STRENGTH, *RANGES}
+    others = {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}
     told = any({*CONSTANTS} & table.keys() for table in tables)
     if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
         return ()
@@ -122,7 +137,12 @@ def _constants(
 
 def warn_of_units(materials: Materials, young: tuple[float, float], units: Units) -> None:
     """Warn of strengths that no metal has beside the modulus of its body: one is in another unit."""
-    given = {"strength": [each.strength for each in materials.constants], STRENGTH: materials.yield_strengths}
+    given = {
+        "strength": [each.strength for each in materials.constants],
+        "shear_strength": [each.strength for each in materials.shear_constants],
+        STRENGTH: materials.yield_strengths,
+        LIMIT: materials.findley_limits,
+    }
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
             if not USUAL_STRAINS[0] <= value / modulus <= USUAL_STRAINS[1]:
@@ -131,14 +151,47 @@ def warn_of_units(materials: Materials, young: tuple[float, float], units: Units
                 warnings.warn(f"{words}, of metals {ends}: are both in {units.stress}?", stacklevel=2)
 
 
-def _strengths(tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:
-    """The yield strengths of both bodies; none if there are none, or mistakes."""
-    given = [table[STRENGTH] for table in tables if STRENGTH in table]
-    for value in given:
-        mistakes += wrong_size(STRENGTH, value, "a positive number")
+def _shear_constants(
+    tables: list[dict[str, Any]],
+    moduli: tuple[object, object] | None,
+    intended: Iterable[object],
+    mistakes: list[Mistake],
+) -> tuple[ShearConstants, ...]:
+    """The constants of both bodies in torsion; none if there are none, or mistakes."""
+    if not any(SHEAR_CONSTANTS.keys() & table.keys() for table in tables):
+        return ()
+    needed = [name for name in SHEAR_CONSTANTS if name != _MODULUS]
+    lacking = [name for name in needed if any(name not in table for table in tables)]
+    if lacking:
+        if not {*intended} & {*lacking}:  # what is misspelt is not lacking, too
+            allowed = (
+                "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
+            )
+            mistakes.append(Mistake(", ".join(lacking), "nothing", allowed))
+        return ()
+    found: list[ShearConstants] = []
+    for body, table in enumerate(tables):
+        own: dict[str, Any] = {field: table.get(name) for name, field in SHEAR_CONSTANTS.items()}
+        if own[_MODULUS] is None and moduli is not None:
+            own[_MODULUS] = moduli[body]
+        try:
+            found.append(ShearConstants(**own))
+        except StudyError as error:
+            for each in error.mistakes:
+                key = next(name for name, field in SHEAR_CONSTANTS.items() if field == each.key)
+                words = "nothing" if own[each.key] is None else each.found
+                mistakes.append(Mistake(key, words, each.allowed))
+    return tuple(found) if len(found) == _BOTH else ()
+
+
+def _stresses(name: str, tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:
+    """A property of both bodies that is a stress; none if there is none, or mistakes."""
+    given = [table[name] for table in tables if name in table]
+    wrong = [each for value in given for each in wrong_size(name, value, "a positive number")]
     if 0 < len(given) < len(tables):
-        mistakes.append(Mistake(STRENGTH, "that of one body", "that of both bodies, or of none"))
-    return () if mistakes or not given else tuple(map(float, given))
+        wrong.append(Mistake(name, "that of one body", "that of both bodies, or of none"))
+    mistakes += wrong
+    return () if wrong or not given else tuple(map(float, given))
 
 
 def _in_units(mistake: Mistake, units: Units) -> tuple[str, str, str]:
@@ -146,9 +199,10 @@ def _in_units(mistake: Mistake, units: Units) -> tuple[str, str, str]:
     allowed = mistake.allowed
     if mistake.key in _STRESSES:
         allowed = allowed.replace("number", f"stress in {units.stress}", 1)
-    if mistake.key == "young_modulus" and mistake.found == "nothing":
+    if mistake.key in ("young_modulus", _MODULUS) and mistake.found == "nothing":
         allowed += ", since that of the bodies is no single value"
-    return f"material.{mistake.key}", mistake.found, allowed
+    keys = ", ".join(f"material.{key}" for key in mistake.key.split(", "))
+    return keys, mistake.found, allowed
 
 
 def _number(raw: object) -> object:

@@ -32,6 +32,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
+from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
 from swtstudy.vocabulary.definition import Definition
@@ -54,6 +55,8 @@ class ContactDetails:
     blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
     body_names: tuple[str, ...] = ()
+    shear_materials: tuple[ShearConstants, ...] = ()
+    findley_limits: tuple[float, ...] = ()
 
 
 def read_contacts(
@@ -110,14 +113,17 @@ def _check_units_of_criteria(
     given: ContactDetails,
     report: Report,
 ) -> None:
-    """The criterion that needs the strength of the bodies, and the one that has no life."""
+    """The criterion that needs the strength of the bodies, the one that has no life, and those of tension."""
     criteria = values_taken("criterion", fixed, along)
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
-    if FINDLEY in criteria and given.materials:
+    if {*criteria} == {FINDLEY} and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
-        report("material", f"constants with the criterion {FINDLEY}", allowed)
+        report("material", f"constants with the criterion {FINDLEY} alone", allowed)
+    elif given.shear_materials and not given.materials and criteria and FATEMI_SOCIE not in criteria:
+        allowed = f"the criterion {FATEMI_SOCIE}, of whose life they are, or tensile ones as well"
+        report("material", "shear constants alone", allowed)
 
 
 def completed(
@@ -194,7 +200,8 @@ def _differ(grid: PhysicalGrid) -> bool:
     """Return whether the two bodies have different s, SWT or cycles."""
     bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
     pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
-    return bool(grid.pairs) or pulled or len({*grid.materials}) > 1 or len({*grid.yield_strengths}) > 1
+    properties = grid.materials, grid.yield_strengths, grid.shear_materials, grid.findley_limits
+    return bool(grid.pairs) or pulled or any(len({*of_both}) > 1 for of_both in properties)
 
 
 def _pairs(
@@ -312,10 +319,12 @@ def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, f
             blocks,
             tuple(map(float, raw.get("yield_strengths", ()))),
             tuple(map(str, raw.get("body_names", ()))),
+            tuple(ShearConstants(**each) for each in raw.get("shear_materials", ())),
+            tuple(map(float, raw.get("findley_limits", ()))),
         )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    several = materials, given.yield_strengths, given.body_names
+    several = materials, given.yield_strengths, given.body_names, given.shear_materials, given.findley_limits
     if not pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(raw)}")
     return given, pairs

@@ -74,5 +74,7 @@ def _text(grid: PhysicalGrid) -> str:
             # Archives of studies without stay as they were.
             **({"yield_strengths": [*grid.yield_strengths]} if grid.yield_strengths else {}),
             **({"body_names": [*grid.body_names]} if grid.body_names else {}),
+            **({"shear_materials": [*map(asdict, grid.shear_materials)]} if grid.shear_materials else {}),
+            **({"findley_limits": [*grid.findley_limits]} if grid.findley_limits else {}),
         }
     )

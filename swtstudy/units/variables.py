@@ -85,7 +85,7 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     criteria = {*map(str, grid.values("criterion"))}
     for kind in _KINDS:
         for end in _ends(asked) if kind.criterion in criteria else ():
-            yield from kind.variables(end, bool(grid.materials), asked.counts)
+            yield from kind.variables(end, grid, asked.counts)
     yield Variable(
         "critical_position", "x", "position of the critical point", "length", "critical_x", _length
     )
@@ -133,6 +133,7 @@ NAMES = (
         for each in ("s", *MEANS)
         for of in (each, error_of(each))
     ),
+    *(f"findley_usage{name.removeprefix('s')}" for name in ("s", *MEANS)),
     *(position_of(place) for place in PLACES),
     *LIVES,
     *(name for _, *both in lives_in(LIVES) for name in both),
@@ -154,8 +155,8 @@ class _Kind:
         "stress", or "1".
     scale
         Over s.
-    life, life_symbol, life_words
-        Of the life at that its name, what is below N, and more words; empty where there is none.
+    life, life_symbol
+        Of the life at that its name and what is below N; empty where there is none.
     """
 
     criterion: str
@@ -166,20 +167,23 @@ class _Kind:
     scale: Callable[[PhysicalGrid], xr.DataArray]
     life: str = ""
     life_symbol: str = ""
-    life_words: str = ""
 
-    def variables(self, end: str, materials: bool, counts: bool) -> Iterator[Variable]:
-        """The value of s, of a mean or of an error, and its life, if there are materials."""
+    def variables(self, end: str, grid: PhysicalGrid, counts: bool) -> Iterator[Variable]:
+        """The value of s, of a mean or of an error; its life, or its usage of a limit, if these are known."""
         error, words = end.endswith("error"), end.replace("_", " ")
         place = end.removesuffix("_error").removeprefix("_")
         sign, below = r"\Delta " * error, rf"_\mathrm{{{place}}}" * bool(place)
         meaning = f"{'error of ' * error}{self.words}{words.removesuffix(' error')}"
         own: dict[str, Any] = {"of": f"s{end}", "scale": self.scale, "criterion": self.criterion}
         yield Variable(f"{self.name}{end}", f"{sign}{self.symbol}{below}", meaning, self.unit, **own)
-        if materials and self.life and not error:
+        if self.criterion == FINDLEY and grid.findley_limits and not error:
+            symbol, meaning = rf"{self.symbol}{below}/f_\mathrm{{lim}}", f"{meaning} over its limit"
+            usage = {**own, "scale": _over_limit}
+            yield Variable(f"findley_usage{end}", symbol, meaning, "1", **usage)
+        if self.life and not error and _constants(grid, self.criterion):
             below = ", ".join(filter(None, (self.life_symbol, place)))
             symbol = rf"N_\mathrm{{{below}}}" if below else "N"
-            meaning = f"rounds to a crack{words}{self.life_words}"
+            meaning = f"rounds to a crack{words}{_life_words(grid, self.criterion)}"
             life = f"{self.life}{end}", symbol, meaning, "1"
             yield Variable(*life, to_cycles=True, counts=counts, **own)
 
@@ -249,8 +253,16 @@ def _stress(grid: PhysicalGrid) -> xr.DataArray:
 
 
 def _over_strength(grid: PhysicalGrid) -> xr.DataArray:
-    """The unit of stress over the yield strength of each body."""
-    one, two = (_stress(grid) / strength for strength in grid.yield_strengths)
+    return _over(grid, grid.yield_strengths)
+
+
+def _over_limit(grid: PhysicalGrid) -> xr.DataArray:
+    return _over(grid, grid.findley_limits)
+
+
+def _over(grid: PhysicalGrid, stresses: Sequence[float]) -> xr.DataArray:
+    """The unit of stress over a stress of each body."""
+    one, two = (_stress(grid) / stress for stress in stresses)
     return one.where(grid.bodies == 0, two)
 
 
@@ -263,10 +275,7 @@ def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterio
 
     With the constants of each body.
     """
-    materials: Sequence[FatigueConstants | ShearConstants] = grid.materials
-    if criterion == FATEMI_SOCIE:
-        poisson = grid.at_rest.contacts.flat[0].moduli.poisson
-        materials = [ShearConstants.estimated(*both) for both in zip(grid.materials, poisson, strict=True)]
+    materials = _constants(grid, criterion)
     # Runs of before have means that are below 0 by rounding.
     swt = swt.clip(min=0.0)
     if COUNTED.keys() <= {*dataset.data_vars}:
@@ -277,12 +286,28 @@ def _cycles(swt: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterio
     return one.where(grid.bodies == 0, two) if np.ndim(grid.bodies) else (one, two)[int(grid.bodies)]
 
 
-_ESTIMATED = " by shear constants estimated from the tensile ones"
+def _constants(grid: PhysicalGrid, criterion: str) -> Sequence[FatigueConstants | ShearConstants]:
+    """Those of both bodies that a criterion has its life of; none if there are none."""
+    if criterion != FATEMI_SOCIE:
+        return grid.materials
+    if grid.shear_materials or not grid.materials:
+        return grid.shear_materials
+    poisson = grid.at_rest.contacts.flat[0].moduli.poisson
+    return [ShearConstants.estimated(*both) for both in zip(grid.materials, poisson, strict=True)]
+
+
+def _life_words(grid: PhysicalGrid, criterion: str) -> str:
+    """Which constants of shear a life rests on, for its meaning."""
+    if criterion != FATEMI_SOCIE:
+        return ""
+    return " by shear constants" + " estimated from the tensile ones" * (not grid.shear_materials)
+
+
 _KINDS = (
     _Kind(SWT, "SWT", r"\mathrm{SWT}", "SWT", "stress", _swt_scale, "cycles"),
     _Kind(
         *(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "Fatemi-Socie parameter", "1", _strain_scale),
-        *("FS_cycles", "FS", _ESTIMATED),
+        *("FS_cycles", "FS"),
     ),
     _Kind(FINDLEY, "findley_stress", "f", "Findley stress", "stress", _stress_scale),
 )

@@ -190,7 +190,7 @@ def test_every_parameter_is_known_of_a_contact():
     own = {row.name: row for row in PARAMETERS.values() if row.name != "poisson_ratio"}
     shapes = {name for name, row in own.items() if row.part == "shape" and row.kind == "number"}
     about = {"radius", "depth", "bulk_stress_body", "bulk_stress_ratio", "contact_length", "bodies"}
-    about |= {"yield_strength"}
+    about |= {"yield_strength", "findley_limit", "shear_constants"}
     contact = physical(**ALUMINIUM, depth=0.01, tangential_amplitude=1e-3)
     assert {*own} <= {*dir(contact)}
     assert all(getattr(contact, name) == row.default for name, row in own.items() if row.optional)
