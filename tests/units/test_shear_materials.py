@@ -120,10 +120,6 @@ def test_properties_of_shear_of_a_contact_in_python():
             value = found[f"FS{end}"].values[body]
             expected = root(value, 80e3, 530.0, -0.09, 0.8, -0.55)
             assert found[f"FS_cycles{end}"].values[body] == pytest.approx(expected, rel=1e-9)
-    least = swtstudy.physical(**OWN, criterion="findley", findley_limit=150.0, body=1).optimise(
-        {"friction": (0.3, 0.5)}, "findley_usage", rtol=1e-2
-    )
-    assert "findley_usage" in least
 
 
 @pytest.mark.parametrize(
@@ -211,7 +207,8 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     """Study file, archive, info, figure and page; and the study that the archive keeps."""
     text = FIXED.replace("tangential_force_amplitude = 60.0\n", "")
     text = (
-        f'title = "t"\n{UNITS}[material]\nyield_strength = 400\n{SHEAR}\n{LIMIT}\n[fixed]\n{text}\n[axes]\n'
+        f'title = "t"\nrtol = 1e-2\n{UNITS}'
+        f"[material]\nyield_strength = 400\n{SHEAR}\n{LIMIT}\n[fixed]\n{text}\n[axes]\n"
         f'criterion = ["fatemi_socie", "findley"]{FIGURE}'
     )
     (tmp_path / "t.toml").write_text(text, encoding="utf-8")
