@@ -284,8 +284,8 @@ def _cycles(value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criter
     # Estimated ones, which differ from one Poisson ratio to another.
     parts = []
     for k, both in enumerate(constants):
-        own = [each.isel({dim: [k]}, missing_dims="ignore") for each in (value, counted, grid.bodies)]
-        parts.append(_of_bodies(*own, both))
+        at: dict[str, Any] = {"indexers": {dim: [k]}, "missing_dims": "ignore"}
+        parts.append(_of_bodies(value.isel(**at), counted.isel(**at), grid.bodies.isel(**at), both))
     return xr.concat(parts, dim).transpose(*value.dims)
 
 
