@@ -144,7 +144,7 @@ NAMES = (
 
 @dataclass(frozen=True)
 class _Kind:
-    """What s of a criterion is with units.
+    """The variable that s of a criterion is with units, and the life at it.
 
     Attributes
     ----------
@@ -196,7 +196,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
 
 
 def _ends(asked: Request) -> Iterator[str]:
-    """How the names of s, its means and their errors end."""
+    """Ends of the names of s, its means and their errors."""
     for name in ("s", *(name for name in MEANS if name in asked.variables)):
         for of in (name, error_of(name)):
             yield of.removeprefix("s")
