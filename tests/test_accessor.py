@@ -170,7 +170,8 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
     )
     assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
     own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style", "width"}
-    assert own == {field.name for field in dataclasses.fields(FigureLayout)}
+    # A caption is the study's.
+    assert own == {field.name for field in dataclasses.fields(FigureLayout)} - {"caption"}
 
 
 def test_results_of_solve():

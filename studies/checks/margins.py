@@ -41,7 +41,9 @@ def seen_there(points: Points) -> FloatArray:
             swt = seen.swt[own]
             side = 0 if top.position[k] > 0.0 or swt.shape[1] == 1 else 1
             at = np.searchsorted(positions.r[own], abs(top.position[k]))
-            found.append(swt[max(at - 1, 0) : at + 2, side].max() / swt.max())
+            # What rounding alone makes was not seen.
+            if swt.max() > 0.0:
+                found.append(swt[max(at - 1, 0) : at + 2, side].max() / swt.max())
     return np.array(found)
 
 

@@ -260,7 +260,7 @@ def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple
 
 
 def _caption(axes: Axes, words: str) -> None:
-    """Say what faint lines are, in the lower left corner."""
+    """Say in the lower left corner what faint lines are."""
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
     axes.text(0.02, 0.02, words, transform=axes.transAxes, color="0.25", fontsize="small", bbox=box)
 

@@ -10,8 +10,9 @@ if TYPE_CHECKING:
 
     from swtstudy.figures.figure import Figure
 
-#: A word with the blanks before it; a formula between $ is one word, also with the value that it has.
-_WORD = re.compile(r"\s*(?:\$[^$]*\$|[^\s$])+(?: = \S+)?")
+#: A word with the blanks before it; a formula between $ is one word, also with the value that it has. No
+#: formula begins with a dollar behind a backslash.
+_WORD = re.compile(r"\s*(?:\\\$|\$(?:\\\$|[^$])*\$|[^\s$])+(?: = \S+)?")
 #: Labels of so many letters may be longer than a panel.
 _LONG = 30
 

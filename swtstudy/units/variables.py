@@ -144,7 +144,7 @@ NAMES = (
 
 @dataclass(frozen=True)
 class _Kind:
-    """The variable that s of a criterion is with units, and the life at it.
+    """Names and words that s of a criterion has with units.
 
     Attributes
     ----------
@@ -196,7 +196,7 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
 
 
 def _ends(asked: Request) -> Iterator[str]:
-    """Ends of the names of s, its means and their errors."""
+    """Endings of the names of s, its means and their errors."""
     for name in ("s", *(name for name in MEANS if name in asked.variables)):
         for of in (name, error_of(name)):
             yield of.removeprefix("s")

@@ -103,7 +103,8 @@ y = ["critical_position", "SWT"]
     )
     found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
     label = unit.replace("$", r"\$")
-    words = drawn(draw(found))
+    # A label that is longer than its panel has two lines.
+    words = drawn(draw(found)).replace("\n", " ")
     for each in (f"$x$ ({label})", f"$u_A$ ({label})", f"0.001 {label}"):
         assert each in words, words
     assert rf"$\delta_A$ = 0.001 {label}" in drawn(draw_sensitivity(sensitivity(found, "critical_x")))

@@ -100,6 +100,8 @@ def test_a_mangled_study_is_a_study_or_a_study_error(position, removed, inserted
 FEW, SOLVED = 4, 10
 
 
+# Strengths and phases that are odd, but allowed.
+@pytest.mark.filterwarnings("ignore::UserWarning")
 def test_changed_studies_are_studies_or_study_errors(request):
     """From a seed; `pytest tests/study/test_fuzz.py -k changed --changed-studies 8700` makes many."""
     count, sound = request.config.getoption("--changed-studies"), 0
