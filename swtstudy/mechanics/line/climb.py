@@ -42,7 +42,8 @@ class Climb(Rows):
     top, seen
         Estimated maximum of swt, and the largest value so far.
     remaining
-        How much `top` would change in further rounds, at most.
+        How much `top` would change in further rounds, at most; all of it where the last round had the maximum
+        at its outermost place.
     rounds
         Rounds that narrowed the search.
     settled

@@ -14,7 +14,7 @@ from swtstudy.mechanics.line.first_look import resolved
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
-from swtstudy.mechanics.line.round import climb_to_tops, looked_at_once_more
+from swtstudy.mechanics.line.round import CHANGE_SHARE, climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.passing import arrival
@@ -164,7 +164,11 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
     position, value, angle = looked_at_once_more(split, positions, climb, accuracy)
     order = np.lexsort((-value, climb.point))
     best = order[np.unique(climb.point[order], return_index=True)[1]]
-    error = np.abs(value[best] - climb.top[best]) + climb.remaining[best]
+    # A climb that is not over may change by all that its last round has changed, once more.
+    remaining = np.where(
+        climb.settled, climb.remaining, np.minimum(climb.remaining / CHANGE_SHARE, climb.top)
+    )
+    error = np.abs(value[best] - climb.top[best]) + remaining[best]
     # Nothing finer than this was looked at.
     error = np.maximum(error, accuracy.tolerance * value[best])
     return Maximum(value[best], error, position[best], angle[best])
