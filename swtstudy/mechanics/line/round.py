@@ -27,8 +27,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: Distances at which each round looks, in widths. All over 1.5: 4e-7, the same time.
 OFFSETS = np.array([-3.0, -1.0, 0.0, 1.0, 3.0])
 POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
-#: How the width grows while the best position is the outermost one: the search was narrowed too early. 2/3, by
-#: which it may never get there: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at every rtol.
+#: How the width grows while the best position is the outermost one: the search was narrowed too early. 2/3,
+#: by which it may never get there: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at every rtol.
 WALKING = 2.0
 #: Rounds from which on a climb may leave a corner: a maximum next to it shows only once the search is narrow.
 LEAST_ROUND_COUNT = 2
