@@ -146,6 +146,7 @@ def test_panels(points, name):
     assert loop.get_title("left").endswith(f"area {float(point.dissipation):.3g}")
 
 
+@pytest.mark.slow
 def test_a_loop_has_no_frequencies_and_no_phase():
     figure = swtstudy.inspect(**SCENES["sum"])
     assert "omega" not in figure.get_suptitle()

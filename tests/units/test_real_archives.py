@@ -117,6 +117,7 @@ swtstudy.run(swtstudy.Study.from_toml(sys.argv[1]), sys.argv[2], workers=1, solv
 """
 
 
+@pytest.mark.slow
 def test_a_killed_run_goes_on(tmp_path, solved):
     (tmp_path / "sphere.toml").write_text(HALF)
     path, solved = tmp_path / "sphere.nc", solved.isel(phase=[0])
