@@ -146,6 +146,22 @@ def test_a_climb_that_has_just_walked_is_not_over():
     assert solve_points(point, 1e-6).s == pytest.approx(0.0018028372, rel=1e-6)
 
 
+def test_values_on_two_planes_are_no_polynomial():
+    """A maximum 4e-5 beside the found one is higher; the plane turns by 0.085 rad between their flanks."""
+    point = points(
+        "truncated_paraboloid",
+        p=3,
+        q=2,
+        poisson_ratio=0.252984151229986,
+        friction=0.6286827772263137,
+        normal_amplitude=0.7100780182389119,
+        tangential_amplitude=0.008771098233456627,
+        phase=5.147581943147559,
+        flat_radius=1.07654954,
+    )
+    assert solve_points(point, 1e-6).s == pytest.approx(0.0456128333, rel=1e-6)
+
+
 @pytest.mark.parametrize("number", [0, 3])
 def test_a_bulk_stress_of_next_to_nothing_changes_nothing(number):
     """Another way through the solver: other pieces, other instants, no half of the cycle left out."""

@@ -38,8 +38,9 @@ CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, SHRINKING**0.5
 #: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
 #: A tenth: 4e-6 at rtol 1e-5, no faster.
 POLYNOMIAL_SHARE = 0.3
-#: Change of 2θ from value to value, rad, by which another plane has taken over.
-JUMP = 0.15
+#: The plane turns so many times faster between two values than between others where another takes over.
+#: Never: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at each rtol down to 1e-6.
+SUDDEN = 4.0
 #: Values closer than this are equal, relative. 0: no change at 128 points.
 TIE = 1e-12
 #: Rounds at most. Half or twice: no change at 128 points.
@@ -186,8 +187,9 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
     # A maximum below what was seen is none.
     clear &= top >= seen.largest
-    # Values on different planes are no polynomial.
-    clear &= (apart(np.diff(seen.angles)) <= JUMP).all(axis=1)
+    # Values on different planes are no polynomial: one turn is far ahead of the others.
+    turn = np.sort(apart(np.diff(seen.angles)) / np.diff(OFFSETS), axis=1)
+    clear &= turn[:, -1] <= SUDDEN * turn[:, -2]
     return _Vertex(centre, top, remaining, clear)
 
 
