@@ -179,7 +179,7 @@ def lines(found: dict[str, Array]) -> Iterator[str]:
     yield ""
     yield (
         f"s of random points against a dense look at the line: {STEPS} cosine-spaced steps of each piece "
-        f"between two cusps, {PLANES} planes, twice the instants, then the highest places on closer grids. "
+        f"between two cusps, {PLANES} planes, four times the instants, then the highest places on closer grids. "
         "`python studies/checks/overlooked.py`"
     )
     yield ""
