@@ -14,6 +14,7 @@ from swtstudy.units.at_rest import Contact
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
 from swtstudy.units.scales import SCALES
+from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -37,10 +38,6 @@ _STRESSES = {
     **{"normal_stress": r"\sigma_n", "bulk_stress": r"\sigma_B", "pressure": "p", "traction": "q"},
     "shear_stress": r"\tau",
 }
-
-
-#: What the value of a criterion at a place is called.
-_NAMES = {SWT: "SWT", FATEMI_SOCIE: "FS", FINDLEY: "findley_stress"}
 
 
 @dataclass(frozen=True)
@@ -90,12 +87,13 @@ class Measured:
 
     def _local(self) -> tuple[float, str, str]:
         """Of the value of the criterion at a place."""
-        if self.criterion == FATEMI_SOCIE:
-            shear = self.contact.moduli.shear[self.body]
-            return self.contact.stress_scale / shear, "1", r"\mathrm{FS}"
-        if self.criterion == FINDLEY:
-            return self.contact.stress_scale, "stress", "f"
-        return self.swt, "stress", r"\mathrm{SWT}"
+        scales = {
+            SWT: self.swt,
+            FATEMI_SOCIE: self.contact.stress_scale / self.contact.moduli.shear[self.body],
+            FINDLEY: self.contact.stress_scale,
+        }
+        kind = KINDS[self.criterion]
+        return scales[self.criterion], kind.unit, kind.symbol
 
     def labels(self) -> dict[str, Label]:
         """By name of a variable what its numbers are in these units."""
@@ -196,7 +194,7 @@ class InUnits(ABC):
 
         own = self._measured(body)
         field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
-        return own.with_units(field, {"s_local": _NAMES[own.criterion]})
+        return own.with_units(field, {"s_local": KINDS[own.criterion].name})
 
     def inspect_point(self, body: int = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import logging
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from swtstudy.points.values import read_exact
 from swtstudy.units.labels import Units
@@ -40,6 +40,7 @@ _FILE = "a TOML file with a table of constants for each material"
 USUAL_STRAINS = 2e-4, 0.05
 #: Of each body.
 _BOTH = 2
+_Constants = TypeVar("_Constants", FatigueConstants, ShearConstants)
 
 
 @dataclass(frozen=True)
@@ -119,19 +120,35 @@ def _constants(
     told = any({*CONSTANTS} & table.keys() for table in tables)
     if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
         return ()
-    found: list[FatigueConstants] = []
+    own = dict(zip(CONSTANTS, CONSTANTS, strict=True))
+    return _of_both(FatigueConstants, own, tables, young, intended, mistakes)
+
+
+def _of_both(
+    make: Callable[..., _Constants],
+    fields_of: Mapping[str, str],
+    tables: list[dict[str, Any]],
+    moduli: tuple[object, object] | None,
+    intended: Iterable[object],
+    mistakes: list[Mistake],
+) -> tuple[_Constants, ...]:
+    """Constants of both bodies, from fields by their keys; none if there are mistakes in them."""
+    (modulus,) = (key for key in fields_of if key.endswith("_modulus"))
+    found: list[_Constants] = []
     for body, table in enumerate(tables):
-        own: dict[str, Any] = {name: table.get(name) for name in CONSTANTS}
-        if own["young_modulus"] is None and young is not None:
-            own["young_modulus"] = young[body]
+        own = {key: table.get(key) for key in fields_of}
+        if own[modulus] is None and moduli is not None:
+            own[modulus] = moduli[body]
         try:
-            found.append(FatigueConstants(**own))
+            found.append(make(**{field: own[key] for key, field in fields_of.items()}))
         except StudyError as error:
+            keys = {field: key for key, field in fields_of.items()}
             # What is misspelt is not lacking, too.
             for each in error.mistakes:
-                lacks = own[each.key] is None
-                if not lacks or each.key not in intended:
-                    mistakes.append(Mistake(each.key, "nothing" if lacks else each.found, each.allowed))
+                key = keys[each.key]
+                lacks = own[key] is None
+                if not lacks or key not in intended:
+                    mistakes.append(Mistake(key, "nothing" if lacks else each.found, each.allowed))
     return tuple(found) if len(found) == _BOTH else ()
 
 
@@ -169,19 +186,7 @@ def _shear_constants(
             )
             mistakes.append(Mistake(", ".join(lacking), "nothing", allowed))
         return ()
-    found: list[ShearConstants] = []
-    for body, table in enumerate(tables):
-        own: dict[str, Any] = {field: table.get(name) for name, field in SHEAR_CONSTANTS.items()}
-        if own[_MODULUS] is None and moduli is not None:
-            own[_MODULUS] = moduli[body]
-        try:
-            found.append(ShearConstants(**own))
-        except StudyError as error:
-            for each in error.mistakes:
-                key = next(name for name, field in SHEAR_CONSTANTS.items() if field == each.key)
-                words = "nothing" if own[each.key] is None else each.found
-                mistakes.append(Mistake(key, words, each.allowed))
-    return tuple(found) if len(found) == _BOTH else ()
+    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), mistakes)
 
 
 def _stresses(name: str, tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
 from swtstudy.units.shear_life import ShearConstants
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT, WORDS
 from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 
 if TYPE_CHECKING:
@@ -84,7 +84,7 @@ class Variable:
 def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     """The data variables with units that a grid has, beside those without."""
     criteria = {*map(str, grid.values("criterion"))}
-    for kind in _KINDS:
+    for kind in KINDS.values():
         for end in _ends(asked) if kind.criterion in criteria else ():
             yield from kind.variables(end, grid, asked.counts)
     yield Variable(
@@ -125,33 +125,14 @@ def position_of(place: str) -> str:
     return f"{place.removesuffix('_x')}_position"
 
 
-#: Names of all lives that there may be, and of all that there may be.
-LIVES = tuple(f"{life}{name.removeprefix('s')}" for life in ("cycles", "FS_cycles") for name in ("s", *MEANS))
-NAMES = (
-    *(
-        f"{name}{of.removeprefix('s')}"
-        for name in ("SWT", "FS", "findley_stress")
-        for each in ("s", *MEANS)
-        for of in (each, error_of(each))
-    ),
-    *(f"findley_usage{name.removeprefix('s')}" for name in ("s", *MEANS)),
-    *(position_of(place) for place in PLACES),
-    *LIVES,
-    *(name for _, *both in lives_in(LIVES) for name in both),
-    *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
-    *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
-    *("von_mises", "yield_ratio", "bulk_shift"),
-)
-
-
 @dataclass(frozen=True)
 class _Kind:
     """Names and words that s of a criterion has with units.
 
     Attributes
     ----------
-    criterion, name, symbol, words
-        Its name, that of the variable, its symbol and what a reader calls it.
+    criterion, name, symbol
+        Its name, that of the variable and its symbol.
     unit
         "stress", or "1".
     scale
@@ -163,7 +144,6 @@ class _Kind:
     criterion: str
     name: str
     symbol: str
-    words: str
     unit: str
     scale: Callable[[PhysicalGrid], xr.DataArray]
     life: str = ""
@@ -174,7 +154,7 @@ class _Kind:
         error, words = end.endswith("error"), end.replace("_", " ")
         place = end.removesuffix("_error").removeprefix("_")
         sign, below = r"\Delta " * error, rf"_\mathrm{{{place}}}" * bool(place)
-        meaning = f"{'error of ' * error}{self.words}{words.removesuffix(' error')}"
+        meaning = f"{'error of ' * error}{WORDS[self.criterion]}{words.removesuffix(' error')}"
         own: dict[str, Any] = {"of": f"s{end}", "scale": self.scale, "criterion": self.criterion}
         yield Variable(f"{self.name}{end}", f"{sign}{self.symbol}{below}", meaning, self.unit, **own)
         if self.criterion == FINDLEY and grid.findley_limits and not error:
@@ -227,22 +207,20 @@ def _each(value: Callable[[Contact], float], grid: PhysicalGrid) -> xr.DataArray
     return grid.at_rest.each(value)
 
 
+def _of_body(grid: PhysicalGrid, value: Callable[[int], xr.DataArray]) -> xr.DataArray:
+    """A value of the first or the second body, 0 or 1, where the grid has that body."""
+    one, two = (value(body) for body in (0, 1))
+    return one.where(grid.bodies == 0, two)
+
+
 def _swt_scale(grid: PhysicalGrid) -> xr.DataArray:
     """SWT of each body over s."""
-    one = grid.at_rest.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(0))
-    two = grid.at_rest.each(lambda contact: contact.swt_scale * contact.moduli.swt_share(1))
-    return one.where(grid.bodies == 0, two)
+    return _of_body(grid, lambda body: grid.at_rest.each(lambda c: c.swt_scale * c.moduli.swt_share(body)))
 
 
 def _strain_scale(grid: PhysicalGrid) -> xr.DataArray:
     """The unit of stress over the shear modulus of each body."""
-    one = grid.at_rest.each(lambda contact: contact.stress_scale / contact.moduli.shear[0])
-    two = grid.at_rest.each(lambda contact: contact.stress_scale / contact.moduli.shear[1])
-    return one.where(grid.bodies == 0, two)
-
-
-def _stress_scale(grid: PhysicalGrid) -> xr.DataArray:
-    return grid.at_rest.scale("E* δ0/a_H")
+    return _of_body(grid, lambda body: grid.at_rest.each(lambda c: c.stress_scale / c.moduli.shear[body]))
 
 
 def _length(grid: PhysicalGrid) -> xr.DataArray:
@@ -263,8 +241,7 @@ def _over_limit(grid: PhysicalGrid) -> xr.DataArray:
 
 def _over(grid: PhysicalGrid, stresses: Sequence[float]) -> xr.DataArray:
     """The unit of stress over a stress of each body."""
-    one, two = (_stress(grid) / stress for stress in stresses)
-    return one.where(grid.bodies == 0, two)
+    return _of_body(grid, lambda body: _stress(grid) / stresses[body])
 
 
 def _work(grid: PhysicalGrid) -> xr.DataArray:
@@ -323,11 +300,32 @@ def _life_words(grid: PhysicalGrid, criterion: str) -> str:
     return " by shear constants" + " estimated from the tensile ones" * (not grid.shear_materials)
 
 
-_KINDS = (
-    _Kind(SWT, "SWT", r"\mathrm{SWT}", "SWT", "stress", _swt_scale, "cycles"),
-    _Kind(
-        *(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "Fatemi-Socie parameter", "1", _strain_scale),
-        *("FS_cycles", "FS"),
+#: By criterion.
+KINDS = {
+    kind.criterion: kind
+    for kind in (
+        _Kind(SWT, "SWT", r"\mathrm{SWT}", "stress", _swt_scale, "cycles"),
+        _Kind(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "1", _strain_scale, "FS_cycles", "FS"),
+        _Kind(FINDLEY, "findley_stress", "f", "stress", _stress),
+    )
+}
+
+#: Names of all lives that there may be, and of all that there may be.
+LIVES = tuple(
+    f"{kind.life}{name.removeprefix('s')}" for kind in KINDS.values() if kind.life for name in ("s", *MEANS)
+)
+NAMES = (
+    *(
+        f"{kind.name}{of.removeprefix('s')}"
+        for kind in KINDS.values()
+        for each in ("s", *MEANS)
+        for of in (each, error_of(each))
     ),
-    _Kind(FINDLEY, "findley_stress", "f", "Findley stress", "stress", _stress_scale),
+    *(f"findley_usage{name.removeprefix('s')}" for name in ("s", *MEANS)),
+    *(position_of(place) for place in PLACES),
+    *LIVES,
+    *(name for _, *both in lives_in(LIVES) for name in both),
+    *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
+    *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
+    *("von_mises", "yield_ratio", "bulk_shift"),
 )
