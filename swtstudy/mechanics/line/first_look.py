@@ -185,7 +185,8 @@ def high_positions(
     enough = least[point][:, None]
     chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
     beside = np.zeros_like(chosen)
-    beside[1:], beside[:-1] = chosen[:-1], beside[:-1] | chosen[1:]
+    beside[1:] = chosen[:-1]
+    beside[:-1] |= chosen[1:]
     beside &= ~(positions.is_even | positions.is_corner)[:, None]
     chosen |= peaks(point, seen.highest) & (seen.highest >= enough)
     chosen |= (flanks(point, seen) | beside) & (seen.swt >= (1.0 - SHARE) * enough)
