@@ -77,7 +77,7 @@ def test_what_lies_between_is_predicted_as_by_a_cubic_or_a_parabola():
 def test_a_flank_leads_to_a_ring_wherever_it_is_in_its_piece(monkeypatch, width):
     """A narrow maximum with flanks like those of a root, of which the first positions see little."""
 
-    def look(scene, pieces, piece, share):
+    def look(scene, pieces, piece, share, *_):
         r = pieces.radius(piece, np.pi * share)
         swt = 1.0 / (1.0 + np.abs((r - at) / (0.3 * width)) ** 1.5) + np.exp(-(((r - at) / width) ** 2))
         return Seen(swt[:, None], 0.0 * swt[:, None], swt[:, None])
@@ -94,7 +94,7 @@ def test_a_flank_leads_to_a_ring_wherever_it_is_in_its_piece(monkeypatch, width)
 
 
 def test_a_long_piece_has_a_position_where_the_layer_of_its_short_neighbour_ends(monkeypatch):
-    monkeypatch.setattr(first_look, "look_at", lambda _, __, piece, share: Seen(*np.ones((3, piece.size, 1))))
+    monkeypatch.setattr(first_look, "look_at", lambda _, __, piece, *___: Seen(*np.ones((3, piece.size, 1))))
     pieces = Pieces.between(np.array([[1.0, 2.0, 2.0 + 1e-6, 4.0]]), np.array([np.inf]))
     r = resolved([None], pieces)[0].r
     for place, inside in ((2.0, -1.0), (2.0 + 1e-6, 1.0)):

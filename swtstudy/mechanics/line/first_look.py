@@ -7,6 +7,7 @@ coarser ones predict, or until what is left unseen cannot be the largest.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,17 +21,21 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.rows import Rows
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Share of the largest swt that positions may leave unseen, and so may instants and planes. Twice or half: no
-#: maximum more or less is overlooked (`studies/checks/overlooked.py`).
+#: Share of the largest swt that planes and instants may leave unseen, and so may positions where it is lower
+#: by more than that. Twice or half: no maximum more or less is overlooked (`studies/checks/overlooked.py`).
 SHARE = 0.05
-#: Steps with which a piece begins, and steps at most; a piece whose first values are below this share of the
-#: largest needs no more.
+#: What positions may leave unseen elsewhere. As much: 6e-4 at a point of tests/mechanics/test_overlooked.py.
+CLOSE_SHARE = 0.01
+#: Steps with which a piece begins, and steps at most; a piece whose first values are below this share of
+#: the largest needs no more.
 STEPS, MOST_STEPS, LOW = 2, 256, 0.5
 #: A layer is thin if it is shorter than this share of a piece. Without: 1.4e-4 at a point of
 #: tests/mechanics/test_overlooked.py.
 THIN = 1.0 / 12.0
-#: Planes that are tried, and instants, which leave such a share unseen.
+#: Planes that are tried, and instants, which leave such a share unseen; and more instants where that may be
+#: the largest. Without: 7e-4 and 3e-3 at points of tests/mechanics/test_overlooked.py.
 PLANES, RESOLUTION = 16, Resolution(nodes=2, zooms=0, digits=3.5)
+CLOSER = Resolution(nodes=4, zooms=0, digits=4.0)
 #: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
 #: of tests/mechanics/test_overlooked.py.
 OTHER_PLANE = 0.08
@@ -89,39 +94,58 @@ def _seen(
 
 def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     """Positions that resolve swt in all pieces as far as it may be largest there, and what is seen."""
-    steps, going = STEPS, np.arange(len(pieces.point))
-    # The last piece of a point has its end, too; the others end where the next one begins.
-    count = steps + pieces.is_last
-    layer, of_layer = pieces.layers(THIN)
-    even = np.repeat(going, count)
-    piece = np.concatenate([even, layer])
-    share = np.concatenate([place_in_row(even) / steps, of_layer])
-    order = np.lexsort((share, piece))
-    first = look_at(scene, pieces, piece[order], share[order]).take(np.argsort(order))
-    found = [(piece, share, first)]
-    values = first.swt[np.searchsorted(even, going)[:, None] + np.arange(steps + 1)]
-    largest = np.zeros(len(scene))
-    while True:
-        highest = values.max(axis=(1, 2))
-        np.maximum.at(largest, pieces.point[going], highest)
-        unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
-        top = largest[pieces.point[going]]
-        if steps == STEPS:
-            open_ = highest + unseen > LOW * top
-        else:
-            open_ = (unseen > SHARE * top) & (highest + unseen > (1.0 - SHARE) * top)
-        going, values = going[open_], values[open_]
-        if not going.size or steps == MOST_STEPS:
-            break
-        piece, share = np.repeat(going, steps), np.tile((np.arange(steps) + 0.5) / steps, going.size)
-        found.append((piece, share, look_at(scene, pieces, piece, share)))
-        finer = np.empty((going.size, 2 * steps + 1, values.shape[-1]))
-        finer[:, ::2], finer[:, 1::2] = values, found[-1][2].swt.reshape(going.size, steps, -1)
-        values, steps = finer, 2 * steps
+    found = list(_nested(scene, pieces))
     piece, share = (np.concatenate([part[k] for part in found]) for k in range(2))
     order = np.lexsort((share, piece))
-    seen = Seen.joined([part[2] for part in found]).take(order)
-    return Positions.of(pieces, piece[order], np.pi * share[order]), seen
+    piece, share, seen = piece[order], share[order], Seen.joined([part[2] for part in found]).take(order)
+    # Between places that are nearly as high a maximum may hide in what instants leave unseen.
+    point = pieces.point[piece]
+    least = (1.0 - SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
+    high = np.flatnonzero((seen.highest >= least[:, None]).any(axis=1))
+    closer = look_at(scene, pieces, piece[high], share[high], CLOSER)
+    for values, new in zip(vars(seen).values(), vars(closer).values(), strict=True):
+        values[high] = new
+    return Positions.of(pieces, piece, np.pi * share), seen
+
+
+def _nested(scene: Scene, pieces: Pieces) -> Iterator[tuple[NDArray[np.intp], FloatArray, Seen]]:
+    """Places, as pieces and shares of their angles, and what is seen there: ever closer ones."""
+    steps, going = STEPS, np.arange(len(pieces.point))
+    # The last piece of a point has its end, too; the others end where the next one begins.
+    even = np.repeat(going, steps + pieces.is_last)
+    layer, of_layer = pieces.layers(THIN)
+    piece, share = np.concatenate([even, layer]), np.concatenate([place_in_row(even) / steps, of_layer])
+    order = np.lexsort((share, piece))
+    first = look_at(scene, pieces, piece[order], share[order]).take(np.argsort(order))
+    yield piece, share, first
+    values = first.swt[np.searchsorted(even, going)[:, None] + np.arange(steps + 1)]
+    largest, within = np.zeros(len(scene)), np.ones((going.size, steps), dtype=bool)
+    while True:
+        np.maximum.at(largest, pieces.point[going], values.max(axis=(1, 2)))
+        within &= _open_gaps(values, largest[pieces.point[going]])
+        open_ = within.any(axis=1)
+        going, values, within = going[open_], values[open_], within[open_]
+        if not going.size or steps == MOST_STEPS:
+            break
+        row, gap = np.nonzero(within)
+        piece, share = going[row], (gap + 0.5) / steps
+        seen = look_at(scene, pieces, piece, share)
+        yield piece, share, seen
+        finer = np.empty((going.size, 2 * steps + 1, values.shape[-1]))
+        finer[:, ::2], finer[:, 1::2] = values, _predicted(values)
+        finer[row, 2 * gap + 1] = seen.swt
+        values, within, steps = finer, np.repeat(within, 2, axis=1), 2 * steps
+
+
+def _open_gaps(values: FloatArray, top: FloatArray) -> NDArray[np.bool_]:
+    """Between which values of pieces, (m, k + 1, sides), more are needed, shape (m, k); ``top`` of (m,)."""
+    unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
+    highest = np.maximum(values[:, :-1], values[:, 1:]).max(axis=2) + unseen[:, None]
+    if values.shape[1] == STEPS + 1:
+        # So few values predict nothing yet.
+        low = highest.max(axis=1, keepdims=True) <= LOW * top[:, None]
+        return np.broadcast_to(~low, highest.shape)
+    return np.asarray((highest > (1.0 - SHARE) * top[:, None]) & (unseen > CLOSE_SHARE * top)[:, None])
 
 
 def _predicted(values: FloatArray) -> FloatArray:

@@ -1,0 +1,205 @@
+"""Is a maximum overlooked off the line? s_surface and the body's maximum against dense looks.
+
+``python studies/checks/off_line.py``, from the project folder, writes results/off_line.md. The points are
+those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_surface is searched for, or a
+bulk stress. ``--points`` draws fewer of each scene, ``--quick`` next to none.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from overlooked import SCENES
+
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body.body import Body, time_nodes
+from swtstudy.mechanics.body.body_maximum import body_maximum
+from swtstudy.mechanics.line.look import Look
+from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
+from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.planes.all_planes import swt_on_planes
+from swtstudy.mechanics.planes.weights import tangent_basis
+from swtstudy.mechanics.stress.circle import circle_stress
+from swtstudy.mechanics.stress.scene import Scene, scene_of
+
+Array = NDArray[np.float64]
+#: By scene: points on circles, and in bodies.
+COUNTS = {
+    "displacements": (200, 60),
+    "forces": (200, 60),
+    "rounded punch": (100, 20),
+    "truncated paraboloid": (100, 20),
+    "wavy paraboloid": (100, 20),
+    "power law": (100, 20),
+    "loops of 4 to 200 vertices": (50, 10),
+    "bulk stress": (100, 20),
+    "Walker's exponent": (100, 20),
+}
+SEED = 3
+#: Shares by which a dense look may be higher: what is claimed of s_surface, and of the body.
+ALLOWED = 1e-4, 1e-4
+#: On a circle: angles, planes and instants of the first look, in rad how far the first closer one goes,
+#: how often, and how it narrows.
+ANGLES, PLANES, INSTANTS = np.linspace(0.0, np.pi, 65), 2000, 8
+REACH, ROUNDS, NARROWER = 0.08, 6, 0.35
+#: In the body, over the largest contact radius: radii and depths, and steps of the first closer look.
+RADII, DEPTHS = np.linspace(0.05, 1.15, 23), np.array([0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8])
+STEPS = 0.03, 0.2, 0.004
+CELLS = 48
+
+
+def dense_circle(scene: Scene, r: float) -> float:
+    """Largest swt on the circle of a radius, on all planes, of a batch of one point."""
+    scene = scene.split_at_breakpoints()
+    planes = hemisphere(PLANES)
+    values = _on_circle(scene, r, ANGLES, planes, INSTANTS)
+    tops = np.pad(values.max(axis=1), 1, constant_values=-1.0)
+    highest = float(tops.max())
+    is_peak = (tops[1:-1] >= tops[:-2]) & (tops[1:-1] >= tops[2:]) & (tops[1:-1] > 0.9 * highest)
+    for k in np.flatnonzero(is_peak):
+        angle, normal = ANGLES[k], planes[values[k].argmax()]
+        step, turn, count = ANGLES[2], REACH, INSTANTS
+        for _ in range(ROUNDS):
+            angles, normals = angle + step * np.linspace(-1.0, 1.0, 9), _around(normal, turn)
+            closer = _on_circle(scene, r, angles, normals, count)
+            best = np.unravel_index(closer.argmax(), closer.shape)
+            highest = max(highest, float(closer[best]))
+            angle, normal = angles[best[0]], normals[best[1]]
+            step, turn, count = NARROWER * step, NARROWER * turn, min(2 * count, 96)
+    return highest
+
+
+def _on_circle(scene: Scene, r: float, angles: Array, normals: Array, count: int) -> Array:
+    """The parameter swt at angles on planes, shape (angles, planes)."""
+    look = Look.at(scene, np.array([[r]]), count, 9.0)
+    history = look.history.take((np.arange(1), 0))
+    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angles[None])[0]
+    ν = float(scene.poisson_ratio[0])
+    return swt_on_planes(stress, normals, ν, 1.0 - ν**2, scene.criterion)
+
+
+def _around(normal: Array, turn: float) -> Array:
+    """Normals on a grid about one of them."""
+    basis = tangent_basis(normal[None])[0]
+    grid = np.stack(np.meshgrid(*(turn * np.linspace(-1.0, 1.0, 9),) * 2), axis=-1).reshape(-1, 2)
+    normals = normal + grid @ basis
+    return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))
+
+
+def dense_body(scene: Scene, x: float) -> float:
+    """Largest swt on a lattice of the body and on closer ones, of one point; x is on one circle."""
+    largest = float(scene.largest_radius[0])
+    start = scene.cycle.memory.start
+    cusps = scene.coordinate.radius(np.unique(start[np.isfinite(start)])[None])[0]
+    radii = np.concatenate([[abs(x)], cusps[cusps > 0.02 * largest], largest * RADII])
+    angles, depths = np.linspace(0.0, np.pi, 9), largest * DEPTHS
+    tops = sorted((_highest(scene, r, angles, depths, 5) for r in np.unique(radii)), reverse=True)
+    highest = tops[0][0]
+    for top, r, angle, depth in tops[:3]:
+        if top < 0.8 * highest:
+            break
+        steps = np.array([largest * STEPS[0], STEPS[1], max(0.5 * depth, largest * STEPS[2])])
+        for _ in range(5):
+            grids = [
+                at + step * np.linspace(-1.0, 1.0, 5)
+                for at, step in zip((r, angle, depth), steps, strict=True)
+            ]
+            below = np.maximum(grids[2], 0.0)
+            found = max(_highest(scene, abs(own), grids[1], below, INSTANTS) for own in grids[0])
+            highest = max(highest, found[0])
+            if found[0] > top:
+                top, r, angle, depth = found
+            steps = 0.4 * steps
+    return highest
+
+
+def _highest(
+    scene: Scene, r: float, angles: Array, depths: Array, count: int
+) -> tuple[float, float, float, float]:
+    """The highest swt at angles and depths of one radius, and that radius, its angle and its depth."""
+    angle, depth = np.meshgrid(angles, depths, indexing="ij")
+    body = Body(scene, time_nodes(scene, count, [r]), CELLS)
+    swt = body.swt(r * np.cos(angle), r * np.sin(angle), depth).swt
+    best = np.unravel_index(swt.argmax(), swt.shape)
+    return float(swt[best]), float(r), float(angle[best]), float(depth[best])
+
+
+def shortfalls(task: tuple[str, int, bool]) -> tuple[str, bool, Array]:
+    """By how much s_surface, or the body's maximum, is below the dense look at some points, relative."""
+    name, count, in_body = task
+    rng = np.random.default_rng([SEED, list(SCENES).index(name)])
+    drawn = [SCENES[name][0](rng) for _ in range(-(-count // 50))]
+    low: list[float] = []
+    for some in drawn:
+        points = some.take(np.arange(min(count - len(low), len(some))))
+        if not in_body and not points.bulk_stress_amplitude.any():
+            ν = rng.uniform(SAFE_POISSON_RATIO, 0.5, len(points))
+            points = replace(points, poisson_ratio=ν)
+        solved = solve_points(points, 1e-5)
+        for k, (surface, x) in enumerate(zip(solved.s_surface, solved.critical_x, strict=True)):
+            if not (np.isfinite(x) and surface > 0.0):
+                low.append(np.nan)
+                continue
+            scene = scene_of(points.take(np.array([k])))
+            with np.errstate(all="ignore"):
+                if in_body:
+                    low.append(1.0 - body_maximum(scene, float(x))[0].swt / dense_body(scene, float(x)))
+                else:
+                    low.append(1.0 - surface / dense_circle(scene, abs(float(x))))
+    return name, in_body, np.array(low)
+
+
+def lines(found: list[tuple[str, bool, Array]]) -> Iterator[str]:
+    """The report."""
+    yield "# Is a maximum overlooked off the line?"
+    yield ""
+    yield (
+        f"s_surface at ν > {SAFE_POISSON_RATIO} or with a bulk stress, and the largest swt of the body that "
+        "`swtstudy audit` finds, against dense looks at circles and bodies at random points, small motions "
+        "among them. `python studies/checks/off_line.py`"
+    )
+    for in_body, title in enumerate(("s_surface", "The body's maximum")):
+        yield from ("", f"## {title}", "")
+        yield f"| scene | points | low by more than {ALLOWED[in_body]:g} | lowest |"
+        yield "|---|---|---|---|"
+        for name, of_body, low in found:
+            if of_body == bool(in_body):
+                known = low[np.isfinite(low)]
+                worst = max(known.max(initial=0.0), 0.0)
+                yield f"| {name} | {known.size} | {(known > ALLOWED[in_body]).sum()} | {worst:.1e} |"
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser()
+    arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
+    arguments.add_argument("--points", type=int, help="points of each scene at most")
+    arguments.add_argument("--quick", action="store_true", help="a point of one scene, to see that it runs")
+    given = arguments.parse_args()
+    most = 1 if given.quick else given.points or 10**6
+    tasks = [
+        (name, min(counts[in_body], most), bool(in_body))
+        for in_body in range(2)
+        for name, counts in list(COUNTS.items())[: 1 if given.quick else None]
+    ]
+    if given.quick:
+        found = list(map(shortfalls, tasks))
+    else:
+        with ProcessPoolExecutor(2) as pool:
+            found = list(pool.map(shortfalls, tasks))
+    text = "\n".join(lines(found)) + "\n"
+    (given.results / "off_line.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
