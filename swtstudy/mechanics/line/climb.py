@@ -79,7 +79,7 @@ class Climb(Rows):
         own, x_sign = scene.take(positions.point[place]), np.where(side == 0, 1.0, -1.0)
         look = Look.at(own, positions.r[place][:, None], resolution.nodes, resolution.digits)
         planes = own.planes(look.history, x_sign[:, None, None]).take(np.arange(place.size), 0 * place)
-        row, angle, swt = _summits(planes, look.inside[:, 0])
+        row, angle, swt = _summits(planes, look.inside[:, 0], seen.double_angle[place, side])
         point = positions.point[place[row]]
         if least is None:
             least = largest_of_rows(point, swt)
@@ -125,7 +125,7 @@ class Climb(Rows):
 
 
 def _summits(
-    planes: PlaneHistory, inside: NDArray[np.bool_]
+    planes: PlaneHistory, inside: NDArray[np.bool_], double_angle: FloatArray
 ) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
     """Planes on which swt has its local maxima at m places, as far as they may be the largest.
 
@@ -135,6 +135,8 @@ def _summits(
         At m places and T instants.
     inside
         Shape (m, T), see `Look.inside`.
+    double_angle
+        Shape (m,): 2θ of the best planes of the first look, rad.
 
     Returns
     -------
@@ -154,7 +156,8 @@ def _summits(
     peak[table.argmax(axis=0), np.arange(len(inside))] = True
     row, plane = np.nonzero(peak.T)
     reached = climb_over_planes(planes.take(row), angles[plane] + BESIDE[:, None], ANGLE_ROUNDS).ravel()
-    row = np.tile(row, len(BESIDE))
+    reached = np.concatenate([reached, climb_over_planes(planes, double_angle, ANGLE_ROUNDS)])
+    row = np.concatenate([np.tile(row, len(BESIDE)), np.arange(len(inside))])
     swt = height(planes.take(row), reached, inside[row])
     order = np.lexsort((-swt, row))
     row, reached, swt = row[order], reached[order], swt[order]
