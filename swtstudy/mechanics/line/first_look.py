@@ -103,8 +103,11 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     least = (1.0 - SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
     high = np.flatnonzero((seen.highest >= least[:, None]).any(axis=1))
     closer = look_at(scene, pieces, piece[high], share[high], CLOSER)
-    for values, new in zip(vars(seen).values(), vars(closer).values(), strict=True):
-        values[high] = new
+    # What either look shows is there, and what either cannot exclude may be.
+    angle = np.where(closer.swt > seen.swt[high], closer.double_angle, seen.double_angle[high])
+    seen.double_angle[high] = angle
+    for values, new in ((seen.swt, closer.swt), (seen.highest, closer.highest)):
+        values[high] = np.maximum(values[high], new)
     return Positions.of(pieces, piece, np.pi * share), seen
 
 
@@ -139,13 +142,16 @@ def _nested(scene: Scene, pieces: Pieces) -> Iterator[tuple[NDArray[np.intp], Fl
 
 def _open_gaps(values: FloatArray, top: FloatArray) -> NDArray[np.bool_]:
     """Between which values of pieces, (m, k + 1, sides), more are needed, shape (m, k); ``top`` of (m,)."""
-    unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))
-    highest = np.maximum(values[:, :-1], values[:, 1:]).max(axis=2) + unseen[:, None]
+    unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))[:, None]
+    highest = np.maximum(values[:, :-1], values[:, 1:]).max(axis=2) + unseen
+    of_piece, top = highest.max(axis=1, keepdims=True), top[:, None]
     if values.shape[1] == STEPS + 1:
         # So few values predict nothing yet.
-        low = highest.max(axis=1, keepdims=True) <= LOW * top[:, None]
-        return np.broadcast_to(~low, highest.shape)
-    return np.asarray((highest > (1.0 - SHARE) * top[:, None]) & (unseen > CLOSE_SHARE * top)[:, None])
+        return np.broadcast_to(of_piece > LOW * top, highest.shape)
+    least = (1.0 - SHARE) * top
+    # Only a piece that is nearly known can be parted into gaps.
+    anywhere = (unseen > SHARE * top) & (of_piece > least)
+    return np.asarray(anywhere | ((unseen > CLOSE_SHARE * top) & (highest > least)))
 
 
 def _predicted(values: FloatArray) -> FloatArray:
