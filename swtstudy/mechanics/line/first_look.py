@@ -100,8 +100,8 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     piece, share, seen = piece[order], share[order], Seen.joined([part[2] for part in found]).take(order)
     # Between places that are nearly as high a maximum may hide in what instants leave unseen.
     point = pieces.point[piece]
-    least = (1.0 - SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
-    high = np.flatnonzero((seen.highest >= least[:, None]).any(axis=1))
+    least = (1.0 - CLOSE_SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
+    high = np.flatnonzero((seen.swt >= least[:, None]).any(axis=1))
     closer = look_at(scene, pieces, piece[high], share[high], CLOSER)
     # What either look shows is there, and what either cannot exclude may be.
     angle = np.where(closer.swt > seen.swt[high], closer.double_angle, seen.double_angle[high])
@@ -180,10 +180,13 @@ def look_at(
     intervals = scene.cycle.begin.shape[1]
     owner, part = _parts(point, max(LOOK_SIZE // intervals, LEAST_PART))
     count = np.bincount(part)
-    # Parts with as many positions together: rows are as long as the longest.
+    # Parts with as many positions together.
     left = np.argsort(-count, kind="stable")
     while left.size:
-        size = max(LOOK_SIZE // (count[left[0]] * intervals), 1)
+        # Rows are as long as the longest, which is at most twice the shortest.
+        longest = count[left[0]]
+        alike = np.searchsorted(-count[left], -0.5 * longest, side="right")
+        size = min(max(LOOK_SIZE // (longest * intervals), 1), int(alike))
         rows, left = left[:size], left[size:]
         index, real = as_rows(part, rows)
         look = first_look(scene.take(owner[rows]), r[index], resolution, PLANES)
