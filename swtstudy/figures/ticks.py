@@ -70,7 +70,8 @@ def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
     if high >= _DECADES * low or not low > 0.0:
         return
     powers = high >= _PLAIN or low < 1.0 / _PLAIN
-    whole = powers and axis.axis_name == "x" and high >= _WHOLE * low
+    across = axis.axis_name == "x"  # type: ignore[attr-defined]
+    whole = powers and across and high >= _WHOLE * low
     digits = (1.0,) if whole else _DIGITS
     if sum(low <= digit * 10.0**power <= high for power in _powers(low, high) for digit in digits) < _FEW:
         axis.set_major_locator(MaxNLocator(_EVEN, steps=[1, 2, 2.5, 5, 10]))

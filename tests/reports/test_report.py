@@ -25,6 +25,7 @@ import swtstudy
 from swtstudy.cli import main
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
+from swtstudy.reports.sections import tiles
 from swtstudy.reports.site import write_reports
 from swtstudy.reports.symbols import symbol_html
 from swtstudy.study.figure import FigureLayout
@@ -235,6 +236,45 @@ def test_what_a_study_says_of_its_figure_is_beneath_it(small: xr.Dataset) -> Non
     text = page(small.assign_attrs(figure=layout.to_json()), "small")
     (caption,) = re.findall("<figcaption>(.*?)</figcaption>", text.partition('id="figure"')[2])[:1]
     assert "&lt;b&gt;Not&lt;/b&gt; as in the paper." in caption
+
+
+def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
+    """Results of one amplitude with other values of s."""
+    one = dataset.isel(normal_amplitude=[0])
+    return one.assign(s=one.s.copy(data=np.reshape(s, one.s.shape)))
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ([np.nan] * 3, "No point has a finite s."),
+        ([np.nan, 0.25, np.nan], "s is 0.25 at one of 3 points; the others have none."),
+        ([0.25, 0.25, 0.2501], "At all 3 points s is 0.25: nothing that was varied moves it."),
+        ([0.0, 0.0, 0.0], "At all 3 points s is 0: nothing that was varied moves it."),
+        ([0.0, 0.1, 0.3], "Over 3 points s goes from 0 to 0.3, median 0.1."),
+        ([np.nan, 0.1, 0.3], "The phase of the normal oscillation ψ moves s by 3 times: best at"),
+    ],
+)
+def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], said: str) -> None:
+    dataset = constant(small, values)
+    (sentence,) = (re.sub("<[^>]*>", "", each) for each in sentences(dataset))
+    assert sentence.startswith(said)
+    missing = int(np.isnan(values).sum())
+    assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", tiles(dataset))
+
+
+def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset) -> None:
+    one = small.isel(phase=0, normal_amplitude=0)
+    words = re.sub("<[^>]*>", " ", "".join(sentences(one)) + tiles(one))
+    assert f"s is {float(one.s):.4g} ." in " ".join(words.split())
+    assert "least" not in words
+    assert "greatest" not in words
+
+
+def test_one_life_is_no_range() -> None:
+    dataset = swtstudy.open_results(RESULTS / "life.nc").isel(tangential_amplitude=0, critical_distance=0)
+    life = next(each for each in sentences(dataset) if "crack" in each)
+    assert re.search(r"after [^ ]+ rounds of the load", life)
 
 
 def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
