@@ -46,7 +46,7 @@ def letters(words: str) -> int:
     Examples
     --------
     >>> letters("stress"), letters(r"$\sigma_n\,a_H/(E^* \delta_0)$")
-    (6, 13)
+    (6, 12)
     """
     return len(_NO_LETTER.sub("", _COMMAND.sub("x", words)))
 

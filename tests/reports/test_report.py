@@ -23,8 +23,10 @@ from folders import RESULTS
 
 import swtstudy
 from swtstudy.cli import main
+from swtstudy.figures.save import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
+from swtstudy.reports.pictures import embedded
 from swtstudy.reports.sections import tiles
 from swtstudy.reports.site import write_reports
 from swtstudy.reports.symbols import symbol_html
@@ -300,6 +302,33 @@ def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:
     assert {"loops.html", "friction.html"} <= {*index.links}
     assert sum(link.startswith("data:image/webp") for link in index.links) == 2
     assert 'href="index.html"' in files["loops.html"].read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_pages_made_side_by_side_are_in_order(tmp_path: Path, small: xr.Dataset) -> None:
+    archives = [tmp_path / f"{name}.nc" for name in "abcd"]
+    for path in archives:
+        path.write_text("no archive")
+    study(tmp_path, axes="phase = [0, 1]")
+    (tmp_path / "small.nc").replace(archives[2])
+    made = [(path, bool(problem)) for path, problem in write_reports(archives, tmp_path / "site", workers=2)]
+    page_of_c, index = tmp_path / "site" / "c.html", tmp_path / "site" / "index.html"
+    a, b, _, d = archives
+    assert made == [(a, True), (b, True), (page_of_c, False), (d, True), (index, False)]
+    assert "<h1>1 parameter study</h1>" in index.read_text("utf-8")
+
+
+def test_a_drawing_has_the_digits_that_are_seen(small: xr.Dataset) -> None:
+    figure = small.swt.figure()
+    whole = picture(figure, "svg").decode()
+    (short,) = re.findall("base64,(.*)", embedded(figure).source)
+    drawn = base64.b64decode(short).decode()
+    assert len(drawn) < 0.9 * len(whole)
+    assert "<!--" not in drawn
+    lines = [re.findall(r' d="(M [^"]* L [^"]*)" clip', " ".join(text.split())) for text in (whole, drawn)]
+    before, after = ([float(n) for d in each for n in re.findall(r"[-\d.]+", d)] for each in lines)
+    assert after == pytest.approx(before, abs=0.5)  # laid out anew, at another size of pixels
+    assert max(len(n.partition(".")[2]) for d in lines[1] for n in re.findall(r"[-\d.]+", d)) <= 2
 
 
 @pytest.mark.parametrize(
