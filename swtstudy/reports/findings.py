@@ -133,8 +133,8 @@ def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
     if "cycles" in dataset:
         lives = dataset.cycles.values[np.isfinite(dataset.cycles.values)]
         if lives.size:
-            ends = dict.fromkeys(number_words(each, 2) for each in (lives.min(), lives.max()))
-            yield f"A crack starts after {' to '.join(ends)} rounds of the load, at the worst place."
+            rounds = dict.fromkeys(number_words(each, 2) for each in (lives.min(), lives.max()))
+            yield f"A crack starts after {' to '.join(rounds)} rounds of the load, at the worst place."
 
 
 def _alone(values: xr.DataArray) -> str:

@@ -23,8 +23,7 @@ from swtstudy.study.figure import LINE_KINDS, FigureLayout
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from swtstudy.figures.figure import Figure
+    from matplotlib.figure import Figure
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.
 _LARGEST_DRAWING = 400_000
@@ -77,7 +76,7 @@ def _settle(figure: Figure, dpi: float) -> None:
     figure.dpi = dpi
     engine = figure.get_layout_engine()
     if engine is not None:
-        with styled(None, figure.width):
+        with styled(None, getattr(figure, "width", None)):
             engine.execute(figure)
         figure.set_layout_engine(None)
 
@@ -90,7 +89,7 @@ def _rounded(drawing: bytes) -> bytes:
 def _pixels(figure: Figure) -> bytes:
     """A figure as a WebP file, in the figure's own dots per inch, with as many colours as it needs."""
     canvas, content = FigureCanvasAgg(figure), BytesIO()
-    with styled(None, figure.width):
+    with styled(None, getattr(figure, "width", None)):
         canvas.draw()
     seen = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
     few = seen.quantize(_COLOURS, dither=Image.Dither.NONE)
