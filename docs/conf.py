@@ -45,9 +45,10 @@ napoleon_use_ivar = True
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_static_path = ["static"]
-html_extra_path = ["generated/example"]  # pages that are none of Sphinx's, as they are
+html_extra_path = ["generated/pages"]  # pages that are none of Sphinx's, as they are
 html_css_files = ["style.css"]
 html_title = f"swtstudy {release}"
 html_show_copyright = False
 
-generate(HERE / "generated")
+# Reports of all studies take minutes: they are made where asked for, as by ``sphinx-build -t reports``.
+generate(HERE / "generated", reports=tags.has("reports"))  # noqa: F821

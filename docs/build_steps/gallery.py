@@ -1,28 +1,45 @@
 """Every study with its figure, and the pictures of scripts."""
 
+from collections.abc import Collection
 from pathlib import Path
 
 from swtstudy import open_results
 from swtstudy.figures.draw import layout_of
-from swtstudy.reports.findings import sentences
 from swtstudy.reports.site import entry, gallery_of
 from swtstudy.study.shipped import in_groups, shipped_studies
 
 
-def gallery(root: Path) -> str:
-    """Cards of all studies in groups, then the figure of each in full, then the pictures of scripts."""
-    names = [name for name in shipped_studies() if (root / "results" / f"{name}.nc").is_file()]
-    results = {name: open_results(root / "results" / f"{name}.nc") for name in names}
+def results_of(root: Path) -> dict[str, Path]:
+    """The archives of the studies that come with the package, by their names."""
+    paths = {name: root / "results" / f"{name}.nc" for name in shipped_studies()}
+    return {name: path for name, path in paths.items() if path.is_file()}
+
+
+def gallery(root: Path, reported: Collection[str]) -> str:
+    """Cards of all studies in groups, then the figure of each in full, then the pictures of scripts.
+
+    Parameters
+    ----------
+    root
+        The project's folder.
+    reported
+        The studies whose reports are beside the pages; a card leads there, that of another to its figure.
+    """
+    results = {name: open_results(path) for name, path in results_of(root).items()}
     entries = [entry(dataset, name) for name, dataset in results.items()]
-    parts = [f"```{{raw}} html\n{gallery_of(entries, _address)}\n```\n"]
-    for group, own in in_groups(names).items():
+    cards = gallery_of(entries, lambda name: _report(name) if name in reported else _target(name))
+    parts = [f"```{{raw}} html\n{cards}\n```\n"]
+    for group, own in in_groups(results).items():
         parts.append(f"## {group}\n")
         for name in own:
-            said = _plain(next(iter(sentences(results[name])), ""))
+            said = _plain(next(each.sentence for each in entries if each.name == name))
             caption = layout_of(results[name]).caption or ""
             title, source = str(results[name].title), f"studies/{name}.toml"
             parts.append(_entry(name, title, source, f"{said} {_plain(caption)}".strip(), root))
-            parts.append(f"[A page of it](report.md) to send: `swtstudy report results/{name}.nc`\n")
+            link = (
+                f'<a href="{_report(name)}">Its report</a>' if name in reported else "[Its report](report.md)"
+            )
+            parts.append(f"{link}: `swtstudy report results/{name}.nc`\n")
     parts.append("## Scripts\n")
     for path in sorted((root / "studies" / "maps").glob("*.py")):
         title = path.read_text(encoding="utf-8").partition('"""')[2].partition("\n")[0].rstrip(".")
@@ -30,8 +47,13 @@ def gallery(root: Path) -> str:
     return "\n".join(parts)
 
 
-def _address(name: str) -> str:
-    """Of a target on this page, as Sphinx writes it."""
+def _report(name: str) -> str:
+    """Address of a report from this page."""
+    return f"reports/{name}.html"
+
+
+def _target(name: str) -> str:
+    """Address of a figure on this page, as Sphinx writes it."""
     return f"#{name.replace('_', '-')}"
 
 

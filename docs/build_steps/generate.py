@@ -6,26 +6,29 @@ from pathlib import Path
 from build_steps.best_and_worst import draw_best_and_worst
 from build_steps.citation import citation
 from build_steps.commands import commands
-from build_steps.gallery import gallery
+from build_steps.gallery import gallery, results_of
 from build_steps.house import draw_house
 from build_steps.parameters import parameters
 from build_steps.profiles import draw_profiles
 from build_steps.rooms import MECHANICS, WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
-from swtstudy import open_results
-from swtstudy.reports.page import page
+from swtstudy.reports.site import write_reports
 
 ROOT = Path(__file__).parent.parent.parent
+#: The study whose report is always made.
+EXAMPLE = "figure3"
 
 
-def generate(folder: Path) -> None:
-    """Write everything into ``folder``."""
+def generate(folder: Path, reports: bool = False) -> None:
+    """Write everything into ``folder``, with the reports of all studies or of one of them alone."""
     folder.mkdir(exist_ok=True)
+    archives = results_of(ROOT)
+    reported = [*archives] if reports else [EXAMPLE]
     texts = {
         "citation": citation(ROOT / "CITATION.cff"),
         "commands": commands(),
-        "gallery": gallery(ROOT),
+        "gallery": gallery(ROOT, reported),
         "parameters": parameters(),
         "rooms_mechanics": rooms(MECHANICS),
         "rooms_whole": rooms(WHOLE),
@@ -38,9 +41,10 @@ def generate(folder: Path) -> None:
     draw_house(MECHANICS, folder / "mechanics.svg")
     draw_profiles(folder)
     draw_best_and_worst(ROOT, folder / "best_and_worst.svg")
-    report = folder / "example" / "report_figure3.html"
-    report.parent.mkdir(exist_ok=True)
-    report.write_text(page(open_results(ROOT / "results" / "figure3.nc"), "figure3"), encoding="utf-8")
+    shutil.rmtree(folder / "pages", ignore_errors=True)
+    for _, problem in write_reports([archives[name] for name in reported], folder / "pages" / "reports"):
+        if problem:
+            raise ValueError(problem)
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
 
 

@@ -1,6 +1,7 @@
 """Formulae as MathML, by docutils: browsers draw it themselves, without a script from elsewhere."""
 
 import re
+from typing import Any
 
 from docutils import nodes
 from docutils.utils.math import latex2mathml
@@ -22,6 +23,10 @@ _DEFINED = re.compile(r"<mo>∶</mo>\s*<mo>=</mo>")
 _BARE = re.compile(r"\\[td]?frac\s*(?:\d|\{[^{}]*\}\s*\d)")
 #: The font's primes are raised as they are.
 _PRIMES = re.compile(r"(<mi>\w</mi>)((?:\s*<mo>'</mo>)+)")
+
+#: A formula in a line, with what stands at it without a blank.
+_IN_LINE = r'<math(?![^>]*display="block")[^>]*>(?:(?!</math>).)*</math>'
+_TIED = re.compile(rf"[(\[]{_IN_LINE}[.,;:!?)\]]*|{_IN_LINE}[.,;:!?)\]]+", re.DOTALL)
 
 
 def mathml(text: str, as_block: bool = False) -> str:
@@ -45,7 +50,18 @@ def _block(writer: HTML5Translator, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def tied(html: str) -> str:
+    """A page on which no bracket and no full stop stands alone at the end or the beginning of a line."""
+    return _TIED.sub(lambda found: f'<span class="tied">{found[0]}</span>', html)
+
+
+def _tie(_app: Sphinx, _page: str, _template: str, context: dict[str, Any], _tree: object) -> None:
+    if "body" in context:
+        context["body"] = tied(context["body"])
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Register the renderer as "mathml"."""
+    """Register the renderer as "mathml"; pages keep formulae and their full stops together."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    app.connect("html-page-context", _tie)
     return {"parallel_read_safe": True}

@@ -18,6 +18,7 @@ import swtstudy
 from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.ticks import tick_in_ratios
 
 COUNTS = (50, 100, 200, 400, 800, 1400, 2000)
 #: Noise over the amplitude, and whether there is a bulk stress.
@@ -52,8 +53,12 @@ def chart(counts: list[int], found: dict[str, list[float]]) -> Figure:
         for color, marker, (words, times) in zip(COLOURS, MARKERS[1:], found.items(), strict=False):
             axes.loglog(counts, times, color=color, linestyle="-", marker=marker, label=words)
         k = np.array(counts, dtype=float)
+        law = k * np.log(k)
         last = next(reversed(found.values()))[-1]
-        axes.loglog(k, last * k * np.log(k) / (k[-1] * np.log(k[-1])), "k:", marker="", label="like k log k")
+        axes.loglog(k, last * law / law[-1], "k:", marker="", label=r"like $k\,\log k$")
+        tick_in_ratios(axes.xaxis, k[0], k[-1])
+        times = [each for row in found.values() for each in row]
+        tick_in_ratios(axes.yaxis, min(times), max(times))
         axes.set(xlabel="vertices $k$", ylabel="processor time (s)")
         axes.legend(frameon=False)
     return figure

@@ -201,7 +201,7 @@ def accuracy(dataset: xr.Dataset) -> str:
     """Say how large the estimated errors of s are."""
     relative = relative_errors(dataset)
     if not relative.size:
-        return "no value of s"
+        return "s is 0 or unknown at all points"
     above = int((relative > dataset.attrs["rtol"]).sum())
     largest, median = (number_words(float(each), 2) for each in (relative.max(), np.median(relative)))
     words = f"relative error of s estimated up to {largest}, median {median}"

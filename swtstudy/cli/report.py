@@ -18,7 +18,10 @@ from swtstudy.cli.options import archive_completion, examples
 @click.option(
     "--output", "-o", help="HTML file, by default beside the archive; of several archives a folder."
 )
-def report(archives: tuple[str, ...], output: str | None) -> None:
+@click.option(
+    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Processes, for several."
+)
+def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
     """Write an HTML page about each ARCHIVE, to send to people without Python.
 
     A page needs no other file and no network: what matters in a sentence, the figure with its values, slices,
@@ -28,5 +31,5 @@ def report(archives: tuple[str, ...], output: str | None) -> None:
     """
     from swtstudy.reports.site import write_reports
 
-    for path, problem in write_reports(archives, output):
+    for path, problem in write_reports(archives, output, workers):
         click.echo(problem or str(path), err=bool(problem))

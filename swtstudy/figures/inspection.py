@@ -18,6 +18,7 @@ from swtstudy.figures.inspection_panels import (
 )
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import Style, styled
+from swtstudy.figures.ticks import plain_ticks
 from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.validity import validity_lines
@@ -133,6 +134,8 @@ def draw_inspection(
             draw(axes, dataset, *own)
             show_units(axes, _VARIABLES.get(draw, (None, None)), labels)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
+        for axes in figure.axes:
+            plain_ticks(axes)
         figure.suptitle(_headline(dataset, labels, headlines))
         wrap_texts(figure)
     return figure

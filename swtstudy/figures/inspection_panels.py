@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
+#: Heights of the labels of radii, over the largest swt.
+_LOWEST, _LOWER, _UPPER = 1.02, 1.24, 1.39
 #: Room below and above the curves of the stress cycle, over their range.
 _ROOM = (0.2, 0.22)
 #: What is prescribed, by the coordinate ``control``.
@@ -195,12 +197,15 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     if stick > 0.0:
         axes.axvspan(-stick, stick, color="0.85", zorder=0)
         axes.text(0.0, 0.04 * top, "always\nsticks", ha="center", va="bottom", color="0.25", fontsize="small")
-    for radius, dashes, words in ((least, DOTTED, r"$a_{\min}$"), (largest, "-", r"$a_{\max}$")):
+    # The label of the least radius is beneath that of the largest, or beneath the inset.
+    lower = _LOWER if least > 0.5 * largest else _LOWEST
+    ends = ((least, DOTTED, r"$a_{\min}$", lower), (largest, "-", r"$a_{\max}$", _UPPER))
+    for radius, dashes, words, height in ends:
         for side in (-1.0, 1.0):
             axes.axvline(side * radius, color=FAINT, linewidth=thin(), linestyle=dashes)
         if radius > 0.0:
             box = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
-            axes.text(radius, 1.39 * top, words, ha="center", va="center", fontsize="small", bbox=box)
+            axes.text(radius, height * top, words, ha="center", va="center", fontsize="small", bbox=box)
     axes.plot(x, found, marker="o", markersize=dot(), color="black", linestyle="", clip_on=False)
     axes.set_xlim(-1.2 * largest, 1.2 * largest)
     axes.set_ylim(0.0, 1.45 * top)
@@ -233,7 +238,14 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
     start = 0.42 * plane
     arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
     inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)
-    inset.text(-1.3, -0.5, f"{float(dataset.shown_angle):.1f}°", ha="right", va="center", fontsize="small")
+    inset.text(
+        -1.3,
+        -0.5,
+        f"{float(dataset.shown_angle):.1f}°".replace("-", "−"),
+        ha="right",
+        va="center",
+        fontsize="small",
+    )
     inset.set(xlim=(-1.2, 1.2), ylim=(-1.0, 0.3), xticks=[], yticks=[], aspect="equal")
     inset.set_frame_on(False)
     inset.grid(False)

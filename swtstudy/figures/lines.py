@@ -83,7 +83,7 @@ def draw_lines(
         if layout.regimes:
             mark_regimes(axes, x, curve, _names(part.regime))
     if layout.kind == "life":
-        _scale_upright(axes, x, layout.x)
+        _scale_upright(axes, x, whole, layout.x)
         return
     _scale_axes(axes, x, whole, layout.x)
     if layout.regimes:
@@ -138,9 +138,10 @@ def _ends(x: NDArray[Any]) -> tuple[float, float]:
     return float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1
 
 
-def _scale_upright(axes: Axes, x: NDArray[Any], name: str) -> None:
-    """Limits and ticks of a panel whose upright axis is x, over a logarithmic one."""
+def _scale_upright(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:
+    """Limits and ticks of a panel whose upright axis is x, over a logarithmic one of the values."""
     axes.set_xscale("log")
+    tick_in_ratios(axes.xaxis, float(values.where(values > 0.0).min()), float(values.max()))
     axes.set_ylim(*_ends(x))
     if in_equal_ratios(x):
         axes.set_yscale("log")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from swtstudy.figures.style import Style, styled
 from swtstudy.vocabulary.files import replacing
@@ -36,22 +36,9 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
         temporary.write_bytes(content)
 
 
-def picture(figure: Figure, ending: str, style: Style | None = None, dpi: float | None = None) -> bytes:
-    """The content of a file with a figure: png, pdf, svg, or webp without loss.
-
-    Parameters
-    ----------
-    figure, style
-        As for `save_figure`.
-    ending
-        The format.
-    dpi
-        Pixels per inch, in the place of the style's.
-    """
+def picture(figure: Figure, ending: str, style: Style | None = None) -> bytes:
+    """The content of a file with a figure: png, pdf or svg; `figure` and `style` as for `save_figure`."""
     content = BytesIO()
-    options: dict[str, Any] = {"pil_kwargs": {"lossless": True}} if ending == "webp" else {}
-    if dpi is not None:
-        options["dpi"] = dpi
     with styled(style, getattr(figure, "width", None)):
-        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"), **options)
+        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"))
     return content.getvalue()

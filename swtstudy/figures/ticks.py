@@ -7,17 +7,29 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.ticker import FuncFormatter, Locator, LogLocator, NullFormatter
+from matplotlib.ticker import (
+    FuncFormatter,
+    Locator,
+    LogLocator,
+    MaxNLocator,
+    NullFormatter,
+    ScalarFormatter,
+)
 
 from swtstudy.vocabulary.wording import pi_words
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
 #: An end of an axis is a multiple of π if it is relatively this close to it.
 _TOLERANCE = 1e-9
 #: Logarithmic axes with a smaller ratio of their ends have plain numbers.
 _DECADES = 1e3
+#: What is ticked of a decade; of fewer ticks than these so many are even steps.
+_DIGITS, _FEW, _EVEN = (1.0, 2.0, 5.0), 2, 4
+#: From this ratio of the ends on, powers of ten beside each other are whole: others would not have room.
+_WHOLE = 100.0
 #: Numbers from this on, and below one over it, are powers of ten, and all beside them on an axis.
 _PLAIN = 1e5
 #: Most steps between ticks, however long the axis.
@@ -26,6 +38,20 @@ _STEPS = 6
 _LETTER, _UPWARDS = 0.62, 1.1
 #: Largest denominator of a multiple of π that is ticked.
 _DENOMINATOR = 4
+
+
+class _Plain(ScalarFormatter):
+    """Numbers as words: each that is a formula takes milliseconds to read."""
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        return super().__call__(x, pos).removeprefix(r"$\mathdefault{").removesuffix("}$")
+
+
+def plain_ticks(axes: Axes) -> None:
+    """Write the numbers at both axes as words, quicker to draw; the power at the end of an axis stays."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if isinstance(axis.get_major_formatter(), ScalarFormatter):
+            axis.set_major_formatter(_Plain())
 
 
 def tick_in_pi(axis: Axis, low: float, high: float) -> None:
@@ -37,22 +63,37 @@ def tick_in_pi(axis: Axis, low: float, high: float) -> None:
 
 
 def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
-    """Put plain numbers at 1, 2, 5 of each decade of a logarithmic axis of few decades."""
-    if high < _DECADES * low:
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        powers = high >= _PLAIN or low < 1.0 / _PLAIN
-        axis.set_major_formatter(FuncFormatter(lambda x, _: _power_words(x) if powers else f"{x:g}"))
-        axis.set_minor_formatter(NullFormatter())
+    """Put plain numbers at 1, 2, 5 of each decade of a logarithmic axis of few; even ones where few lie.
+
+    Large and small ones are powers of ten; on an axis across, those of 1, 2, 5 of two decades have no room.
+    """
+    if high >= _DECADES * low or not low > 0.0:
+        return
+    powers = high >= _PLAIN or low < 1.0 / _PLAIN
+    across = axis.axis_name == "x"  # type: ignore[attr-defined]
+    whole = powers and across and high >= _WHOLE * low
+    digits = (1.0,) if whole else _DIGITS
+    if sum(low <= digit * 10.0**power <= high for power in _powers(low, high) for digit in digits) < _FEW:
+        axis.set_major_locator(MaxNLocator(_EVEN, steps=[1, 2, 2.5, 5, 10]))
+    else:
+        axis.set_major_locator(LogLocator(subs=digits))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: _power_words(x) if powers else f"{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _powers(low: float, high: float) -> range:
+    """Exponents of the decades between two numbers."""
+    return range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
 
 
 def _power_words(value: float) -> str:
-    """A number of one digit and a power of ten, such as 5·10⁶."""
+    """A number below 10 and a power of ten, such as 5·10⁶."""
     if value <= 0.0:
         return ""
     exponent = math.floor(math.log10(value) + _TOLERANCE)
-    digit = round(value / 10.0**exponent)
+    digits = f"{value / 10.0**exponent:.3g}"
     power = f"10^{{{exponent}}}"
-    return f"${power}$" if digit == 1 else rf"${digit}\cdot{power}$"
+    return f"${power}$" if digits == "1" else rf"${digits}\cdot{power}$"
 
 
 def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 #: A word with the blanks before it; a formula between $ is one word, also with the value that it has. No
 #: formula begins with a dollar behind a backslash.
 _WORD = re.compile(r"\s*(?:\\\$|\$(?:\\\$|[^$])*\$|[^\s$])+(?: = \S+)?")
+#: What of a formula is one letter, and what none.
+_COMMAND, _NO_LETTER = re.compile(r"\\[a-zA-Z]+"), re.compile(r"[\\${}_^,]")
 #: Labels of so many letters may be longer than a panel.
 _LONG = 30
 
@@ -20,7 +22,7 @@ _LONG = 30
 def wrap_texts(figure: Figure) -> None:
     """Break titles and labels of axes that are longer than their panels; on a screen upright labels alone."""
     if figure.width is None:
-        tall = [axes for axes in figure.axes if len(axes.get_ylabel()) > _LONG]
+        tall = [axes for axes in figure.axes if letters(axes.get_ylabel()) > _LONG]
         if tall:
             figure.draw_without_rendering()
         for axes in tall:
@@ -36,6 +38,17 @@ def wrap_texts(figure: Figure) -> None:
             _wrap(text, min(wide, room - axes.bbox.x0), False)
         _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
         _wrap(axes.yaxis.label, axes.bbox.height, True)
+
+
+def letters(words: str) -> int:
+    r"""How many letters a label has about: of a formula those that are seen.
+
+    Examples
+    --------
+    >>> letters("stress"), letters(r"$\sigma_n\,a_H/(E^* \delta_0)$")
+    (6, 12)
+    """
+    return len(_NO_LETTER.sub("", _COMMAND.sub("x", words)))
 
 
 def wrap_title(figure: Figure) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
-from swtstudy.vocabulary.wording import flag_words
+from swtstudy.vocabulary.wording import flag_words, number_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -172,8 +172,9 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
         out = _beyond(values)
         if out.any():
             ends = dict.fromkeys((values[out].min(), values[out].max()))
-            found = " to ".join(f"{end:.3g}" for end in ends)
-            yield f"{_count(out)} with {name} outside of 100 to 1e7, extrapolated: {found}"
+            found = " to ".join(map(_number, ends))
+            known = " to ".join(map(_number, KNOWN_LIVES))
+            yield f"{_count(out)} with {name} outside of {known}, extrapolated: {found}"
 
 
 def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
@@ -226,4 +227,4 @@ def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str,
 
 
 def _number(value: float) -> str:
-    return f"{float(value):.3g}"
+    return number_words(float(value), 3)

@@ -110,7 +110,7 @@ def along(name: str, place: xr.DataArray) -> str:
 
 def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
     """Where one place lies along the dimensions of a table of extrema."""
-    return ", ".join(place_html(one[name]) for name in map(str, of.ratio.dims))
+    return ", ".join(place_html(one[name]) for name, size in of.ratio.sizes.items() if size > 1)
 
 
 def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
@@ -121,12 +121,25 @@ def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
         if known.size > 1:
             low, middle, high = np.percentile(known, (0, 50, 100))
             ends = f"from {number_words(low)} to {number_words(high)}, median {number_words(middle)}"
-            yield f"Over {known.size} points {swt} goes {ends}{_blank(unit_of(values))}."
+            if high <= _MOVES * low:
+                ends = f"{number_words(low)}{_blank(unit_of(values))}: nothing that was varied moves it"
+                yield f"At all {known.size} points {swt} is {ends}."
+            else:
+                yield f"Over {known.size} points {swt} goes {ends}{_blank(unit_of(values))}."
+        elif known.size:
+            yield f"{swt} is <b>{number_words(float(known[0]))}</b>{_blank(unit_of(values))}{_alone(values)}."
+        else:
+            yield f"No point has a finite {swt}."
     if "cycles" in dataset:
         lives = dataset.cycles.values[np.isfinite(dataset.cycles.values)]
         if lives.size:
-            least, most = (number_words(each, 2) for each in (lives.min(), lives.max()))
-            yield f"A crack starts after {least} to {most} rounds of the load, at the worst place."
+            rounds = dict.fromkeys(number_words(each, 2) for each in (lives.min(), lives.max()))
+            yield f"A crack starts after {' to '.join(rounds)} rounds of the load, at the worst place."
+
+
+def _alone(values: xr.DataArray) -> str:
+    """That one of several points has a value."""
+    return f" at one of {values.size} points; the others have none" if values.size > 1 else ""
 
 
 def _blank(unit: str) -> str:

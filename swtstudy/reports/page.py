@@ -118,7 +118,10 @@ def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], s
     sections.append(Section("slice", "Any slice", _SLICE, live=True))
     words = f'download="{escape(name)}.csv.gz" href="{source}">{escape(name)}.csv'
     link = f'<a class="button" id="table" {words}</a>'
-    note = f"{len(rows)} rows, {len(rows.columns)} columns, to seven digits; all digits are in the archive."
+    size = ", ".join(
+        f"{n} {word}{'s' * (n != 1)}" for n, word in zip(rows.shape, ("row", "column"), strict=True)
+    )
+    note = f"{size}, to seven digits; all digits are in the archive."
     sections.append(section("values", "Values", f'<p>{link}</p><p class="note">{note}</p>'))
     return sections, data("about", known)
 

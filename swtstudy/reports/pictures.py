@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import base64
+import re
 from dataclasses import dataclass, replace
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image
 
 from swtstudy.figures.draw import draw, layout_of
 from swtstudy.figures.inspection import inspect
 from swtstudy.figures.save import picture
 from swtstudy.figures.sheet import PANEL
+from swtstudy.figures.style import styled
 from swtstudy.reports.findings import worst_place
 from swtstudy.results.quantity import quantity, quantity_error
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
@@ -22,7 +27,12 @@ if TYPE_CHECKING:
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.
 _LARGEST_DRAWING = 400_000
-_DPI, _DPI_POINT, _DPI_THUMBNAIL = 150.0, 110.0, 110.0
+_DPI, _DPI_POINT, _DPI_THUMBNAIL = 150.0, 96.0, 96.0
+#: Colours of pixels: those of lines, maps and their blurred edges.
+_COLOURS = 64
+#: Coordinates in a drawing; their digits behind the point, in 1/72 inch; what is for who reads its source.
+_COORDINATES, _LONG = re.compile(rb' (?:d|x|y|x1|x2|y1|y2|points)="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
+_SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
 #: CSS pixels in an inch.
 _INCH = 96.0
 
@@ -52,12 +62,39 @@ class Picture:
 def embedded(figure: Figure, dpi: float = _DPI, drawing: bool = True) -> Picture:
     """A figure as a drawing, or as pixels where that is smaller or asked for."""
     width, height = (round(_INCH * inches) for inches in figure.get_size_inches())
+    _settle(figure, dpi)
     content, kind = b"", ""
     if drawing:
-        content, kind = picture(figure, "svg"), "svg+xml"
+        content, kind = _rounded(picture(figure, "svg")), "svg+xml"
     if not drawing or len(content) > _LARGEST_DRAWING:
-        content, kind = picture(figure, "webp", dpi=dpi), "webp"
+        content, kind = _pixels(figure), "webp"
     return Picture(f"data:image/{kind};base64,{base64.b64encode(content).decode()}", width, height)
+
+
+def _settle(figure: Figure, dpi: float) -> None:
+    """Lay a figure out once and for all: else matplotlib does so, and draws twice, when it is saved."""
+    figure.dpi = dpi
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        with styled(None, getattr(figure, "width", None)):
+            engine.execute(figure)
+        figure.set_layout_engine(None)
+
+
+def _rounded(drawing: bytes) -> bytes:
+    """A drawing with the digits that are seen, in one line."""
+    return _COORDINATES.sub(lambda found: _LONG.sub(rb"\1", found[0]), _SOURCE.sub(b" ", drawing))
+
+
+def _pixels(figure: Figure) -> bytes:
+    """A figure as a WebP file, in the figure's own dots per inch, with as many colours as it needs."""
+    canvas, content = FigureCanvasAgg(figure), BytesIO()
+    with styled(None, getattr(figure, "width", None)):
+        canvas.draw()
+    seen = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+    few = seen.quantize(_COLOURS, dither=Image.Dither.NONE)
+    few.convert("RGB").save(content, "webp", lossless=True)
+    return content.getvalue()
 
 
 def study_figure(dataset: xr.Dataset) -> tuple[Picture, list[dict[str, Any]], FigureLayout]:

@@ -32,21 +32,27 @@ def tiles(dataset: xr.Dataset) -> str:
     """The four numbers that one asks for first."""
     relative, values = relative_errors(dataset), measured(dataset)
     shape = " × ".join(map(str, values.shape)) or "one"
-    missing = values.size - int((dataset.status == COMPUTED).sum())
+    missing = values.size - int((np.isfinite(values) & (dataset.status == COMPUTED)).sum())
     found = [
         ("points", f"{values.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value")
     ]
-    for word, one in extreme_points(dataset).items():
-        end = {"best": "least", "worst": "greatest"}[word]
+    for end, one in _ends(dataset):
         swt = measured(one)
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
         value = f"{number_words(float(swt))} {escape(unit_of(swt))}".strip()
-        found.append((f"{end} {symbol_of(values)}", value, where))
+        found.append((f"{end} {symbol_of(values)}".strip(), value, where))
     if relative.size:
         words = f"estimated, half of them below {share(float(np.median(relative)))}"
         found.append(("relative error, at most", share(float(relative.max())), words))
     each = (f"<div><dt>{a}</dt><dd>{b}<small>{c}</small></dd></div>" for a, b, c in found)
     return f'<dl class="tiles">{"".join(each)}</dl>'
+
+
+def _ends(dataset: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """The points of `extreme_points`, each with its word; none for what all points have."""
+    points = extreme_points(dataset)
+    for word, one in points.items():
+        yield {"best": "least", "worst": "greatest" if len(points) > 1 else ""}[word], one
 
 
 def _varying(dataset: xr.Dataset) -> list[str]:
@@ -90,16 +96,16 @@ def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
 def points_section(dataset: xr.Dataset) -> Section:
     """The best and the worst point, as `swtstudy.inspect` draws them."""
     parts = []
-    for word, one in extreme_points(dataset).items():
-        end = {"best": "least", "worst": "greatest"}[word]
+    for end, one in _ends(dataset):
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
-        title = f"<h3>The {end} {symbol_of(measured(dataset))}{f': {where}' if where else ''}</h3>"
+        own = f"{'The ' * bool(end)}{end} {symbol_of(measured(dataset))}".strip()
+        title = f"<h3>{own}{f': {where}' if where else ''}</h3>"
         try:
             picture = of_point(parameters_of(one))
         except StudyError as error:
             parts.append(f'{title}<p class="note">Not drawn: {escape(str(error))}</p>')
             continue
-        words = f"Load path, slip, springs, tractions, stress cycle and swt of the point with the {end} value"
+        words = f"Load path, slip, springs, tractions, stress cycle and swt of the point with {end} swt"
         parts.append(f"<div>{title}{_point_line(one)}{figure(picture, words)}</div>")
     body = f'<div class="points">{"".join(parts)}</div>' if parts else ""
     return section("points", "Best and worst", body)
@@ -109,7 +115,8 @@ def _point_line(one: xr.Dataset) -> str:
     """Describe the results of one point in a line."""
     said = [f"<i>s</i> = {number_words(float(one.s))} ± {number_words(float(one.s_error), 2)}"]
     names = ("SWT", "cycles", "critical_x", "critical_angle")
-    said += [place_html(one[name]) for name in names if name in one and not one[name].ndim]
+    known = (one[name] for name in names if name in one and not one[name].ndim)
+    said += [place_html(values) for values in known if np.isfinite(values.item())]
     said.append(escape(one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")))
     return f"<p>{'; '.join(said)}.</p>"
 
@@ -152,9 +159,16 @@ def _materials(dataset: xr.Dataset) -> Iterator[str]:
         ):
             for material in dict.fromkeys(several):
                 rows = [
-                    (escape(name.replace("_", " ")), number_words(v)) for name, v in vars(material).items()
+                    (escape(name.replace("_", " ")), f"{number_words(v)} {_unit_of_constant(dataset, name)}")
+                    for name, v in vars(material).items()
                 ]
                 yield f"<h3>{title}</h3>" + table(("", ""), rows, numbers=(1,))
+
+
+def _unit_of_constant(dataset: xr.Dataset, name: str) -> str:
+    """The unit of a constant of a material: that of stresses, or none."""
+    stress = name.endswith(("modulus", "strength"))
+    return escape(str(dataset.peak_pressure.attrs["units"])) if stress and "peak_pressure" in dataset else ""
 
 
 def sureness_section(dataset: xr.Dataset, validity: list[str]) -> Section:

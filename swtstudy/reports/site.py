@@ -16,6 +16,7 @@ from swtstudy.reports.findings import sentences
 from swtstudy.reports.page import page
 from swtstudy.reports.parts import whole
 from swtstudy.reports.pictures import Picture, thumbnail
+from swtstudy.runner.workers import LocalPool
 from swtstudy.study.shipped import in_groups
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 #: The page that lists the others.
 INDEX = "index.html"
+#: So many archives are worth the seconds that processes take to begin.
+_SEVERAL = 4
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,7 @@ class Entry:
 
 
 def write_reports(
-    archives: Sequence[str | PathLike[str]], output: str | PathLike[str] | None = None
+    archives: Sequence[str | PathLike[str]], output: str | PathLike[str] | None = None, workers: int = 2
 ) -> Iterator[tuple[Path, str]]:
     """Write a page for each archive, and one that lists them if there are several.
 
@@ -61,6 +64,8 @@ def write_reports(
         Their paths.
     output
         The HTML file of a single archive, by default beside it, or a folder for the pages.
+    workers
+        Processes that make the pages of several archives; with 1 this one does.
 
     Yields
     ------
@@ -78,7 +83,7 @@ def write_reports(
     """
     paths = [Path(each) for each in archives]
     if len(paths) > 1 or (output is not None and _is_folder(output)):
-        yield from _write_several(paths, _checked_folder(paths, output))
+        yield from _write_several(paths, _checked_folder(paths, output), workers)
         return
     target = paths[0].with_suffix(".html") if output is None else Path(output)
     check_writable(target)
@@ -86,25 +91,41 @@ def write_reports(
     yield target, ""
 
 
-def _write_several(paths: Sequence[Path], folder: Path) -> Iterator[tuple[Path, str]]:
+def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[tuple[Path, str]]:
     """A page for each archive, and one that lists them; see `write_reports`."""
     entries: list[Entry] = []
     problems: list[ArchiveError] = []
-    for path in paths:
-        try:
-            dataset = open_results(path)
-        except ArchiveError as error:
-            problems.append(error)
-            yield path, str(error)
+    for path, made in zip(paths, _made(paths, folder, workers), strict=True):
+        if isinstance(made, ArchiveError):
+            problems.append(made)
+            yield path, str(made)
             continue
-        target = folder / f"{path.stem}.html"
-        write_text(target, page(dataset, path.stem, INDEX))
-        entries.append(entry(dataset, path.stem))
-        yield target, ""
+        entries.append(made)
+        yield folder / f"{path.stem}.html", ""
     if not entries:
         raise problems[0]
     write_text(folder / INDEX, listing(entries))
     yield folder / INDEX, ""
+
+
+def _made(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[Entry | ArchiveError]:
+    """Write the page of each archive, one after another or side by side."""
+    if workers < 2 or len(paths) < _SEVERAL:
+        yield from (_write_one(path, folder) for path in paths)
+        return
+    with LocalPool(workers) as pool:
+        for task in [pool.submit(_write_one, path, folder) for path in paths]:
+            yield task.result()
+
+
+def _write_one(path: Path, folder: Path) -> Entry | ArchiveError:
+    """The page of an archive in a folder of several; returns its entry, or what is wrong with the file."""
+    try:
+        dataset = open_results(path)
+    except ArchiveError as error:
+        return error
+    write_text(folder / f"{path.stem}.html", page(dataset, path.stem, INDEX))
+    return entry(dataset, path.stem)
 
 
 def entry(dataset: xr.Dataset, name: str) -> Entry:
@@ -117,7 +138,7 @@ def listing(entries: Sequence[Entry]) -> str:
     """The page that lists archives: a picture and a sentence of each, in groups."""
     body = f"""<header class="top">
 <p class="kicker">swtstudy</p>
-<h1>{len(entries)} parameter studies</h1>
+<h1>{len(entries)} parameter {"study" if len(entries) == 1 else "studies"}</h1>
 <p class="lead">Smith–Watson–Topper parameter in frictional contacts: where a crack begins, how soon, and
 which load is the kindest. Each picture leads to a report.</p>
 </header>

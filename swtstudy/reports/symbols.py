@@ -81,7 +81,12 @@ def symbol_of(values: xr.DataArray) -> str:
     """The symbol of a coordinate or data variable as HTML; its name in words if it has none."""
     name = str(values.name)
     latex = values.attrs.get("symbol", AXES[name].symbol if name in AXES else "")
-    return symbol_html(str(latex)) if latex else escape(name.replace("_", " "))
+    return tied(symbol_html(str(latex))) if latex else escape(name.replace("_", " "))
+
+
+def tied(words: str) -> str:
+    """HTML that keeps to one line."""
+    return f'<span class="tied">{words}</span>'
 
 
 def unit_of(values: xr.DataArray) -> str:
@@ -112,7 +117,7 @@ def place_html(values: xr.DataArray) -> str:
     """A single value with symbol and unit; the value alone of a name."""
     name, value = str(values.name), values.item()
     words = escape(" ".join(filter(None, (value_text(name, value), unit_of(values)))))
-    return words if isinstance(value, str) else f"{symbol_of(values)} = {words}"
+    return words if isinstance(value, str) else tied(f"{symbol_of(values)} = {words}")
 
 
 def share(part: float) -> str:

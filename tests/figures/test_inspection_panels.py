@@ -211,7 +211,7 @@ def test_swt_along_the_surface(moving, axes):
     assert levels(axes, True) == pytest.approx([-high, -low, low, high])
     places = {text.get_text(): text.get_position() for text in axes.texts}
     top = float(moving.s)
-    assert places[r"$a_{\min}$"] == pytest.approx((low, 1.39 * top))
+    assert places[r"$a_{\min}$"] == pytest.approx((low, 1.24 * top))
     assert places[r"$a_{\max}$"] == pytest.approx((high, 1.39 * top))
     assert axes.get_xlim() == pytest.approx((-1.2 * high, 1.2 * high))
     assert axes.get_ylim() == pytest.approx((0.0, 1.45 * top))
@@ -232,7 +232,7 @@ def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
     arrow = next(text for text in inset.texts if text.get_text() == "")
     assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx([0.6 * cosine, -0.6 * sine])
     assert arrow.xyann == pytest.approx(0.42 / 0.85 * plane[1])
-    assert [text.get_text() for text in inset.texts if text.get_text()] == [f"{angle:.1f}°"]
+    assert [text.get_text() for text in inset.texts if text.get_text()] == [f"{angle:.1f}°".replace("-", "−")]
 
 
 def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
@@ -322,3 +322,17 @@ def test_a_point_of_a_criterion_of_shear(axes, criterion, k):
     words = {"findley": "Findley stress", "fatemi_socie": "Fatemi–Socie parameter"}[criterion]
     assert other.get_title("left") == f"{words} along the surface"
     assert "SWT" not in other.get_ylabel()
+
+
+@pytest.mark.parametrize("amplitude", [0.02, 0.1, 0.3, 0.5, 0.9])
+def test_labels_of_the_radii_have_room(amplitude):
+    figure = swtstudy.inspect(normal_amplitude=amplitude)
+    figure.draw_without_rendering()
+    (axes,) = (each for each in figure.axes if "(F)" in each.get_title("left"))
+    least, largest = (
+        next(text.get_window_extent() for text in axes.texts if word in text.get_text())
+        for word in ("min", "max")
+    )
+    (inset,) = axes.child_axes
+    assert not least.overlaps(largest)
+    assert not least.overlaps(inset.get_window_extent())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import matplotlib.text
 import numpy as np
 import pytest
@@ -86,6 +88,34 @@ def test_numbers_of_a_short_logarithmic_axis_are_of_one_kind(
     at = shown.index(words[0])
     assert shown[at : at + 3] == words
     assert len({"$" in each for each in shown}) == 1
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(0.25, 0.71), (0.12, 8.0), (510.0, 640.0), (1.2e6, 1.8e6), (1.3e5, 1.4e7), (6e5, 5e9)]
+)
+def test_numbers_of_a_life_have_room(low: float, high: float) -> None:
+    dataset = places()
+    values = np.geomspace(low, high, dataset.critical_x.size)
+    dataset["critical_x"] = dataset.critical_x.copy(data=values.reshape(dataset.critical_x.shape))
+    (axes,) = draw(dataset, FigureLayout("phase", y=("critical_x",), kind="life")).axes
+    axes.figure.draw_without_rendering()
+    ticks = [*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks()]
+    ends = axes.get_xlim()
+    shown = [tick.label1 for tick in ticks if ends[0] <= tick.get_loc() <= ends[1] and tick.label1.get_text()]
+    assert len(shown) >= 2
+    boxes = sorted((label.get_window_extent() for label in shown), key=lambda box: box.x0)
+    assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
+
+
+def test_the_digits_of_a_number_with_a_power_are_its_own() -> None:
+    axes = Figure().subplots()
+    axes.set_yscale("log")
+    axes.set_ylim(1.2e6, 1.8e6)
+    tick_in_ratios(axes.yaxis, 1.2e6, 1.8e6)
+    axes.figure.draw_without_rendering()
+    for text in axes.get_yticklabels():
+        digits, _, power = text.get_text().strip("$").partition(r"\cdot10^{")
+        assert float(digits) * 10.0 ** int(power.rstrip("}")) == pytest.approx(text.get_position()[1])
 
 
 def test_a_long_label_is_no_taller_than_its_panel() -> None:

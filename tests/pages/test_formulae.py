@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from build_steps.mathml import mathml
+from build_steps.mathml import mathml, tied
 
 
 def plain(formula):
@@ -39,3 +39,12 @@ def test_bars_and_primes_are_set_close():
 def test_a_fraction_that_would_be_another_is_refused(formula):
     with pytest.raises(ValueError, match="both parts of a fraction in braces"):
         mathml(formula)
+
+
+def test_a_full_stop_stays_with_its_formula():
+    first, second, alone = mathml("x"), mathml("y"), mathml("z")
+    block = mathml("w", as_block=True)
+    assert tied(f"<p>Of ({first}), {second}. And {alone} is</p>") == (
+        f'<p>Of <span class="tied">({first}),</span> <span class="tied">{second}.</span> And {alone} is</p>'
+    )
+    assert tied(f"{block}.") == f"{block}."

@@ -148,13 +148,13 @@ def test_what_is_outside_is_said(rig):
 
 def test_a_life_beyond_the_constants_is_said(rig):
     short = rig.assign(cycles=rig.cycles * 0.0 + np.array([5.0, 1e4, np.nan]))
-    assert "1 of 3 points with cycles outside of 100 to 1e7, extrapolated: 5" in validity_lines(short)
+    assert "1 of 3 points with cycles outside of 100 to 10⁷, extrapolated: 5" in validity_lines(short)
     long = rig.assign(cycles=rig.cycles * 0.0 + np.array([2e7, 5e8, np.inf]))
     (line,) = [line for line in validity_lines(long) if "cycles" in line]
-    assert line == "2 of 3 points with cycles outside of 100 to 1e7, extrapolated: 2e+07 to 5e+08"
+    assert line == "2 of 3 points with cycles outside of 100 to 10⁷, extrapolated: 2·10⁷ to 5·10⁸"
     assert float(ALUMINIUM.cycles(ALUMINIUM.swt(1e7))) == pytest.approx(1e7)
     volume = rig.assign(cycles_volume=rig.cycles * 0.0 + np.array([5e8, 1e4, 1e4]))
-    assert "1 of 3 points with cycles_volume outside of 100 to 1e7, extrapolated: 5e+08" in validity_lines(
+    assert "1 of 3 points with cycles_volume outside of 100 to 10⁷, extrapolated: 5·10⁸" in validity_lines(
         volume
     )
 
@@ -190,7 +190,7 @@ def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):
     assert done.exit_code == 0
     lines = [line for line in done.stderr.splitlines() if line.startswith("validity: ")]
     assert any("too large for half-spaces: contact radius over R up to" in line for line in lines)
-    assert any("outside of 100 to 1e7" in line for line in lines)
+    assert any("outside of 100 to 10⁷" in line for line in lines)
     assert any("beyond first yield" in line for line in lines)
 
 

@@ -23,8 +23,11 @@ from folders import RESULTS
 
 import swtstudy
 from swtstudy.cli import main
+from swtstudy.figures.save import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
+from swtstudy.reports.pictures import embedded
+from swtstudy.reports.sections import tiles
 from swtstudy.reports.site import write_reports
 from swtstudy.reports.symbols import symbol_html
 from swtstudy.study.figure import FigureLayout
@@ -237,6 +240,45 @@ def test_what_a_study_says_of_its_figure_is_beneath_it(small: xr.Dataset) -> Non
     assert "&lt;b&gt;Not&lt;/b&gt; as in the paper." in caption
 
 
+def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
+    """Results of one amplitude with other values of s."""
+    one = dataset.isel(normal_amplitude=[0])
+    return one.assign(s=one.s.copy(data=np.reshape(s, one.s.shape)))
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ([np.nan] * 3, "No point has a finite s."),
+        ([np.nan, 0.25, np.nan], "s is 0.25 at one of 3 points; the others have none."),
+        ([0.25, 0.25, 0.2501], "At all 3 points s is 0.25: nothing that was varied moves it."),
+        ([0.0, 0.0, 0.0], "At all 3 points s is 0: nothing that was varied moves it."),
+        ([0.0, 0.1, 0.3], "Over 3 points s goes from 0 to 0.3, median 0.1."),
+        ([np.nan, 0.1, 0.3], "The phase of the normal oscillation ψ moves s by 3 times: best at"),
+    ],
+)
+def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], said: str) -> None:
+    dataset = constant(small, values)
+    (sentence,) = (re.sub("<[^>]*>", "", each) for each in sentences(dataset))
+    assert sentence.startswith(said)
+    missing = int(np.isnan(values).sum())
+    assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", tiles(dataset))
+
+
+def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset) -> None:
+    one = small.isel(phase=0, normal_amplitude=0)
+    words = re.sub("<[^>]*>", " ", "".join(sentences(one)) + tiles(one))
+    assert f"s is {float(one.s):.4g} ." in " ".join(words.split())
+    assert "least" not in words
+    assert "greatest" not in words
+
+
+def test_one_life_is_no_range() -> None:
+    dataset = swtstudy.open_results(RESULTS / "life.nc").isel(tangential_amplitude=0, critical_distance=0)
+    life = next(each for each in sentences(dataset) if "crack" in each)
+    assert re.search(r"after [^ ]+ rounds of the load", life)
+
+
 def test_validity_is_shown_where_results_have_it(small: xr.Dataset) -> None:
     assert "Where the model holds" not in page(small, "small")
     text = page(small.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
@@ -260,6 +302,33 @@ def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:
     assert {"loops.html", "friction.html"} <= {*index.links}
     assert sum(link.startswith("data:image/webp") for link in index.links) == 2
     assert 'href="index.html"' in files["loops.html"].read_text("utf-8")
+
+
+@pytest.mark.slow
+def test_pages_made_side_by_side_are_in_order(tmp_path: Path, small: xr.Dataset) -> None:
+    archives = [tmp_path / f"{name}.nc" for name in "abcd"]
+    for path in archives:
+        path.write_text("no archive")
+    study(tmp_path, axes="phase = [0, 1]")
+    (tmp_path / "small.nc").replace(archives[2])
+    made = [(path, bool(problem)) for path, problem in write_reports(archives, tmp_path / "site", workers=2)]
+    page_of_c, index = tmp_path / "site" / "c.html", tmp_path / "site" / "index.html"
+    a, b, _, d = archives
+    assert made == [(a, True), (b, True), (page_of_c, False), (d, True), (index, False)]
+    assert "<h1>1 parameter study</h1>" in index.read_text("utf-8")
+
+
+def test_a_drawing_has_the_digits_that_are_seen(small: xr.Dataset) -> None:
+    figure = small.swt.figure()
+    whole = picture(figure, "svg").decode()
+    (short,) = re.findall("base64,(.*)", embedded(figure).source)
+    drawn = base64.b64decode(short).decode()
+    assert len(drawn) < 0.9 * len(whole)
+    assert "<!--" not in drawn
+    lines = [re.findall(r' d="(M [^"]* L [^"]*)" clip', " ".join(text.split())) for text in (whole, drawn)]
+    before, after = ([float(n) for d in each for n in re.findall(r"[-\d.]+", d)] for each in lines)
+    assert after == pytest.approx(before, abs=0.5)  # laid out anew, at another size of pixels
+    assert max(len(n.partition(".")[2]) for d in lines[1] for n in re.findall(r"[-\d.]+", d)) <= 2
 
 
 @pytest.mark.parametrize(

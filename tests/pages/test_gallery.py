@@ -1,0 +1,22 @@
+"""The gallery of the pages leads to the reports that are made."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from build_steps import gallery as pages
+from folders import ROOT
+
+from swtstudy.reports.site import Entry
+
+
+def test_a_card_leads_to_the_report_or_to_the_figure(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = {name: pages.results_of(ROOT)[name] for name in ("figure3", "plane_contacts")}
+    monkeypatch.setattr(pages, "results_of", lambda root: found)
+    monkeypatch.setattr(pages, "entry", lambda dataset, name: Entry(name, name, "What *matters*.", None))
+    text = pages.gallery(ROOT, ["figure3"])
+    assert re.findall('<li><a href="([^"]*)"', text) == ["reports/figure3.html", "#plane-contacts"]
+    assert text.count('<a href="reports/figure3.html">Its report</a>') == 1
+    assert "(plane_contacts)=\n" in text
+    assert r"What \*matters\*." in text
