@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 from swtstudy.points.values import Value, values_taken
 from swtstudy.vocabulary.families import is_plane
@@ -14,7 +14,6 @@ def check_forces(
     given: Iterable[str],
     fixed: Mapping[str, Value],
     axes: Mapping[str, tuple[Value, ...]],
-    keys: Callable[[str], str],
     report: Report,
 ) -> None:
     """Displacements have no meaning in the plane, and they are what is not given as a force.
@@ -35,8 +34,8 @@ def check_forces(
     instead = [PAIRS[force] for force in wanted if PAIRS[force] in names]
     found = "a displacement" if instead else "nothing"
     why = "depths and displacements of a plane contact have no meaning, only forces have"
-    report(
-        ", ".join(map(keys, instead or wanted)),
+    report.of(
+        instead or wanted,
         f"{found} with the profile {', '.join(plane)}",
         f"{' and '.join(wanted)}: {why}",
     )

@@ -90,7 +90,7 @@ def read_material(
     tables = _named(raw, folder, report) if by_name else [_of_body(raw, i) for i in range(_BOTH)]
     tables = [{name: _number(value) for name, value in table.items()} for table in tables]
     intended = {meant(str(name), KEYS) for name in unknown}
-    mistakes: list[Mistake] = []
+    mistakes = Report()
     constants = _constants(tables, young, intended, mistakes)
     shears = _shear_constants(tables, shear, intended, mistakes)
     strengths, limits = (_stresses(name, tables, mistakes) for name in (STRENGTH, LIMIT))
@@ -113,7 +113,7 @@ def _constants(
     tables: list[dict[str, Any]],
     young: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[FatigueConstants, ...]:
     """The strain–life constants of both bodies; none if there are none, or mistakes."""
     others = {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}
@@ -121,7 +121,7 @@ def _constants(
     if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
         return ()
     own = dict(zip(CONSTANTS, CONSTANTS, strict=True))
-    return _of_both(FatigueConstants, own, tables, young, intended, mistakes)
+    return _of_both(FatigueConstants, own, tables, young, intended, report)
 
 
 def _of_both(
@@ -130,7 +130,7 @@ def _of_both(
     tables: list[dict[str, Any]],
     moduli: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[_Constants, ...]:
     """Constants of both bodies, from fields by their keys; none if there are mistakes in them."""
     (modulus,) = (key for key in fields_of if key.endswith("_modulus"))
@@ -148,7 +148,7 @@ def _of_both(
                 key = keys[each.key]
                 lacks = own[key] is None
                 if not lacks or key not in intended:
-                    mistakes.append(Mistake(key, "nothing" if lacks else each.found, each.allowed))
+                    report(key, "nothing" if lacks else each.found, each.allowed)
     return tuple(found) if len(found) == _BOTH else ()
 
 
@@ -172,7 +172,7 @@ def _shear_constants(
     tables: list[dict[str, Any]],
     moduli: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[ShearConstants, ...]:
     """The constants of both bodies in torsion; none if there are none, or mistakes."""
     if not any(SHEAR_CONSTANTS.keys() & table.keys() for table in tables):
@@ -184,18 +184,18 @@ def _shear_constants(
             allowed = (
                 "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
             )
-            mistakes.append(Mistake(", ".join(lacking), "nothing", allowed))
+            report(", ".join(lacking), "nothing", allowed)
         return ()
-    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), mistakes)
+    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), report)
 
 
-def _stresses(name: str, tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:
+def _stresses(name: str, tables: list[dict[str, Any]], report: Report) -> tuple[float, ...]:
     """A property of both bodies that is a stress; none if there is none, or mistakes."""
     given = [table[name] for table in tables if name in table]
     wrong = [each for value in given for each in wrong_size(name, value, "a positive number")]
     if 0 < len(given) < len(tables):
         wrong.append(Mistake(name, "that of one body", "that of both bodies, or of none"))
-    mistakes += wrong
+    report += wrong
     return () if wrong or not given else tuple(map(float, given))
 
 

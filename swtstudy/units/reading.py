@@ -37,7 +37,7 @@ from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import is_plane
-from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
+from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
@@ -63,48 +63,43 @@ def read_contacts(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
     given: ContactDetails,
-    keys: Callable[[str], str] = lambda name: name,
+    keys: Callable[[str], str] = str,
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
-) -> tuple[PhysicalGrid | None, list[Mistake]]:
+) -> tuple[PhysicalGrid | None, Report]:
     """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
-    mistakes: list[Mistake] = []
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed, source))
-
-    samples = samples or {}
+    report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     profiles = _profiles(everything, known)
     labels = labels_of(given.units, profiles, everything)
     own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
-    pairs, single = _pairs(fixed, own, keys, report)
+    pairs, single = _pairs(fixed, own, report)
     similar = single.pop(SIMILAR_KEY, given.similar)
-    body_names = _body_names(single, given.body_names, keys, report)
+    body_names = _body_names(single, given.body_names, report)
     if not 0.0 <= plain_number(similar) < math.inf:
-        report(keys(SIMILAR_KEY), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+        report.of(SIMILAR_KEY, literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
     good_fixed, good_axes = read_values(
-        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
+        single, axes, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    check_lengths(profiles, everything, keys, report)
+    check_lengths(profiles, everything, report)
     along = good_axes | good_samples
-    _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
-    check_amplitudes(good_fixed, along, keys, report)
-    check_criteria(everything, good_fixed, along, keys, report)
+    _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, report)
+    check_amplitudes(good_fixed, along, report)
+    check_criteria(everything, good_fixed, along, report)
     _check_units_of_criteria(good_fixed, along, given, report)
-    check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
-    if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
-        return None, mistakes
+    check_shapes_given(single, {**axes, **samples}, good_fixed, along, report, own)
+    if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
+        return None, report
     extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
     extra |= {"similar": plain_number(similar), "body_names": body_names}
     grid = completed(good_fixed, good_axes, good_samples, extra)
-    check_bodies(grid, keys, report)
-    check_loops(grid, keys, report)
-    if not mistakes:
-        check_contacts(grid, keys, report)
-    return (None if mistakes else grid), mistakes
+    check_bodies(grid, report)
+    check_loops(grid, report)
+    if not report:
+        check_contacts(grid, report)
+    return (None if report else grid), report
 
 
 def _check_units_of_criteria(
@@ -160,9 +155,7 @@ def completed(
     return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
 
 
-def _body_names(
-    single: dict[str, object], given: tuple[str, ...], keys: Callable[[str], str], report: Report
-) -> tuple[str, ...]:
+def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
     """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
     raw = single.pop(NAMES_KEY, given or None)
     if raw is None:
@@ -170,7 +163,7 @@ def _body_names(
     names = tuple(raw) if isinstance(raw, list | tuple) else ()
     sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
     if len(names) != 2 or not sound or names[0] == names[1]:
-        report(keys(NAMES_KEY), literal(raw), 'two names, such as ["pad", "specimen"]')
+        report.of(NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         return ()
     if single.get("body") in names:
         single["body"] = names.index(str(single["body"])) + 1
@@ -205,7 +198,7 @@ def _differ(grid: PhysicalGrid) -> bool:
 
 
 def _pairs(
-    fixed: Mapping[str, object], own: Mapping[str, Parameter], keys: Callable[[str], str], report: Report
+    fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
 ) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
     """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
@@ -215,15 +208,10 @@ def _pairs(
             continue
         pairs[name] = ()
         if len(raw) != 2:
-            report(keys(name), literal(raw), f"{own[name].allowed}; or two, one for each body")
+            report.of(name, literal(raw), f"{own[name].allowed}; or two, one for each body")
             continue
-        read, _ = read_values(
-            {f"{name}[{i}]": one for i, one in enumerate(raw)},
-            {},
-            keys,
-            report,
-            rows={f"{name}[{i}]": own[name] for i in range(2)},
-        )
+        both = {f"{name}[{i}]": one for i, one in enumerate(raw)}
+        read, _ = read_values(both, {}, report, rows=dict.fromkeys(both, own[name]))
         if len(read) == 2:
             pairs[name] = tuple(map(as_number, read.values()))
     return pairs, {name: value for name, value in fixed.items() if name not in pairs}
@@ -233,7 +221,6 @@ def _check_given(
     everything: Collection[str],
     good: Mapping[str, tuple[Value, ...]],
     own: Mapping[str, Parameter],
-    keys: Callable[[str], str],
     report: Report,
 ) -> None:
     """Report which values a contact lacks, and which exclude one another."""
@@ -245,17 +232,16 @@ def _check_given(
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
-            report(keys(name), "nothing", own[name].allowed)
+            report.of(name, "nothing", own[name].allowed)
     if "radius" in everything and all(tables) and tables:
-        report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
+        report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     mean = mean_of_loads(everything, measured)
     if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        report(", ".join(map(keys, MEAN_LOADS)), *wrong)
+        report.of(MEAN_LOADS, *wrong)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
-        both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
-        report(both, "both", "one of the two")
+        report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
-        report(keys("body"), literal(list(good["body"])), "1 or 2")
+        report.of("body", literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = {name for load in loops for name in load.scaled_by}
     if all(load.normal_ends == (0.0, 0.0) for load in loops):
@@ -263,7 +249,7 @@ def _check_given(
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
         named = {*everything, *still_load(profiles, {*everything, *scaling})}
-        check_forces(named, {}, {"profile": profiles}, keys, report)
+        check_forces(named, {}, {"profile": profiles}, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = next(force for force, other in PAIRS.items() if other == name)
@@ -275,10 +261,10 @@ def _check_given(
             column, unit = name.partition("_")[0], own[name].units
             allowed = f"1 if the column {column} of the loop is in {unit}"
             allowed += f"; or {force}, 1 if it is in {own[force].units}"
-        report(keys(name), "nothing", allowed)
+        report.of(name, "nothing", allowed)
 
 
-def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report) -> None:
+def check_bodies(grid: PhysicalGrid, report: Report) -> None:
     """Bodies that are not similar."""
     young, poisson = (
         [grid.pairs[name]] if name in grid.pairs else [(as_number(value),) * 2 for value in grid.values(name)]
@@ -290,7 +276,7 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
             if abs(beta) > grid.similar:
                 allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
                 found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
-                report(", ".join(map(keys, OF_BODIES)), found, allowed)
+                report.of(OF_BODIES, found, allowed)
                 return
 
 
