@@ -131,7 +131,7 @@ def _failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """List the facts of the contacts of a study with units, besides the values of parameters."""
     if has_units(dataset):
-        given, _ = read_contact(dataset.attrs[CONTACT])
+        given = read_contact(dataset.attrs[CONTACT])
         yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
             yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())

@@ -46,8 +46,8 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     axes: list[str] = []
     sampled: list[str] = []
     dims = [str(name) for name in dataset.s.dims]
-    given, pairs = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else (None, {})
-    table = PARAMETERS if given is None else rows(given.units)
+    given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
+    table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
     for name in dims:
         if name != SAMPLE and (name not in table or name not in dataset.coords):
             report(name, "a dimension without values of a parameter", ", ".join(table))
@@ -76,7 +76,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     along = {name: values[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, along, samples)
-    return _of_contacts(completed(fixed, along, samples, {**vars(given), "pairs": pairs}))
+    return _of_contacts(completed(fixed, along, samples, given))
 
 
 def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:

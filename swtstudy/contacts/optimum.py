@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.results.optimum.box import Box, read_ranges
 from swtstudy.results.optimum.optimise import mistakes_in, optimum_in
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.reading import ContactDetails, read_contacts
+from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
 from swtstudy.units.variables import variables
 from swtstudy.vocabulary.definition import Definition
@@ -59,14 +59,13 @@ def _box(grid: PhysicalGrid, over: object) -> Box:
     fixed: dict[str, Any] = {name: value for name, value in grid.fixed.items() if name not in replaced}
     fixed |= {name: [*two] for name, two in grid.pairs.items() if name not in replaced}
     bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
-    about = {name: value for name, value in grid.about.items() if name in ContactDetails.__annotations__}
     known: dict[str, dict[str, Definition]] = {}
     for each in grid.given:
         known.setdefault(each.parameter, {})[each.name] = each
     corners, found = read_contacts(
         {**fixed, SIMILAR_KEY: grid.similar},
         {**ranges, **bodies},
-        ContactDetails(**about),
+        grid.about,
         lambda name: f"over.{name}" if name in ranges else name,
         known=known,
     )

@@ -7,7 +7,8 @@ from typing import Any
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body, shear_constants_of_both, stresses_of_both
-from swtstudy.units.reading import ContactDetails, read_contacts
+from swtstudy.units.grid import ContactDetails
+from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import replace
 from typing import Any
 
 from swtstudy.mechanics.load.loop import Loop
@@ -18,7 +18,7 @@ from swtstudy.points.values import Value, as_number, read_value, values_taken
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
-from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
@@ -27,7 +27,6 @@ from swtstudy.units.rows import (
     MEAN_LOADS,
     NAMES_KEY,
     OF_BODIES,
-    SIMILAR,
     SIMILAR_KEY,
     rows,
     wrong_mean_load,
@@ -42,21 +41,6 @@ from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
-
-
-@dataclass(frozen=True)
-class ContactDetails:
-    """The facts that are given of contacts besides the values of their parameters; see `PhysicalGrid`."""
-
-    units: Units = field(default_factory=Units)
-    materials: tuple[FatigueConstants, ...] = ()
-    similar: float = SIMILAR
-    bulk_stress_body: int = 0
-    blocks: tuple[Block, ...] = ()
-    yield_strengths: tuple[float, ...] = ()
-    body_names: tuple[str, ...] = ()
-    shear_materials: tuple[ShearConstants, ...] = ()
-    findley_limits: tuple[float, ...] = ()
 
 
 def read_contacts(
@@ -92,9 +76,8 @@ def read_contacts(
     check_shapes_given(single, {**axes, **samples}, good_fixed, along, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, report
-    extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
-    extra |= {"similar": plain_number(similar), "body_names": body_names}
-    grid = completed(good_fixed, good_axes, good_samples, extra)
+    about = replace(given, pairs=pairs, similar=plain_number(similar), body_names=body_names)
+    grid = completed(good_fixed, good_axes, good_samples, about)
     check_bodies(grid, report)
     check_loops(grid, report)
     if not report:
@@ -125,11 +108,12 @@ def completed(
     fixed: dict[str, Value],
     axes: dict[str, tuple[Value, ...]],
     samples: dict[str, tuple[Value, ...]],
-    extra: Mapping[str, Any],
+    about: ContactDetails,
 ) -> PhysicalGrid:
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
-    pairs = {name: two for name, two in extra["pairs"].items() if two[0] != two[1]}
-    fixed = fixed | {name: two[0] for name, two in extra["pairs"].items() if name not in pairs}
+    pairs = {name: two for name, two in about.pairs.items() if two[0] != two[1]}
+    fixed = fixed | {name: two[0] for name, two in about.pairs.items() if name not in pairs}
+    about = replace(about, pairs=pairs)
     given = {*fixed, *axes, *samples, *pairs}
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
@@ -137,22 +121,18 @@ def completed(
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
     fixed = fixed | measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
-    table = rows(labels_of(extra["units"], profiles, given))
+    table = rows(labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
     if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
     if "bulk_stress_ratio" in given:
         del defaults["bulk_stress_mean"]
     fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
-    grid = PhysicalGrid(
-        {name: fixed[name] for name in table if name in fixed},
-        dict(axes),
-        dict(samples),
-        **{**extra, "pairs": pairs},
-    )
+    own = {name: fixed[name] for name in table if name in fixed}
+    grid = PhysicalGrid(own, dict(axes), dict(samples), **vars(about))
     if "body" in given or not _differ(grid):
         return grid
-    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, about)
 
 
 def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
@@ -280,7 +260,7 @@ def check_bodies(grid: PhysicalGrid, report: Report) -> None:
                 return
 
 
-def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, float]]]:
+def read_contact(text: object) -> ContactDetails:
     """Read the attribute of results; see `swtstudy.units.grid.PhysicalGrid`.
 
     Raises
@@ -293,16 +273,13 @@ def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, f
     except RecursionError:
         raise ValueError("nested too deeply") from None
     try:
-        units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
-        pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
-        materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
         given = ContactDetails(
-            units,
-            materials,
+            Units(**{kind: str(raw["units"][kind]) for kind in KINDS}),
+            {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()},
+            tuple(FatigueConstants(**each) for each in raw["materials"]),
             float(raw["similar"]),
             int(raw["bulk_stress_body"]),
-            blocks,
+            tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ())),
             tuple(map(float, raw.get("yield_strengths", ()))),
             tuple(map(str, raw.get("body_names", ()))),
             tuple(ShearConstants(**each) for each in raw.get("shear_materials", ())),
@@ -310,7 +287,7 @@ def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, f
         )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    several = materials, given.yield_strengths, given.body_names, given.shear_materials, given.findley_limits
-    if not pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
+    several = [each for name, each in vars(given).items() if isinstance(each, tuple) and name != "blocks"]
+    if not given.pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(raw)}")
-    return given, pairs
+    return given
