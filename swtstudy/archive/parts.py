@@ -156,7 +156,7 @@ def _write(folder: Path, number: int, records: Records) -> Path:
     meta = {
         "layout": _LAYOUT,
         "runs": [run.to_json() for run in records.runs],
-        "messages": records.messages,
+        "messages": {index: words for index, words in enumerate(records.message) if words},
     }
     content = io.BytesIO()
     np.savez(
@@ -193,13 +193,16 @@ def _records_from(content: bytes) -> Records:
         meta = json.loads(part["meta"].item())
         if meta["layout"] != _LAYOUT:
             raise ValueError("made by another version of swtstudy")
+        message = np.full(len(part["table"]), "", object)
+        for index, words in meta["messages"].items():
+            message[int(index)] = words
         return Records(
             part["table"],
             Solution(**{name: part[name] for name in _ARRAYS}),
             part["status"],
             part["run"],
+            message,
             tuple(map(Run.from_json, meta["runs"])),
-            {int(index): message for index, message in meta["messages"].items()},
             {name: part[name] for name in part.files if name not in (*_OWN, *_ARRAYS)},
         ).without_unknown()
 

@@ -159,7 +159,7 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     failures = read_failures(dataset.status.attrs["failures"])
     reason = {tuple(failure["row"]): failure["message"] for failure in failures}
     failed = np.flatnonzero(status == FAILED)
-    rows = zip(failed.tolist(), map(tuple, points.table[failed].tolist()), strict=True)
-    messages = {index: reason[row] for index, row in rows if row in reason}
-    found = Records(points.table, solution, status, run, runs, messages, quantities)
+    message = np.full(len(status), "", object)
+    message[failed] = [reason.get(tuple(row), "") for row in points.table[failed].tolist()]
+    found = Records(points.table, solution, status, run, message, runs, quantities)
     return found.without_unknown()

@@ -12,7 +12,7 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.points.blocks import block_ends
 from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, select
 from swtstudy.points.cost import weights
-from swtstudy.points.result import Result
+from swtstudy.points.records import Records
 from swtstudy.points.unique import UniquePoints
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
@@ -28,7 +28,7 @@ def estimate(
     missing: NDArray[np.bool_],
     rtol: float,
     solver: Solver,
-    timed: Callable[[Result], None] = lambda result: None,
+    timed: Callable[[Records], None] = lambda found: None,
     asked: Asked = ONLY_S,
 ) -> float:
     """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
@@ -42,7 +42,7 @@ def estimate(
     rtol, solver
         As in `run`.
     timed
-        Called with the result of each block that was timed.
+        Called with the records of each block that was timed.
     asked
         What is asked of the points.
     """
@@ -93,7 +93,7 @@ def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[float, float]]:
 
 def _timed(
     points: UniquePoints, inside: NDArray[np.intp], asked: Asked, rtol: float, solver: Solver, share: float
-) -> tuple[Result, float]:
+) -> tuple[Records, float]:
     """The result of as many points of a block as take some share of the time, and the time of all tries."""
     count, spent = 1, 0.0
     while True:
