@@ -24,7 +24,7 @@ import numpy as np
 
 from swtstudy.archive.lock import refuse_link
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.canonical import COLUMNS, group_rows
+from swtstudy.points.canonical import COLUMNS, ROW, group_rows
 from swtstudy.points.codes import NAMES
 from swtstudy.points.records import Records, Run, join
 from swtstudy.vocabulary.files import replacing, unfinished
@@ -162,7 +162,7 @@ def _write(folder: Path, number: int, records: Records) -> Path:
     np.savez(
         content,
         meta=np.array(json.dumps(meta)),
-        table=records.table,
+        table=records.table.view(np.float64).reshape(-1, len(COLUMNS)),
         status=records.status,
         run=records.run,
         **{name: getattr(records.solution, name) for name in _ARRAYS},
@@ -193,11 +193,12 @@ def _records_from(content: bytes) -> Records:
         meta = json.loads(part["meta"].item())
         if meta["layout"] != _LAYOUT:
             raise ValueError("made by another version of swtstudy")
-        message = np.full(len(part["table"]), "", object)
+        table = part["table"].view(ROW)[:, 0]
+        message = np.full(len(table), "", object)
         for index, words in meta["messages"].items():
             message[int(index)] = words
         return Records(
-            part["table"],
+            table,
             Solution(**{name: part[name] for name in _ARRAYS}),
             part["status"],
             part["run"],

@@ -160,6 +160,6 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     reason = {tuple(failure["row"]): failure["message"] for failure in failures}
     failed = np.flatnonzero(status == FAILED)
     message = np.full(len(status), "", object)
-    message[failed] = [reason.get(tuple(row), "") for row in points.table[failed].tolist()]
+    message[failed] = [reason.get(row, "") for row in points.table[failed].tolist()]
     found = Records(points.table, solution, status, run, message, runs, quantities)
     return found.without_unknown()

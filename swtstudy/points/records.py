@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
 from swtstudy.mechanics.rows import Rows
-from swtstudy.points.canonical import COLUMNS, group_rows
+from swtstudy.points.canonical import ROW, Table, group_rows
 from swtstudy.vocabulary.quantities import columns_of
 
 #: States of a point, in the order of their flag values.
@@ -66,7 +66,7 @@ class Records(Rows):
     Attributes
     ----------
     table
-        Canonical rows, shape (n, len(COLUMNS)).
+        Canonical rows, shape (n,).
     solution
         Their solutions, arrays of shape (n,).
     status
@@ -82,7 +82,7 @@ class Records(Rows):
         (n,); a point's run says whether it is known.
     """
 
-    table: FloatArray
+    table: Table
     solution: Solution
     status: NDArray[np.int8]
     run: NDArray[np.int32]
@@ -94,12 +94,12 @@ class Records(Rows):
         return len(self.table)
 
     @classmethod
-    def missing(cls, table: FloatArray) -> Records:
+    def missing(cls, table: Table) -> Records:
         """Records of points that are all missing."""
         return cls.of(table, Solution.blank(len(table)), MISSING)
 
     @classmethod
-    def of(cls, table: FloatArray, solution: Solution, status: int, message: str = "") -> Records:
+    def of(cls, table: Table, solution: Solution, status: int, message: str = "") -> Records:
         """Records of points that are all in one state; they have no run yet."""
         n = len(table)
         state, run = np.full(n, status, np.int8), np.full(n, -1, np.int32)
@@ -203,7 +203,7 @@ def join(parts: Iterable[Records]) -> Records:
     """Records concatenated; equal runs become one, with their computing times added."""
     parts = list(parts)
     if not parts:
-        return Records.missing(np.empty((0, len(COLUMNS))))
+        return Records.missing(np.empty(0, ROW))
     runs: tuple[Run, ...] = ()
     names, alike = dict.fromkeys(name for part in parts for name in part.quantities), []
     for part in parts:
@@ -229,7 +229,7 @@ def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run,
     return tuple(every), np.array([*indices, -1], np.int32)
 
 
-def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
+def look_up(table: Table, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
     """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
     Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
@@ -248,7 +248,7 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
 
 
-def matching(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> Records:
+def matching(table: Table, records: Records, candidates: NDArray[np.bool_]) -> Records:
     """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
     found = look_up(table, records, candidates)
     return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

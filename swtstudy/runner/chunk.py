@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, IntArray, Points, Solution
+from swtstudy.points.canonical import Table, points_from
 from swtstudy.points.codes import Definitions
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
 from swtstudy.points.unique import UniquePoints
@@ -61,7 +62,7 @@ class Chunk:
     rows
         Shape (n,): indices of the points in the table of the run.
     table
-        Their canonical rows, shape (n, len(COLUMNS)).
+        Their canonical rows, shape (n,).
     lengths
         Number of points in each block, adding up to n.
     definitions
@@ -71,7 +72,7 @@ class Chunk:
     """
 
     rows: IntArray
-    table: FloatArray
+    table: Table
     lengths: tuple[int, ...]
     definitions: Definitions
     asked: Asked = ONLY_S
@@ -150,8 +151,6 @@ def _failed(chunk: Chunk, message: str) -> Records:
 
 
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
-    from swtstudy.points.canonical import points_from
-
     points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
     solution = solver(points, rtol) if asked.known is None else asked.known
     lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])

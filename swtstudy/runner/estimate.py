@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.points.blocks import block_ends
-from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, select
+from swtstudy.points.canonical import SHARED_COLUMNS, group_rows
 from swtstudy.points.cost import weights
 from swtstudy.points.records import Records
 from swtstudy.points.unique import UniquePoints
@@ -49,12 +49,11 @@ def estimate(
     table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
         return 0.0
-    _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
+    _, kind = group_rows(table[[*SHARED_COLUMNS]][rows])
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends, weight = block_ends(table), weights(table)
     lean, growth = _thinned(points)
-    loads = select(table, ("load",))[:, 0]
     spent, total, work = 0.0, 0.0, 0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
@@ -72,7 +71,7 @@ def estimate(
             result, seconds = _timed(lean, inside, asked, rtol, solver, share)
             spent += seconds
         timed(result)
-        total += growth.get(float(loads[middle]), 1.0) * result.seconds / len(result) * sizes[each]
+        total += growth.get(float(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
     return float(total + total / work * others)

@@ -18,7 +18,6 @@ from folders import TESTS
 import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.archive.error import ArchiveError
-from swtstudy.points.canonical import COLUMNS
 from swtstudy.points.cost import SECONDS_PER_WEIGHT, duration, weights
 from swtstudy.points.grid import Grid
 from swtstudy.points.records import FAILED, Records, Run
@@ -293,7 +292,7 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
         assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
         left = {1: 5, 2: 5}
-        left[int(table[0, COLUMNS.index("q")])] -= 3
+        left[int(table["q"][0])] -= 3
         assert estimate(points, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
         assert estimate(points, np.zeros(len(table), bool), 1e-3, None) == 0.0
 
@@ -309,9 +308,7 @@ def test_a_plan_times_no_more_points_than_its_budget_allows():
         seconds = estimate(points, every, 1e-3, None, lambda result: told.append(len(result)))
     assert sum(told) <= 2
     weight = weights(points.table)
-    assert seconds == pytest.approx(
-        50.0 * weight.sum() / weight[points.table[:, COLUMNS.index("q")] == 1].sum()
-    )
+    assert seconds == pytest.approx(50.0 * weight.sum() / weight[points.table["q"] == 1].sum())
 
 
 def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
@@ -336,7 +333,7 @@ def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
 
 def timed_by_ratio(timed, chunk, rtol, solver):
     """Records that took q seconds a point."""
-    return that_took(float(chunk.table[:, COLUMNS.index("q")].sum()), chunk.table)
+    return that_took(float(chunk.table["q"].sum()), chunk.table)
 
 
 def that_took(seconds, table):
