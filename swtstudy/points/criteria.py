@@ -11,24 +11,19 @@ from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 
-def check_criteria(
-    given: Iterable[str],
-    fixed: Mapping[str, Any],
-    along: Mapping[str, Sequence[Any]],
-    report: Report,
-) -> None:
+def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
     """Parameters that the criteria need or do not have, and profiles that they do not allow.
 
     Parameters
     ----------
     given
         Names of all parameters that are given, soundly or not.
-    fixed, along
+    good
         Sound values.
     """
 
     def values(name: str) -> Sequence[Any]:
-        return values_taken(name, fixed, along)
+        return values_taken(name, good)
 
     names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
     if not others:

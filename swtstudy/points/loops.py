@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, values_taken
+from swtstudy.points.values import values_taken
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -17,17 +18,12 @@ AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude
 LARGEST_LOAD = 1e9
 
 
-def check_amplitudes(
-    fixed: Mapping[str, Value],
-    axes: Mapping[str, tuple[Value, ...]],
-    report: Report,
-) -> None:
+def check_amplitudes(good: Mapping[str, Sequence[Any]], report: Report) -> None:
     """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations."""
-    loads = values_taken("load", fixed, axes)
+    loads = values_taken("load", good)
     if len({isinstance(load, Definition) for load in loads}) < 2:
         return
-    given = {*fixed, *axes}
-    given |= replaced_by(given)
+    given = {*good} | replaced_by(good)
     scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
     for name in (each for each in PARAMETERS if each in scaling and each not in given):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"

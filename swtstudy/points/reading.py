@@ -89,11 +89,11 @@ def read_grid(
     report, samples = Report(source, keys), samples or {}
     good_fixed, good_axes = read_values(fixed, axes, report, others, samples, known)
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    along = good_axes | good_samples
-    check_amplitudes(good_fixed, along, report)
-    check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, report)
-    check_forces((*fixed, *axes, *samples), good_fixed, along, report)
-    check_criteria((*fixed, *axes, *samples), good_fixed, along, report)
+    good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
+    check_amplitudes(good, report)
+    check_shapes_given(fixed, {**axes, **samples}, good, report)
+    check_forces((*fixed, *axes, *samples), good, report)
+    check_criteria((*fixed, *axes, *samples), good, report)
     if report or len(good_samples) < len(samples):
         return None, report
     grid = complete(good_fixed, good_axes, good_samples)

@@ -9,7 +9,7 @@ import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import as_number, values_taken
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import families_with, family_of
 from swtstudy.vocabulary.mistakes import Report, literal
@@ -28,29 +28,24 @@ _SLAB, _TOGETHER = 500_000, 5_000
 
 def check_shapes_given(
     fixed: Mapping[str, object],
-    axes: Mapping[str, object],
-    good_fixed: Mapping[str, Value],
-    good_axes: Mapping[str, tuple[Value, ...]],
+    along: Mapping[str, object],
+    good: Mapping[str, Sequence[Any]],
     report: Report,
     rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> None:
     """Every profile needs its shape parameters; one that no profile has would change nothing."""
-    if "profile" in good_fixed:
-        profiles, sound = [str(good_fixed["profile"])], True
-    elif "profile" in fixed or "profile" in axes:
-        profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
-        # A profile that could not be read may be the one that has the others.
-        sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
-        profiles = list(dict.fromkeys(profiles))
-    else:
-        profiles, sound = [str(PARAMETERS["profile"].default)], True
+    given, read = {*fixed, *along}, good.get("profile", ())
+    profiles = list(dict.fromkeys(map(str, read if "profile" in given else values_taken("profile", {}))))
+    # A profile that could not be read may be the one that has the others.
+    raw = along.get("profile", read)
+    sound = isinstance(raw, Sequence) and len(raw) == len(read) and bool(profiles)
     needed = shapes_needed(profiles)
     for name in needed:
-        if name not in fixed and name not in axes:
+        if name not in given:
             owners = ", ".join(profile for profile in profiles if name in family_of(profile).shape)
             report.of(name, "nothing", f"{rows[name].allowed} ({owners} needs it)")
     for name in SHAPE_COLUMNS:
-        if name in needed or not sound or not (name in fixed or name in axes):
+        if name in needed or not sound or name not in given:
             continue
         found = literal(fixed[name]) if name in fixed else "an axis"
         allowed = f"only with the profile {' or '.join(families_with(name))}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from swtstudy.units.grid import PhysicalGrid
 
-Keys = Callable[[str], str]
 #: What is said of a contact in every message.
 _SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
 

@@ -68,12 +68,12 @@ def read_contacts(
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
     check_lengths(profiles, everything, report)
-    along = good_axes | good_samples
-    _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, report)
-    check_amplitudes(good_fixed, along, report)
-    check_criteria(everything, good_fixed, along, report)
-    _check_units_of_criteria(good_fixed, along, given, report)
-    check_shapes_given(single, {**axes, **samples}, good_fixed, along, report, own)
+    good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
+    _check_given(everything, good, own, report)
+    check_amplitudes(good, report)
+    check_criteria(everything, good, report)
+    _check_units_of_criteria(good, given, report)
+    check_shapes_given(single, {**axes, **samples}, good, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, report
     about = replace(given, pairs=pairs, similar=plain_number(similar), body_names=body_names)
@@ -86,13 +86,10 @@ def read_contacts(
 
 
 def _check_units_of_criteria(
-    fixed: Mapping[str, Value],
-    along: Mapping[str, tuple[Value, ...]],
-    given: ContactDetails,
-    report: Report,
+    good: Mapping[str, Sequence[Any]], given: ContactDetails, report: Report
 ) -> None:
     """The criterion that needs the strength of the bodies, the one that has no life, and those of tension."""
-    criteria = values_taken("criterion", fixed, along)
+    criteria = values_taken("criterion", good)
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
@@ -229,7 +226,7 @@ def _check_given(
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
         named = {*everything, *still_load(profiles, {*everything, *scaling})}
-        check_forces(named, {}, {"profile": profiles}, report)
+        check_forces(named, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = next(force for force, other in PAIRS.items() if other == name)
