@@ -7,6 +7,7 @@ import numpy as np
 from swtstudy.mechanics.points import IntArray
 from swtstudy.points.canonical import Table
 from swtstudy.vocabulary.definition import CONTENT_BITS
+from swtstudy.vocabulary.quantities import YIELD, Request
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
@@ -23,6 +24,12 @@ def weights(table: Table) -> IntArray:
     frequencies = (table["p"] + table["q"]).astype(np.int64)
     # The cost of a loop is part of its code.
     return frequencies + table["load"].astype(np.int64) // 2**CONTENT_BITS
+
+
+def rough_seconds(weight: float, points: int, asked: Request) -> float:
+    """Rough computing time of points of this weight together, before any has been timed."""
+    beside = SECONDS_NONLOCAL * bool(asked.distances) + SECONDS_YIELD * (YIELD in asked.names)
+    return float(weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * asked.counts) + points * beside)
 
 
 def duration(seconds: float) -> str:

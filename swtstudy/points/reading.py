@@ -160,9 +160,7 @@ def _warn_of_degrees(key: str, raw: object) -> None:
 
 
 def _too_many(
-    axes: Mapping[str, Sequence[object] | Range | None],
-    report: Report,
-    rows: Mapping[str, Parameter],
+    axes: Mapping[str, Sequence[object] | Range | None], report: Report, rows: Mapping[str, Parameter]
 ) -> bool:
     """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [

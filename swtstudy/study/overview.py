@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
-from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, YIELD
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -53,19 +53,11 @@ def _size(study: Study) -> str:
 
 def _cost(study: Study) -> str:
     """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
-    from swtstudy.points.cost import (
-        COUNTING,
-        SECONDS_NONLOCAL,
-        SECONDS_PER_WEIGHT,
-        SECONDS_YIELD,
-        duration,
-    )
+    from swtstudy.points.cost import duration, rough_seconds
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
     weight = sum(p + q for p, q in ratios) / len(ratios)
-    each = weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * study.asked.counts)
-    each += SECONDS_NONLOCAL * bool(study.asked.distances) + SECONDS_YIELD * (YIELD in study.asked.names)
-    seconds = study.grid.size * each
+    seconds = rough_seconds(study.grid.size * weight, study.grid.size, study.asked)
     return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 
 

@@ -23,14 +23,7 @@ from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
-from swtstudy.units.rows import (
-    MEAN_LOADS,
-    NAMES_KEY,
-    OF_BODIES,
-    SIMILAR_KEY,
-    rows,
-    wrong_mean_load,
-)
+from swtstudy.units.rows import MEAN_LOADS, NAMES_KEY, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
