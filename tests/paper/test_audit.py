@@ -59,7 +59,7 @@ def test_audited_points_are_read_as_they_were_written(tmp_path):
     written = made_up_audit(on_line=2, off_line=1)
     save(written, tmp_path / "audit.nc")
     read = audited_points(open_audit(tmp_path / "audit.nc"))
-    again = audit_dataset(np.array(list(read)), list(read.values()), {})
+    again = audit_dataset(np.array(list(read), ROW), list(read.values()), {})
     for name in written.variables:
         np.testing.assert_array_equal(again[name], written[name])
     np.testing.assert_array_equal(list(read), canonical_rows(written))
