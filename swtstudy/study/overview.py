@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
+from swtstudy.vocabulary.wording import listed
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -67,13 +68,12 @@ def _row(
     """Kind, name, values and meaning of a parameter."""
     row = grid.row(name)
     unit = f" {row.units}" if row.units not in ("1", "rad") else ""
-    return kind, name, _values(values) + unit, row.described + (f"; figure: {role}" if role else "")
-
-
-def _values(values: tuple[Value, ...]) -> str:
-    if len(values) <= _LISTED:
-        return ", ".join(map(_value, values))
-    return f"{_value(values[0])}, {_value(values[1])} … {_value(values[-1])} ({len(values)} values)"
+    return (
+        kind,
+        name,
+        listed([*map(_value, values)], _LISTED) + unit,
+        row.described + (f"; figure: {role}" if role else ""),
+    )
 
 
 def _value(value: Value) -> str:
