@@ -82,7 +82,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, NDArray[np.
     for name in COLUMNS:
         table[name] = columns[name]
     _make_profiles_canonical(table)
-    _make_criteria_canonical(table)
+    table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     return table, _make_loads_canonical(table)
 
 
@@ -98,10 +98,6 @@ def _make_profiles_canonical(table: Table) -> None:
         shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
         for name in {*SHAPE_COLUMNS} - {*shape}:
             table[name][profile == code] = 0.0
-
-
-def _make_criteria_canonical(table: Table) -> None:
-    table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
 
 
 def _make_loads_canonical(table: Table) -> NDArray[np.bool_]:

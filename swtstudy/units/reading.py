@@ -107,13 +107,14 @@ def completed(
     given = {*fixed, *axes, *samples, *pairs}
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
-    fixed = fixed | still_load(profiles, {*given, *_scaling(fixed, axes, samples)})
+    scaling = {name for load in _loops(fixed, axes, samples) for name in load.scaled_by}
+    fixed = fixed | still_load(profiles, given | scaling)
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
     fixed = fixed | measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
     table = rows(labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
-    if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
+    if "bulk_stress_amplitude" in scaling:
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
     if "bulk_stress_ratio" in given:
         del defaults["bulk_stress_mean"]
@@ -145,11 +146,6 @@ def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
     raw = everything.get("profile", PARAMETERS["profile"].default)
     several = raw if isinstance(raw, list | tuple) else [raw]
     return [known.get("profile", {}).get(each, each) if isinstance(each, str) else each for each in several]
-
-
-def _scaling(*values: Mapping[str, Value | tuple[Value, ...]]) -> set[str]:
-    """The amplitudes that scale loops."""
-    return {name for load in _loops(*values) for name in load.scaled_by}
 
 
 def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Definition]:
