@@ -10,7 +10,7 @@ import numpy as np
 from swtstudy.points.canonical import points_from
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
 
@@ -61,18 +61,15 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
     """
-    fixed, axes, mistakes = spanned(parameters)
+    report = Report()
+    fixed, axes = spanned(parameters, report)
     if not is_rtol(rtol):
-        mistakes.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed))
-
+        report("rtol", literal(rtol), ALLOWED_RTOL)
     names = read_quantities(quantities, "quantities", report)
-    asked = Request(names, *read_distances(fixed, axes, str, report))
+    asked = Request(names, *read_distances(fixed, axes, report))
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
-    if grid is None or mistakes:
-        raise StudyError([*found, *mistakes])
+    if grid is None or report:
+        raise StudyError([*found, *report])
     return solve_grid(grid, float(rtol), asked)
 
 
@@ -109,12 +106,11 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
 
 
 def spanned(
-    parameters: Mapping[str, object],
-) -> tuple[dict[str, object], dict[str, Sequence[object] | None], list[Mistake]]:
-    """Single values, sequences (None for what is neither), and the mistakes."""
+    parameters: Mapping[str, object], report: Report
+) -> tuple[dict[str, object], dict[str, Sequence[object] | None]]:
+    """Single values and sequences; None for what is neither, which is reported."""
     fixed: dict[str, object] = {}
     axes: dict[str, Sequence[object] | None] = {}
-    mistakes: list[Mistake] = []
     for name, raw in parameters.items():
         dimensions = dimensions_of(raw)
         if dimensions == 0:
@@ -123,8 +119,8 @@ def spanned(
             axes[name] = list(raw)  # type: ignore[call-overload]
         else:
             axes[name] = None
-            mistakes.append(Mistake(name, literal(raw), "a single value or a one-dimensional sequence"))
-    return fixed, axes, mistakes
+            report(name, literal(raw), "a single value or a one-dimensional sequence")
+    return fixed, axes
 
 
 def dimensions_of(raw: object) -> int:

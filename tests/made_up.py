@@ -9,7 +9,7 @@ import xarray as xr
 
 from swtstudy.paper.audit.point import AuditedPoint
 from swtstudy.paper.audit.table import audit_dataset
-from swtstudy.points.canonical import COLUMNS
+from swtstudy.points.canonical import ROW
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
@@ -67,7 +67,7 @@ def made_up_audit(on_line: int = 3, off_line: int = 0) -> xr.Dataset:
     """An audit with so many points whose maximum is on the line, at ν = 0.3, and off it, at ν = 0.45."""
     off = {"s_body": 1.04, "s_surface": 1.04, "position": np.array([0.8, 0.6, 0.0])}
     points = [made_up_point()] * on_line + [made_up_point(**off)] * off_line
-    rows = np.zeros((len(points), len(COLUMNS)))
-    rows[:, COLUMNS.index("phase")] = np.arange(len(points))
-    rows[:, COLUMNS.index("poisson_ratio")] = [0.3] * on_line + [0.45] * off_line
+    rows = np.zeros(len(points), ROW)
+    rows["phase"] = np.arange(len(points))
+    rows["poisson_ratio"] = [0.3] * on_line + [0.45] * off_line
     return audit_dataset(rows, points, {}).assign_attrs(title="made up")

@@ -58,7 +58,7 @@ def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]
         {
             "row": records.table[index].tolist(),
             "point": describe_point(records.table[index], definitions),
-            "message": records.messages.get(int(index), ""),
+            "message": records.message[index],
         }
         for index in np.flatnonzero(records.status == FAILED)
     ]
@@ -80,7 +80,7 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "versions": versions(),
         "rtol": study.rtol,
         "wall_time_seconds": round(seconds, 3),
-        "computing_time_seconds": round(sum(run.seconds for run in records.runs), 3),
+        "computing_time_seconds": round(records.seconds, 3),
         "study": study.text,
         "runs": json.dumps([run.to_json() for run in records.runs]),
     }

@@ -20,7 +20,7 @@ from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.axes import AXES, CONTACT_AXES
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
-from swtstudy.vocabulary.wording import number_words, value_words
+from swtstudy.vocabulary.wording import listed, number_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
@@ -131,7 +131,7 @@ def _failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """List the facts of the contacts of a study with units, besides the values of parameters."""
     if has_units(dataset):
-        given, _ = read_contact(dataset.attrs[CONTACT])
+        given = read_contact(dataset.attrs[CONTACT])
         yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
             yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())
@@ -166,10 +166,7 @@ def _unit(coordinate: xr.DataArray) -> str:
 
 
 def _axis_words(name: str, values: np.ndarray) -> str:
-    words = [value_words(name, value) for value in values.tolist()]
-    if len(words) <= _LISTED:
-        return ", ".join(words)
-    return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
+    return listed([value_words(name, value) for value in values.tolist()], _LISTED)
 
 
 def _sample_words(sample: xr.DataArray) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
 
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, Report
 
 #: Bytes to spare: the longest name made from ``name.nc`` is ``.name-12345678.png``, of an unfinished figure.
 _ADDED = 11
@@ -25,23 +25,23 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
         With every path that no archive can have.
     """
     paths = {study: Path(folder) / f"{prefix}{Path(study).stem}.nc" for study in studies}
-    mistakes = [mistake for path in paths.values() for mistake in _mistakes(path)]
+    report = Report()
+    for path in paths.values():
+        _check(path, report)
     existing = _existing(Path(folder))
     if not existing.is_dir():
-        mistakes.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
-    if mistakes:
-        raise StudyError(mistakes)
+        report.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
+    report.refuse()
     return paths
 
 
 def check_archive_path(path: Path) -> None:
     """Raise a StudyError, a ValueError, for a path that no archive can have."""
-    mistakes = _mistakes(path)
-    if mistakes:
-        raise StudyError(mistakes)
+    _check(path, report := Report())
+    report.refuse()
 
 
-def _mistakes(path: Path) -> list[Mistake]:
+def _check(path: Path, report: Report) -> None:
     whole = path.absolute()
     found = []
     try:
@@ -58,7 +58,7 @@ def _mistakes(path: Path) -> list[Mistake]:
         length = len(os.fsencode(path.name))
         if length > longest:
             found.append((f"a name of {length} bytes", f"at most {longest}"))
-    return [Mistake("", *parts, str(path)) for parts in found]
+    report += [Mistake("", *parts, str(path)) for parts in found]
 
 
 def _existing(folder: Path) -> Path:

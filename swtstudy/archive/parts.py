@@ -24,7 +24,7 @@ import numpy as np
 
 from swtstudy.archive.lock import refuse_link
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.canonical import COLUMNS, group_rows
+from swtstudy.points.canonical import COLUMNS, ROW, group_rows
 from swtstudy.points.codes import NAMES
 from swtstudy.points.records import Records, Run, join
 from swtstudy.vocabulary.files import replacing, unfinished
@@ -156,13 +156,13 @@ def _write(folder: Path, number: int, records: Records) -> Path:
     meta = {
         "layout": _LAYOUT,
         "runs": [run.to_json() for run in records.runs],
-        "messages": records.messages,
+        "messages": {index: words for index, words in enumerate(records.message) if words},
     }
     content = io.BytesIO()
     np.savez(
         content,
         meta=np.array(json.dumps(meta)),
-        table=records.table,
+        table=records.table.view(np.float64).reshape(-1, len(COLUMNS)),
         status=records.status,
         run=records.run,
         **{name: getattr(records.solution, name) for name in _ARRAYS},
@@ -193,13 +193,17 @@ def _records_from(content: bytes) -> Records:
         meta = json.loads(part["meta"].item())
         if meta["layout"] != _LAYOUT:
             raise ValueError("made by another version of swtstudy")
+        table = part["table"].view(ROW)[:, 0]
+        message = np.full(len(table), "", object)
+        for index, words in meta["messages"].items():
+            message[int(index)] = words
         return Records(
-            part["table"],
+            table,
             Solution(**{name: part[name] for name in _ARRAYS}),
             part["status"],
             part["run"],
+            message,
             tuple(map(Run.from_json, meta["runs"])),
-            {int(index): message for index, message in meta["messages"].items()},
             {name: part[name] for name in part.files if name not in (*_OWN, *_ARRAYS)},
         ).without_unknown()
 

@@ -26,7 +26,7 @@ from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import Control, replaced_by
@@ -42,15 +42,15 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         With every coordinate that no study can have.
     """
     values: dict[str, tuple[Value, ...]] = {}
-    mistakes: list[Mistake] = []
+    report = Report()
     axes: list[str] = []
     sampled: list[str] = []
     dims = [str(name) for name in dataset.s.dims]
-    given, pairs = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else (None, {})
-    table = PARAMETERS if given is None else rows(given.units)
+    given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
+    table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
     for name in dims:
         if name != SAMPLE and (name not in table or name not in dataset.coords):
-            mistakes.append(Mistake(name, "a dimension without values of a parameter", ", ".join(table)))
+            report(name, "a dimension without values of a parameter", ", ".join(table))
     known = defined_in(dataset.attrs)
     for name, parameter in table.items():
         if name not in dataset.coords or name in pairs or name == DISTANCE:
@@ -61,73 +61,68 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         elif SAMPLE in dims and coordinate.dims == (SAMPLE,):
             sampled.append(name)
         elif name in dims or coordinate.dims:
-            mistakes.append(Mistake(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value"))
+            report(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value")
             continue
         raw = np.atleast_1d(coordinate.values).tolist()
-        values[name] = tuple(_values(parameter, raw, known.get(name, {}), mistakes))
+        values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
-    mistakes += _lacking({*values, *dims, *pairs}, shapes_needed(profiles))
-    mistakes += _wrong_control(dataset, {*values, *dims})
+    _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
+    _check_control(dataset, {*values, *dims}, report)
     if SAMPLE in dims and not sampled:
-        mistakes.append(Mistake(SAMPLE, "a dimension without values of a parameter", ", ".join(table)))
-    if mistakes:
-        raise StudyError(mistakes)
+        report(SAMPLE, "a dimension without values of a parameter", ", ".join(table))
+    report.refuse()
     fixed = {name: value[0] for name, value in values.items() if name not in (*axes, *sampled)}
     samples = {name: values[name] for name in sampled}
     along = {name: values[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, along, samples)
-    return _of_contacts(completed(fixed, along, samples, {**vars(given), "pairs": pairs}))
+    return _of_contacts(completed(fixed, along, samples, given))
 
 
 def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     """A grid of contacts that can be."""
-    mistakes: list[Mistake] = []
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed))
-
+    report = Report()
     lacking = [name for name in ("young_modulus", "poisson_ratio", "friction") if name not in grid.pairs]
     for name in lacking:
         if not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
     if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):
-        report(", ".join(MEAN_LOADS), *wrong)
-    if not mistakes:
-        check_contacts(grid, str, report)
-    if mistakes:
-        raise StudyError(mistakes)
+        report.of(MEAN_LOADS, *wrong)
+    if not report:
+        check_contacts(grid, report)
+    report.refuse()
     return grid
 
 
-def _lacking(given: set[str], shape: Sequence[str]) -> Iterator[Mistake]:
+def _check_complete(given: set[str], shape: Sequence[str], report: Report) -> None:
     """Parameters without a value; an archive may leave out optional ones."""
     replaced = replaced_by(given)
     for name, parameter in PARAMETERS.items():
         needed = parameter.default is not None and not parameter.optional and name not in replaced
         if (needed or name in shape) and name not in given:
-            yield Mistake(name, "nothing", parameter.allowed)
+            report(name, "nothing", parameter.allowed)
 
 
-def _wrong_control(dataset: xr.Dataset, given: set[str]) -> Iterator[Mistake]:
+def _check_control(dataset: xr.Dataset, given: set[str], report: Report) -> None:
     """Two parameters that take each other's place, or a coordinate that contradicts them."""
-    yield from (Mistake(*parts) for parts in given_twice(given))
+    for twice in given_twice(given):
+        report.of(*twice)
     own = Control.given(given).name
     # Archives from before there was a choice do not say it.
     found = dataset.control.values.tolist() if "control" in dataset.coords else own
     if found != own:
-        yield Mistake("control", literal(found), literal(own))
+        report("control", literal(found), literal(own))
 
 
 def _values(
-    parameter: Parameter, raw: list[object], known: Mapping[str, Definition], mistakes: list[Mistake]
+    parameter: Parameter, raw: list[object], known: Mapping[str, Definition], report: Report
 ) -> Iterator[Value]:
     """Values of a coordinate, up to the first invalid one, which is a mistake."""
     for value in raw:
         try:
             yield read_value(parameter, value, known)
         except ValueError as error:
-            mistakes.append(Mistake(parameter.name, f"{literal(value)} ({error})", parameter.allowed))
+            report(parameter.name, f"{literal(value)} ({error})", parameter.allowed)
             return
 
 
@@ -164,7 +159,7 @@ def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
     failures = read_failures(dataset.status.attrs["failures"])
     reason = {tuple(failure["row"]): failure["message"] for failure in failures}
     failed = np.flatnonzero(status == FAILED)
-    rows = zip(failed.tolist(), map(tuple, points.table[failed].tolist()), strict=True)
-    messages = {index: reason[row] for index, row in rows if row in reason}
-    found = Records(points.table, solution, status, run, runs, messages, quantities)
+    message = np.full(len(status), "", object)
+    message[failed] = [reason.get(row, "") for row in points.table[failed].tolist()]
+    found = Records(points.table, solution, status, run, message, runs, quantities)
     return found.without_unknown()

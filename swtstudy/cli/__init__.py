@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import gc
+import itertools
 import logging
 import signal
 import sys
@@ -40,10 +41,10 @@ STOPPED = 130
 
 #: The commands by what they are for, as help lists them.
 _SECTIONS = {
-    "Studies": ("new", "validate", "plan", "run", "list", "schema"),
-    "Results": ("report", "plot", "info", "merge"),
-    "Single points": ("solve", "show"),
-    "What matters, and checks": ("sensitivity", "fit", "check", "audit"),
+    "Studies": (new, validate, plan, run, list_studies, schema),
+    "Results": (report, plot, info, merge),
+    "Single points": (solve, show),
+    "What matters, and checks": (sensitivity, fit, check, audit),
 }
 
 
@@ -51,9 +52,9 @@ class _Commands(click.Group):
     """A group whose commands answer bad input with one line per mistake, never with a traceback."""
 
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
-        for title, names in _SECTIONS.items():
+        for title, commands in _SECTIONS.items():
             with formatter.section(title):
-                formatter.write_dl([(name, _first_sentence(self.commands[name])) for name in names])
+                formatter.write_dl([(str(each.name), _first_sentence(each)) for each in commands])
 
     def resolve_command(
         self, context: click.Context, args: list[str]
@@ -112,23 +113,5 @@ def main() -> None:
     """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
 
 
-_COMMANDS = (
-    run,
-    plan,
-    validate,
-    plot,
-    report,
-    check,
-    info,
-    merge,
-    solve,
-    show,
-    audit,
-    sensitivity,
-    fit,
-    list_studies,
-    new,
-    schema,
-)
-for _command in _COMMANDS:
+for _command in itertools.chain(*_SECTIONS.values()):
     main.add_command(_command)

@@ -10,11 +10,7 @@ import click
 from swtstudy.cli.options import examples, with_width
 
 
-@click.command(
-    epilog=examples(
-        "swtstudy fit rig.toml tests.csv",
-    )
-)
+@click.command(epilog=examples("swtstudy fit rig.toml tests.csv"))
 @click.argument("study")
 @click.argument("tests")
 @click.option(

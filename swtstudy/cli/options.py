@@ -12,7 +12,7 @@ import click
 from click import Context, Parameter
 from click.shell_completion import CompletionItem
 
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, meant
+from swtstudy.vocabulary.mistakes import Report, meant
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: Placeholder of an option that takes several values, separated by commas.
@@ -79,14 +79,13 @@ def check_options(context: click.Context, command: click.Command, args: list[str
         raise click.UsageError(words, own) from None
     except click.UsageError:
         return  # click reports it
-    mistakes = []
+    report = Report()
     for parameter, count in Counter(order).items():
         single = isinstance(parameter, click.Option) and not (parameter.multiple or parameter.is_flag)
         if single and count > 1:
             allowed = "once" + ", with values separated by commas" * (parameter.metavar == SEVERAL)
-            mistakes.append(Mistake(parameter.opts[0], f"{count} times", allowed))
-    if mistakes:
-        raise StudyError(mistakes)
+            report(parameter.opts[0], f"{count} times", allowed)
+    report.refuse()
 
 
 def study_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:

@@ -11,7 +11,7 @@ import click
 from swtstudy.cli.options import examples, study_completion
 
 if TYPE_CHECKING:
-    from swtstudy.points.result import Result
+    from swtstudy.points.records import Records
     from swtstudy.runner.work import Work
     from swtstudy.study.definition import Study
 
@@ -88,8 +88,8 @@ def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
 
     timed: list[int] = []
 
-    def count(result: Result) -> None:
-        timed.append(len(result))
+    def count(found: Records) -> None:
+        timed.append(len(found))
 
     seconds = sum(
         estimate(work.points, wanted, rtol, solve_points, count, asked) for wanted, asked in work.tasks()

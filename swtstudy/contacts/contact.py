@@ -36,7 +36,7 @@ from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
 from swtstudy.vocabulary.criteria import SWT
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import family_of, is_profile
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
@@ -186,9 +186,9 @@ class PhysicalContact(InUnits):
         own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
         own = {name: value for name, value in own.items() if name not in replaced}
-        found, mistakes = read_grid({**own, **parameters}, {})
+        found, report = read_grid({**own, **parameters}, {})
         if found is None:
-            raise StudyError(mistakes)
+            raise StudyError(report)
         fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
         if "profile" not in parameters:
             fixed["profile"] = rest.profile
@@ -319,30 +319,22 @@ class PhysicalContact(InUnits):
         blocks: Mapping[str, float] | None = None,
     ) -> tuple[PhysicalGrid, Request]:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
-        fixed, axes, mistakes = spanned({} if critical_distance is None else {DISTANCE: critical_distance})
-
-        def report(key: str, found: str, allowed: str) -> None:
-            mistakes.append(Mistake(key, found, allowed))
-
+        report = Report()
+        fixed, axes = spanned({} if critical_distance is None else {DISTANCE: critical_distance}, report)
         if not is_rtol(rtol):
             report("rtol", literal(rtol), ALLOWED_RTOL)
-        distances = read_distances(fixed, axes, str, report, self.grid.row(DISTANCE))
+        distances = read_distances(fixed, axes, report, self.grid.row(DISTANCE))
         names = read_quantities(quantities, "quantities", report)
         materials: tuple[FatigueConstants, ...] = ()
-        try:
+        with report:
             materials = () if constants is None else constants_of_both(constants)
-        except StudyError as error:
-            mistakes += error.mistakes
-        strengths = stresses_of_both("yield_strength", yield_strength, mistakes) or self.grid.yield_strengths
+        strengths = stresses_of_both("yield_strength", yield_strength, report) or self.grid.yield_strengths
         sequence: tuple[Block, ...] = ()
-        try:
+        with report:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
-        except StudyError as error:
-            mistakes += error.mistakes
         if blocks and constants is None:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
-        if mistakes:
-            raise StudyError(mistakes)
+        report.refuse()
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
         grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
         return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))

@@ -112,46 +112,35 @@ class Measured:
         """Places in lengths as those in a_H that the mechanics is asked for."""
         import xarray as xr
 
+        length = self.contact.length_scale
         return {
-            name: value / self.contact.length_scale
-            if isinstance(value, xr.DataArray | float | int)
-            else np.asarray(value) / self.contact.length_scale
+            name: (value if isinstance(value, xr.DataArray | float | int) else np.asarray(value)) / length
             for name, value in given.items()
         }
 
     def with_units(self, dataset: xr.Dataset, names: Mapping[str, str] | None = None) -> xr.Dataset:
         """The same in lengths, forces and stresses; some under other names."""
-        scales = self.scales()
-        for name in [str(name) for name in dataset.variables if name in scales]:
-            scale, kind, symbol = scales[name]
-            words = str(dataset[name].attrs.get("long_name", name))
-            attributes = {
-                **dataset[name].attrs,
-                "long_name": words.partition(", in units of")[0].partition(" over E*")[0],
-                "symbol": symbol,
-                "units": self._unit(kind),
-            }
-            scaled = dataset[name].variable * scale
-            scaled.attrs = attributes
-            dataset = (
-                dataset.assign_coords({name: scaled})
-                if name in dataset.coords
-                else dataset.assign({name: scaled})
-            )
-        return self._parameters(dataset).rename(
-            {old: new for old, new in (names or {}).items() if old in dataset}
-        )
-
-    def _parameters(self, dataset: xr.Dataset) -> xr.Dataset:
-        """The same with its parameters as lengths, forces and stresses."""
+        dataset = dataset.copy()
+        for name, (scale, kind, symbol) in self.scales().items():
+            if name in dataset.variables:
+                words = str(dataset[name].attrs.get("long_name", name))
+                words = words.partition(", in units of")[0].partition(" over E*")[0]
+                own = {"long_name": words, "symbol": symbol, "units": self._unit(kind)}
+                _scale(dataset, name, scale, own)
         for name, row in rows(self.units).items():
-            scale = PARAMETERS[name].scale if name in PARAMETERS else ""
-            if scale and name in dataset.coords:
-                scaled = dataset[name].variable * SCALES[scale].of(self.contact)
-                units = row.units or f"unit of {SCALES[scale].kind}"
-                scaled.attrs = {**dataset[name].attrs, "symbol": row.symbol, "units": units}
-                dataset = dataset.assign_coords({name: scaled})
-        return dataset
+            by = PARAMETERS[name].scale if name in PARAMETERS else ""
+            if by and name in dataset.coords:
+                units = row.units or f"unit of {SCALES[by].kind}"
+                own = {"symbol": row.symbol, "units": units}
+                _scale(dataset, name, SCALES[by].of(self.contact), own)
+        return dataset.rename({old: new for old, new in (names or {}).items() if old in dataset})
+
+
+def _scale(dataset: xr.Dataset, name: str, scale: float, own: Mapping[str, str]) -> None:
+    """Multiply a variable of a Dataset, in place, and change some of its attributes."""
+    attributes = {**dataset[name].attrs, **own}
+    dataset[name] = dataset[name].variable * scale
+    dataset[name].attrs = attributes
 
 
 def require_swt(grid: PhysicalGrid) -> None:

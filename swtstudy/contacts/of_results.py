@@ -67,7 +67,8 @@ def contact_of_study(
         values = {**moving, **values}
     if open_axes:
         found = f"several values of {', '.join(open_axes)}"
-        raise StudyError([Mistake("", found, "one of each, such as " + _option(next(iter(open_axes))), path)])
+        option = f"--{next(iter(open_axes)).replace('_', '-')} VALUE"
+        raise StudyError([Mistake("", found, f"one of each, such as {option}", path)])
     kept = {key: table for key, table in raw.items() if key not in ("axes", "sample", "figure")}
     kept |= {"profiles": profiles} if profiles else {}
     kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced} | dict(values)
@@ -101,7 +102,3 @@ def _first(axis: object) -> object:
     if isinstance(axis, dict):
         return axis.get("start")
     return axis[0] if isinstance(axis, list) and axis else axis
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')} VALUE"

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.results.optimum.box import Box, read_ranges
 from swtstudy.results.optimum.optimise import mistakes_in, optimum_in
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.reading import ContactDetails, read_contacts
+from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
 from swtstudy.units.variables import variables
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.prescribed import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
@@ -35,15 +35,14 @@ def optimum(
         What is asked beside s.
     """
     known = ["s", "s_surface", *(each.name for each in variables(grid, asked) if each.of), *grid.margins]
-    mistakes = mistakes_in(minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
+    report = mistakes_in(minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
     if asked.is_axis:
-        mistakes.append(Mistake(DISTANCE, "several", "one: what is made least is one value"))
+        report(DISTANCE, "several", "one: what is made least is one value")
     try:
         box = _box(grid, over)
     except StudyError as error:
-        raise StudyError([*error.mistakes, *mistakes]) from None
-    if mistakes:
-        raise StudyError(mistakes)
+        raise StudyError([*error.mistakes, *report]) from None
+    report.refuse()
     return optimum_in(box, minimise, rtol, int(seed), asked)
 
 
@@ -52,23 +51,21 @@ def _box(grid: PhysicalGrid, over: object) -> Box:
     numeric = [
         name for name, row in grid.rows.items() if row.kind == "number" and name not in (DISTANCE, "body")
     ]
-    ranges, mistakes = read_ranges(over, numeric)
-    if mistakes:
-        raise StudyError(mistakes)
+    ranges, report = read_ranges(over, numeric)
+    report.refuse()
     # What takes the place of another, as a force that of a displacement.
     pairs = [{*pair} for pair in PAIRS.items()] + [{*MEAN_LOADS}, {"bulk_stress_ratio", "bulk_stress_mean"}]
     replaced = {*ranges}.union(*(pair for pair in pairs if pair & {*ranges}))
     fixed: dict[str, Any] = {name: value for name, value in grid.fixed.items() if name not in replaced}
     fixed |= {name: [*two] for name, two in grid.pairs.items() if name not in replaced}
     bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
-    about = {name: value for name, value in grid.about.items() if name in ContactDetails.__annotations__}
     known: dict[str, dict[str, Definition]] = {}
     for each in grid.given:
         known.setdefault(each.parameter, {})[each.name] = each
     corners, found = read_contacts(
         {**fixed, SIMILAR_KEY: grid.similar},
         {**ranges, **bodies},
-        ContactDetails(**about),
+        grid.about,
         lambda name: f"over.{name}" if name in ranges else name,
         known=known,
     )

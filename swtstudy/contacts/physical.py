@@ -7,10 +7,11 @@ from typing import Any
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body, shear_constants_of_both, stresses_of_both
-from swtstudy.units.reading import ContactDetails, read_contacts
+from swtstudy.units.grid import ContactDetails
+from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Report, StudyError
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: What is asked of contacts, not given of them.
@@ -110,31 +111,30 @@ def physical(
     sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
     sizes |= {"bulk_stress_ratio": bulk_stress_ratio, "contact_length": contact_length}
     parameters = {name: value for name, value in sizes.items() if value is not None} | parameters
-    mistakes = [
-        Mistake(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
-        for name in _ASKED
-        if name in parameters
-    ]
-    fixed, axes, wrong = spanned({n: value for n, value in parameters.items() if n not in _ASKED})
+    report = Report()
+    for name in _ASKED:
+        if name in parameters:
+            report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
+    wrong = Report()
+    fixed, axes = spanned({n: value for n, value in parameters.items() if n not in _ASKED}, wrong)
     fixed |= {n: _pair(value) for n, value in of_bodies.items() if value is not None}
     properties: dict[str, Any] = {
-        "yield_strengths": stresses_of_both("yield_strength", yield_strength, mistakes),
-        "findley_limits": stresses_of_both("findley_limit", findley_limit, mistakes),
-        "shear_materials": shear_constants_of_both(shear_constants, mistakes),
+        "yield_strengths": stresses_of_both("yield_strength", yield_strength, report),
+        "findley_limits": stresses_of_both("findley_limit", findley_limit, report),
+        "shear_materials": shear_constants_of_both(shear_constants, report),
     }
-    try:
+    about = ContactDetails()
+    with report:
         carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)
-    except StudyError as error:
-        about, mistakes = ContactDetails(), [*mistakes, *error.mistakes]
     if "body" not in parameters:
         axes = {**axes, "body": LABELS}
     named = {} if bodies is None else {NAMES_KEY: bodies}
     grid, found = read_contacts(
         {**fixed, **named, SIMILAR_KEY: similar}, axes, about, known=_defined(parameters)
     )
-    if grid is None or mistakes or wrong:
-        raise StudyError([*mistakes, *wrong, *found])
+    if grid is None or report or wrong:
+        raise StudyError([*report, *wrong, *found])
     return PhysicalContact(grid)
 
 

@@ -134,9 +134,5 @@ def springs_of(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
         }
     return {
         "compression": (dims, compression, named("compression of the springs", r"w/\delta_0")),
-        "force": (
-            dims,
-            force,
-            named("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)"),
-        ),
+        "force": (dims, force, named("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)")),
     }

@@ -12,7 +12,7 @@ from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.planes.crossland import crossland
 from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
 from swtstudy.mechanics.planes.swt import SWT_EXPONENT, Swt
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
 from swtstudy.vocabulary.numbers import read_numbers
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -56,12 +56,11 @@ def swt_of_history(
     >>> float(swt), abs(normal).round(6).tolist()
     (0.5, [1.0, 0.0, 0.0])
     """
-    history, mistakes = _checked(stress, poisson_ratio, young_modulus)
+    history, report = _checked(stress, poisson_ratio, young_modulus)
     row = PARAMETERS["walker_exponent"]
     if not row.lower < plain_number(walker_exponent) <= row.upper:
-        mistakes.append(Mistake(row.name, literal(walker_exponent), row.allowed))
-    if mistakes:
-        raise StudyError(mistakes)
+        report(row.name, literal(walker_exponent), row.allowed)
+    report.refuse()
     ν, E, γ = map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
     return all_planes.swt_of_history(history, ν, E, Swt.of(np.full(1, γ), np.full(1, E)))
 
@@ -110,13 +109,12 @@ def criterion_of_history(
     >>> round(float(criterion_of_history(wave, "crossland", 0.3)[0]), 6)
     0.67735
     """
-    history, mistakes = _checked(stress, 0.3, 1.0)
+    history, report = _checked(stress, 0.3, 1.0)
     if criterion not in _KNOWN:
-        mistakes.append(Mistake("criterion", literal(criterion), nearest(str(criterion), _KNOWN)))
+        report("criterion", literal(criterion), nearest(str(criterion), _KNOWN))
     if not 0.0 <= plain_number(normal_sensitivity) < math.inf:
-        mistakes.append(Mistake("normal_sensitivity", literal(normal_sensitivity), "a number ≥ 0"))
-    if mistakes:
-        raise StudyError(mistakes)
+        report("normal_sensitivity", literal(normal_sensitivity), "a number ≥ 0")
+    report.refuse()
     sensitivity = plain_number(normal_sensitivity)
     if criterion == CROSSLAND:
         value = crossland(history, sensitivity)
@@ -127,25 +125,20 @@ def criterion_of_history(
 
 def _checked(
     stress: ArrayLike, poisson_ratio: float, young_modulus: float
-) -> tuple[NDArray[np.float64], list[Mistake]]:
+) -> tuple[NDArray[np.float64], Report]:
     """A history as an array, and what is wrong with it and with constants."""
     history = np.zeros((1, 6))
-    mistakes: list[Mistake] = []
-    try:
+    report = Report()
+    with report:
         history = read_numbers("stress", stress, "an array of numbers")
-    except StudyError as error:
-        mistakes.extend(error.mistakes)
-    else:
         if history.ndim < 2 or history.shape[-1] != 6 or history.shape[-2] == 0:
-            mistakes.append(
-                Mistake("stress", f"the shape {history.shape}", "(..., time, 6), one instant or more")
-            )
+            report("stress", f"the shape {history.shape}", "(..., time, 6), one instant or more")
         elif not np.isfinite(history).all():
             wrong = np.count_nonzero(~np.isfinite(history))
             found = f"{wrong} components that are not finite or masked"
-            mistakes.append(Mistake("stress", found, "finite numbers"))
+            report("stress", found, "finite numbers")
     if not -1.0 < plain_number(poisson_ratio) <= 0.5:
-        mistakes.append(Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]"))
+        report("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")
     if not 0.0 < plain_number(young_modulus) < math.inf:
-        mistakes.append(Mistake("young_modulus", literal(young_modulus), "a positive number"))
-    return history, mistakes
+        report("young_modulus", literal(young_modulus), "a positive number")
+    return history, report

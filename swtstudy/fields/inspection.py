@@ -116,11 +116,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
     coordinates = {
-        "x": (
-            "x",
-            _both_sides(radius, -radius),
-            named("position in the direction of sliding", "x/a_H"),
-        ),
+        "x": ("x", _both_sides(radius, -radius), named("position in the direction of sliding", "x/a_H")),
         "instant": np.arange(1, len(marked) + 1),
         "instant_time": ("instant", time[marked]),
         "reason": ("instant", reasons),

@@ -12,7 +12,7 @@ from swtstudy.mechanics.control.mapped import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 from swtstudy.vocabulary.numbers import read_numbers
 
 _NAMES = {
@@ -38,14 +38,11 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
         coordinates along a shared dimension.
     """
     arrays: list[xr.DataArray] = []
-    mistakes: list[Mistake] = []
+    report = Report()
     for name, values in zip("xyz", (x, y, z), strict=True):
-        try:
+        with report:
             arrays.append(_coordinate(name, values))
-        except StudyError as error:
-            mistakes.extend(error.mistakes)
-    if mistakes:
-        raise StudyError(mistakes)
+    report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
         raise StudyError([Mistake("z", found, "depths z ≥ 0 into the body")])

@@ -37,7 +37,7 @@ def _not_given() -> FloatArray:
 
 
 @dataclass(frozen=True)
-class Points:
+class Points(Rows):
     """A batch of n parameter points that share one profile family and control (eq. 20).
 
     Attributes
@@ -90,13 +90,6 @@ class Points:
 
     def __len__(self) -> int:
         return len(self.phase)
-
-    def take(self, index: NDArray[np.intp]) -> Points:
-        """The points at ``index``, repetitions allowed."""
-        own = vars(self)
-        taken = {name: value[index] for name, value in own.items() if isinstance(value, np.ndarray)}
-        shape = {name: values[index] for name, values in self.shape.items()}
-        return Points(**{**own, **taken, "shape": shape})
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Rows:
-    """Arrays, and other rows, with common leading axes; what is neither all rows have in common.
+    """Arrays, other rows, and both by name, with common leading axes; all else the rows have in common.
 
     The arguments of the constructor are attributes: the fields of a dataclass; other classes name them in
     ``__match_args__``.
@@ -23,9 +23,8 @@ class Rows:
 
     @classmethod
     def joined(cls, several: Sequence[Self]) -> Self:
-        """The rows of several, one after another; they consist of arrays, or of None in all."""
-        columns = ([getattr(one, name) for one in several] for name in cls.__match_args__)
-        return cls._made(None if column[0] is None else np.concatenate(column) for column in columns)
+        """The rows of several, one after another; what is no rows is that of the first."""
+        return cls._made(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__)
 
     @classmethod
     def _made(cls, values: Any) -> Self:
@@ -36,4 +35,15 @@ class Rows:
 def _taken(value: Any, index: Any) -> Any:
     if isinstance(value, np.ndarray):
         return value[index]
+    if isinstance(value, dict):
+        return {name: _taken(each, index) for name, each in value.items()}
     return value.take(index) if isinstance(value, Rows) else value
+
+
+def _joined(several: list[Any]) -> Any:
+    first = several[0]
+    if isinstance(first, dict):
+        return {name: _joined([each[name] for each in several]) for name in first}
+    if isinstance(first, Rows):
+        return first.joined(several)
+    return np.concatenate(several) if isinstance(first, np.ndarray) else first

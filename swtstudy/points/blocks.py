@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.points.canonical import LOAD_COLUMNS, SHARED_COLUMNS, select
+from swtstudy.mechanics.points import IntArray
+from swtstudy.points.canonical import LOAD_COLUMNS, SHARED_COLUMNS, Table
 from swtstudy.points.cost import weights
 
 #: Points in a block, times their weight: one or two seconds of work. In small blocks each point costs more:
@@ -16,7 +16,7 @@ _SMALLEST_BLOCK = 4
 _WORTH_SHARING = 64
 
 
-def block_ends(table: FloatArray) -> IntArray:
+def block_ends(table: Table) -> IntArray:
     """Ends of the blocks of a table; what is solved in one call does not depend on the run.
 
     The last bits of a value depend on what it is solved together with. Blocks that depend on the table
@@ -41,7 +41,6 @@ def block_ends(table: FloatArray) -> IntArray:
     return np.concatenate(ends)
 
 
-def _stretch_ends(table: FloatArray, names: tuple[str, ...]) -> IntArray:
-    columns = select(table, names)
-    changes = np.flatnonzero((columns[1:] != columns[:-1]).any(axis=1)) + 1
-    return np.append(changes, len(columns))
+def _stretch_ends(table: Table, names: tuple[str, ...]) -> IntArray:
+    columns = table[[*names]]
+    return np.append(np.flatnonzero(columns[1:] != columns[:-1]) + 1, len(columns))

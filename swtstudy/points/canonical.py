@@ -7,7 +7,7 @@ profile whose shape is plain, the phase and the control of a load that stands st
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,26 +36,20 @@ LOAD_COLUMNS = ("control", "load", *RATIO_COLUMNS, *_numbers("load"))
 SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
-#: Parameters that are a number of every point, whatever its profile; friction is before the Poisson ratio,
-#: which the tractions do not depend on.
-NUMBERS = (*_numbers("load"), *reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
+#: Those of bodies and criterion; friction is before the Poisson ratio, which the tractions do not depend on.
+_OTHERS = (*reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
+#: Parameters that are a number of every point, whatever its profile.
+NUMBERS = (*_numbers("load"), *_OTHERS)
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.points.codes`.
-COLUMNS = (
-    *("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS),
-    *reversed(_numbers("body")),
-    *_numbers("bulk"),
-    *_numbers("criterion"),
-)
-_COLUMN = {name: index for index, name in enumerate(COLUMNS)}
+COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
+#: A canonical point, in an array: a number for each of these names.
+ROW = np.dtype([(name, np.float64) for name in COLUMNS])
+#: Canonical points, shape (n,) of `ROW`.
+Table = NDArray[np.void]
 
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
 DIGITS = 12
-
-
-def select(table: FloatArray, names: Sequence[str]) -> FloatArray:
-    """The columns of these names, shape (n, len(names))."""
-    return table[:, [_COLUMN[name] for name in names]]
 
 
 def canonical_number(value: float) -> float:
@@ -69,7 +63,7 @@ def rounded(values: NDArray) -> FloatArray:
     return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
 
 
-def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArray[np.bool_]]:
+def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, NDArray[np.bool_]]:
     """Canonical rows of points.
 
     Parameters
@@ -80,55 +74,52 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[FloatArray, NDArra
     Returns
     -------
     table
-        Shape (n, len(COLUMNS)); columns that do not matter for a point are 0.
+        Shape (n,) of `ROW`; columns that do not matter for a point are 0.
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    table = np.stack(np.broadcast_arrays(*(np.asarray(columns[name], float) for name in COLUMNS)), axis=-1)
+    table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
+    for name in COLUMNS:
+        table[name] = columns[name]
     _make_profiles_canonical(table)
-    _make_criteria_canonical(table)
+    table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     return table, _make_loads_canonical(table)
 
 
-def _make_profiles_canonical(table: FloatArray) -> None:
-    profile = table[:, _COLUMN["profile"]]
+def _make_profiles_canonical(table: Table) -> None:
+    profile = table["profile"]
     for family in FAMILIES.values():
         if family.plain is not None:
             name, value = family.plain
-            same = (profile == code_of(family.name)) & (table[:, _COLUMN[name]] == value)
+            same = (profile == code_of(family.name)) & (table[name] == value)
             profile[same] = code_of(PLAIN_OF[family.geometry])
     for code in np.unique(profile):
         # What the user has defined has no shape parameters.
         shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
-        unused = [_COLUMN[name] for name in SHAPE_COLUMNS if name not in shape]
-        table[np.ix_(profile == code, unused)] = 0
+        for name in {*SHAPE_COLUMNS} - {*shape}:
+            table[name][profile == code] = 0.0
 
 
-def _make_criteria_canonical(table: FloatArray) -> None:
-    is_swt = table[:, _COLUMN["criterion"]] == code_of(SWT, "criterion")
-    table[is_swt, _COLUMN["normal_sensitivity"]] = 0.0
-
-
-def _make_loads_canonical(table: FloatArray) -> NDArray[np.bool_]:
+def _make_loads_canonical(table: Table) -> NDArray[np.bool_]:
     """Returns where x is mirrored."""
     from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
 
-    p, q = (table[:, _COLUMN[name]].astype(np.int64) for name in "pq")
+    p, q = (table[name].astype(np.int64) for name in "pq")
     normal, tangential, phase = (
-        table[:, _COLUMN[name]] for name in ("normal_amplitude", "tangential_amplitude", "phase")
+        table[name] for name in ("normal_amplitude", "tangential_amplitude", "phase")
     )
     # A loop has neither phase nor frequencies.
-    is_loop = table[:, _COLUMN["load"]] != code_of(HARMONIC, "load")
+    is_loop = table["load"] != code_of(HARMONIC, "load")
     rests = (normal == 0.0) | is_loop
     phase, p, q = without_what_stands_still(rests, phase, p, q)
     _make_control_canonical(table, normal == 0.0, tangential == 0.0)
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
-    table[:, _COLUMN["p"]], table[:, _COLUMN["q"]] = p, q
-    table[:, _COLUMN["phase"]] = _in_turns(folded - nudge)
-    of_bulk = table[:, _COLUMN["bulk_stress_phase"]]
-    moves = (table[:, _COLUMN["bulk_stress_amplitude"]] != 0.0) & ~is_loop
+    table["p"], table["q"] = p, q
+    table["phase"] = _in_turns(folded - nudge)
+    of_bulk = table["bulk_stress_phase"]
+    moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
     both_ways = (q % 2 == 0) | (normal == 0.0)
     folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
     of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
@@ -141,10 +132,10 @@ def _in_turns(angle: FloatArray) -> FloatArray:
 
 
 def _make_control_canonical(
-    table: FloatArray, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
+    table: Table, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
 ) -> None:
     """A component that stands still is prescribed as the other one is, both that do as displacements."""
-    control = table[:, _COLUMN["control"]]
+    control = table["control"]
     force = control.astype(np.int64)
     normal, tangential = (force & 1) == 1, (force & 2) == 2
     moves = ~normal_rests & normal, ~tangential_rests & tangential
@@ -153,13 +144,13 @@ def _make_control_canonical(
     )
 
 
-def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
+def group_rows(table: Table) -> tuple[IntArray, IntArray]:
     """The distinct rows of a table, in lexicographic order.
 
     Parameters
     ----------
     table
-        Shape (n, k), without NaN.
+        Rows, without NaN, shape (n,): all columns of it are compared.
 
     Returns
     -------
@@ -170,53 +161,53 @@ def group_rows(table: FloatArray) -> tuple[IntArray, IntArray]:
     """
     group = np.zeros(len(table), np.int64)
     first = np.zeros(min(len(table), 1), np.int64)
-    for column in table.T:
-        values, code = np.unique(column, return_inverse=True)
+    for name in table.dtype.names or ():
+        values, code = np.unique(table[name], return_inverse=True)
         # Column by column on integers: sorting whole rows takes ten times as long.
         _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)
     return first, group
 
 
-def points_from(table: FloatArray, definitions: Definitions) -> Points:
+def points_from(table: Table, definitions: Definitions) -> Points:
     """A batch for the solver from canonical rows that share one profile, control and course of the load.
 
     Parameters
     ----------
     table
-        Shape (n, len(COLUMNS)).
+        Shape (n,) of `ROW`.
     definitions
         What the user has defined, by its code.
     """
     from swtstudy.mechanics.load.loop import Loop
     from swtstudy.mechanics.points import Points
 
-    profile = value_of(table[0, _COLUMN["profile"]], definitions)
-    course = value_of(table[0, _COLUMN["load"]], definitions, "load")
+    profile = value_of(table["profile"][0], definitions)
+    course = value_of(table["load"][0], definitions, "load")
     return Points(
         profile=profile,  # type: ignore[arg-type]
-        p=table[:, _COLUMN["p"]].astype(np.int64),
-        q=table[:, _COLUMN["q"]].astype(np.int64),
-        shape={name: table[:, _COLUMN[name]].copy() for name in family_of(profile).shape},
-        control=control_of(table[0, _COLUMN["control"]]),
+        p=table["p"].astype(np.int64),
+        q=table["q"].astype(np.int64),
+        shape={name: table[name].copy() for name in family_of(profile).shape},
+        control=control_of(table["control"][0]),
         path=course if isinstance(course, Loop) else None,
-        criterion=str(value_of(table[0, _COLUMN["criterion"]], definitions, "criterion")),
-        **{name: table[:, _COLUMN[name]].copy() for name in NUMBERS},
+        criterion=str(value_of(table["criterion"][0], definitions, "criterion")),
+        **{name: table[name].copy() for name in NUMBERS},
     )
 
 
-def describe_point(row: FloatArray, definitions: Definitions) -> str:
+def describe_point(row: np.void, definitions: Definitions) -> str:
     """A canonical row in words, for messages: what matters for its profile and load."""
-    profile, course = (value_of(row[_COLUMN[name]], definitions, name) for name in ("profile", "load"))
+    profile, course = (value_of(row[name], definitions, name) for name in ("profile", "load"))
     shape = family_of(profile).shape if isinstance(profile, str) else ()
-    parts = [f"profile={profile}", *(f"{name}={row[_COLUMN[name]]:.6g}" for name in shape)]
+    parts = [f"profile={profile}", *(f"{name}={row[name]:.6g}" for name in shape)]
     if isinstance(course, Definition):
         parts.append(f"load={course}")
     else:
-        parts.append(f"frequency_ratio={row[_COLUMN['p']]:.0f}/{row[_COLUMN['q']]:.0f}")
-    criterion = value_of(row[_COLUMN["criterion"]], definitions, "criterion")
+        parts.append(f"frequency_ratio={row['p']:.0f}/{row['q']:.0f}")
+    criterion = value_of(row["criterion"], definitions, "criterion")
     if not PARAMETERS["criterion"].goes_without_saying(criterion):
         parts.append(f"criterion={criterion}")
-    control = control_of(row[_COLUMN["control"]])
-    values = {n: row[_COLUMN[n]] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
+    control = control_of(row["control"])
+    values = {n: row[n] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
     said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
     return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.points.canonical import RATIO_COLUMNS, select
+from swtstudy.mechanics.points import IntArray
+from swtstudy.points.canonical import Table
 from swtstudy.vocabulary.definition import CONTENT_BITS
+from swtstudy.vocabulary.quantities import YIELD, Request
 
 #: Rough cost of a point by its weight, before any has been timed.
 SECONDS_PER_WEIGHT = 4e-3
@@ -18,11 +19,17 @@ SECONDS_YIELD = 0.05
 COUNTING = 2.5
 
 
-def weights(table: FloatArray) -> IntArray:
+def weights(table: Table) -> IntArray:
     """Rough relative cost of points: long cycles cost more."""
-    frequencies = select(table, RATIO_COLUMNS).sum(axis=1).astype(np.int64)
+    frequencies = (table["p"] + table["q"]).astype(np.int64)
     # The cost of a loop is part of its code.
-    return frequencies + select(table, ("load",))[:, 0].astype(np.int64) // 2**CONTENT_BITS
+    return frequencies + table["load"].astype(np.int64) // 2**CONTENT_BITS
+
+
+def rough_seconds(weight: float, points: int, asked: Request) -> float:
+    """Rough computing time of points of this weight together, before any has been timed."""
+    beside = SECONDS_NONLOCAL * bool(asked.distances) + SECONDS_YIELD * (YIELD in asked.names)
+    return float(weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * asked.counts) + points * beside)
 
 
 def duration(seconds: float) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from swtstudy.points.values import values_taken
@@ -11,37 +11,31 @@ from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 
-def check_criteria(
-    given: Iterable[str],
-    fixed: Mapping[str, Any],
-    along: Mapping[str, Sequence[Any]],
-    keys: Callable[[str], str],
-    report: Report,
-) -> None:
+def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
     """Parameters that the criteria need or do not have, and profiles that they do not allow.
 
     Parameters
     ----------
     given
         Names of all parameters that are given, soundly or not.
-    fixed, along
+    good
         Sound values.
     """
 
     def values(name: str) -> Sequence[Any]:
-        return values_taken(name, fixed, along)
+        return values_taken(name, good)
 
     names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
     if not others:
         if any(values("normal_sensitivity")):
             found = f"a value with the criterion {SWT}"
-            report(keys("normal_sensitivity"), found, f"a value with {FATEMI_SOCIE} or {FINDLEY} only")
+            report.of("normal_sensitivity", found, f"a value with {FATEMI_SOCIE} or {FINDLEY} only")
         return
     criteria = f"with the criterion {', '.join(others)}"
     if "normal_sensitivity" not in names:
-        report(keys("normal_sensitivity"), "nothing", f"a number ≥ 0 {criteria}")
+        report.of("normal_sensitivity", "nothing", f"a number ≥ 0 {criteria}")
     if any(value != PARAMETERS["walker_exponent"].default for value in values("walker_exponent")):
-        report(keys("walker_exponent"), f"a value {criteria}", f"a value with {SWT} only")
+        report.of("walker_exponent", f"a value {criteria}", f"a value with {SWT} only")
     if SHARP in map(str, values("profile")):
         why = "where slip reverses at its sharp edge, the amplitude of the shear stress has no bound"
-        report(keys("profile"), f"{SHARP} {criteria}", f"another profile: {why}")
+        report.of("profile", f"{SHARP} {criteria}", f"another profile: {why}")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, RATIO_COLUMNS, canonical_number, canonical_points
+from swtstudy.points.canonical import COLUMNS, RATIO_COLUMNS, Table, canonical_number, canonical_points
 from swtstudy.points.codes import code_of, control_code
 from swtstudy.points.values import Value, read_value
 from swtstudy.vocabulary.axes import AXES
@@ -106,7 +106,7 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[Table, NDArray[np.bool_]]:
         """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
         stop = self.size if stop is None else stop
         columns = self.columns(start, stop)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, values_taken
+from swtstudy.points.values import values_taken
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -17,31 +18,25 @@ AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude
 LARGEST_LOAD = 1e9
 
 
-def check_amplitudes(
-    fixed: Mapping[str, Value],
-    axes: Mapping[str, tuple[Value, ...]],
-    keys: Callable[[str], str],
-    report: Report,
-) -> None:
+def check_amplitudes(good: Mapping[str, Sequence[Any]], report: Report) -> None:
     """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations."""
-    loads = values_taken("load", fixed, axes)
+    loads = values_taken("load", good)
     if len({isinstance(load, Definition) for load in loads}) < 2:
         return
-    given = {*fixed, *axes}
-    given |= replaced_by(given)
+    given = {*good} | replaced_by(good)
     scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
     for name in (each for each in PARAMETERS if each in scaling and each not in given):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
-        report(keys(name), "nothing", allowed)
+        report.of(name, "nothing", allowed)
 
 
-def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+def check_loops(grid: Grid, report: Report) -> None:
     """With a force and a displacement the straight sides of a loop are curved in the memory diagram.
 
     Nor does a bulk stress oscillate with a loop that has no course of it. And a normal load that stays far
     from 0 is the load itself, where its deviation from the mean is asked for.
     """
-    _check_bulk_stress(grid, keys, report)
+    _check_bulk_stress(grid, report)
     if not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
     from swtstudy.mechanics.load.loop import Loop
@@ -53,15 +48,15 @@ def check_loops(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
             found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
             allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
             allowed += " (absolute = true, LoadPath.absolute)"
-            report(keys("load"), found, allowed)
+            report.of("load", found, allowed)
     moving = [load for load in loops if grid.control.mixed and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
-        report(keys("load"), found, "two displacements or two forces")
+        report.of("load", found, "two displacements or two forces")
 
 
-def check_sizes(grid: Grid, given: Collection[str], keys: Callable[[str], str], report: Report) -> None:
+def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
     from swtstudy.mechanics.load.loop import Loop
 
@@ -71,12 +66,10 @@ def check_sizes(grid: Grid, given: Collection[str], keys: Callable[[str], str], 
         allowed = (
             f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{load.mean_normal:g} or the like"
         )
-        report(keys("load"), found, allowed)
+        report.of("load", found, allowed)
 
 
-def check_largest(
-    grid: Grid, amplitudes: Mapping[str, float], keys: Callable[[str], str], report: Report
-) -> None:
+def check_largest(grid: Grid, amplitudes: Mapping[str, float], report: Report) -> None:
     """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
     from swtstudy.mechanics.load.loop import Loop
 
@@ -90,14 +83,14 @@ def check_largest(
                 found = (
                     f"{literal(load.name)} with a {name.rpartition('_')[0].replace('_', ' ')} of {size:.3g}"
                 )
-                report(keys("load"), found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
+                report.of("load", found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
 
 
-def _check_bulk_stress(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+def _check_bulk_stress(grid: Grid, report: Report) -> None:
     name = "bulk_stress_amplitude"
     loops = [load for load in grid.values("load") if isinstance(load, Definition)]
     oscillating = [value for value in grid.values(name) if value != 0.0]
     if loops and oscillating and not any(name in load.scaled_by for load in loops):
         found = f"{literal(oscillating[0])} with a loop of two columns, {literal(loops[0].name)}"
         allowed = "0, or a loop with the bulk stress as its third column; bulk_stress_mean goes with all"
-        report(keys(name), found, allowed)
+        report.of(name, found, allowed)

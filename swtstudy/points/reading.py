@@ -21,7 +21,7 @@ from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.axes import QUANTITY_AXES
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS
@@ -55,12 +55,12 @@ class Range:
 def read_grid(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
-    keys: Callable[[str], str] = lambda name: name,
+    keys: Callable[[str], str] = str,
     source: str = "",
     others: Sequence[str] = (),
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
-) -> tuple[Grid | None, list[Mistake]]:
+) -> tuple[Grid | None, Report]:
     """The grid spanned by fixed values and axes.
 
     Parameters
@@ -86,35 +86,29 @@ def read_grid(
     mistakes
         All that was found wrong.
     """
-    mistakes: list[Mistake] = []
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed, source))
-
-    samples = samples or {}
-    good_fixed, good_axes = read_values(fixed, axes, keys, report, others, samples, known)
+    report, samples = Report(source, keys), samples or {}
+    good_fixed, good_axes = read_values(fixed, axes, report, others, samples, known)
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    along = good_axes | good_samples
-    check_amplitudes(good_fixed, along, keys, report)
-    check_shapes_given(fixed, {**axes, **samples}, good_fixed, along, keys, report)
-    check_forces((*fixed, *axes, *samples), good_fixed, along, keys, report)
-    check_criteria((*fixed, *axes, *samples), good_fixed, along, keys, report)
-    if mistakes or len(good_samples) < len(samples):
-        return None, mistakes
+    good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
+    check_amplitudes(good, report)
+    check_shapes_given(fixed, {**axes, **samples}, good, report)
+    check_forces((*fixed, *axes, *samples), good, report)
+    check_criteria((*fixed, *axes, *samples), good, report)
+    if report or len(good_samples) < len(samples):
+        return None, report
     grid = complete(good_fixed, good_axes, good_samples)
-    check_sizes(grid, (*fixed, *axes, *samples), keys, report)
-    check_loops(grid, keys, report)
+    check_sizes(grid, (*fixed, *axes, *samples), report)
+    check_loops(grid, report)
     given = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
     largest = {name: max(map(as_number, values), default=0.0) for name, values in given.items()}
-    check_largest(grid, largest, keys, report)
-    check_shapes(grid, keys, report)
-    return (None if mistakes else grid), mistakes
+    check_largest(grid, largest, report)
+    check_shapes(grid, report)
+    return (None if report else grid), report
 
 
 def read_values(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
-    keys: Callable[[str], str],
     report: Report,
     others: Sequence[str] = (),
     samples: Mapping[str, object] = MappingProxyType({}),
@@ -126,26 +120,26 @@ def read_values(
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
         if name not in rows and name not in others:
-            report(keys(name), f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
+            report.of(name, f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
     for one, other, words in (
         (fixed, axes, "both a fixed value and an axis"),
         (fixed, samples, "both a fixed value and sampled"),
         (axes, samples, "both an axis and sampled"),
     ):
         for name in sorted(one.keys() & other.keys()):
-            report(keys(name), words, "one of the two")
+            report.of(name, words, "one of the two")
     for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
         if name in rows and rows[name].units == "rad":
-            _warn_of_degrees(keys(name), raw)
+            _warn_of_degrees(report.key(name), raw)
     for name, single in fixed.items():
-        value = _read(rows[name], single, keys(name), report, known) if name in rows else None
+        value = _read(rows[name], single, report.key(name), report, known) if name in rows else None
         if value is not None:
             good_fixed[name] = value
-    for name, raw in () if _too_many(axes, keys, report, rows) else axes.items():
+    for name, raw in () if _too_many(axes, report, rows) else axes.items():
         if name in rows and raw is not None:
-            good_axes[name] = _read_axis(rows[name], raw, keys(name), report, known)
-    for key, found, allowed in given_twice((*fixed, *axes, *samples), keys):
-        report(key, found, allowed)
+            good_axes[name] = _read_axis(rows[name], raw, report.key(name), report, known)
+    for twice in given_twice((*fixed, *axes, *samples)):
+        report.of(*twice)
     return good_fixed, good_axes
 
 
@@ -166,10 +160,7 @@ def _warn_of_degrees(key: str, raw: object) -> None:
 
 
 def _too_many(
-    axes: Mapping[str, Sequence[object] | Range | None],
-    keys: Callable[[str], str],
-    report: Report,
-    rows: Mapping[str, Parameter],
+    axes: Mapping[str, Sequence[object] | Range | None], report: Report, rows: Mapping[str, Parameter]
 ) -> bool:
     """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [
@@ -180,33 +171,30 @@ def _too_many(
     if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
         return False
     found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
-    report(", ".join(map(keys, axes)), found, f"at most {LONGEST_AXIS} values along all axes")
+    report.of(axes, found, f"at most {LONGEST_AXIS} values along all axes")
     return True
 
 
 def read_distances(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
-    keys: Callable[[str], str],
     report: Report,
     row: Parameter = QUANTITY_AXES[DISTANCE],
 ) -> tuple[tuple[float, ...], bool]:
     """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
-    key, raw = keys(DISTANCE), axes.get(DISTANCE)
+    key, raw = report.key(DISTANCE), axes.get(DISTANCE)
     if raw is not None:
         return tuple(map(as_number, _read_axis(row, raw, key, report, NOTHING_KNOWN))), True
     single = _read(row, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
     return (() if single is None else (as_number(single),)), False
 
 
-def given_twice(
-    names: Iterable[str], keys: Callable[[str], str] = lambda name: name
-) -> Iterator[tuple[str, str, str]]:
-    """Key, what was found and what is allowed of each pair of parameters of which one is to be given."""
+def given_twice(names: Iterable[str]) -> Iterator[tuple[tuple[str, str], str, str]]:
+    """Names, what was found and what is allowed of each pair of parameters of which one is to be given."""
     given = {*names}
     for name, other in PAIRS.items():
         if {name, other} <= given:
-            yield f"{keys(other)}, {keys(name)}", "both", "one of the two: it says what is prescribed"
+            yield (other, name), "both", "one of the two: it says what is prescribed"
 
 
 def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -> Value | None:

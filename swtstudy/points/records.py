@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray, Solution
-from swtstudy.points.canonical import COLUMNS, group_rows
-from swtstudy.points.result import Result
+from swtstudy.mechanics.rows import Rows
+from swtstudy.points.canonical import ROW, Table, group_rows
 from swtstudy.vocabulary.quantities import columns_of
 
 #: States of a point, in the order of their flag values.
@@ -60,78 +60,67 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Records:
-    """Results of n canonical points.
+class Records(Rows):
+    """Results of n canonical points; of those that are taken all runs are kept.
 
     Attributes
     ----------
     table
-        Canonical rows, shape (n, len(COLUMNS)).
+        Canonical rows, shape (n,).
     solution
         Their solutions, arrays of shape (n,).
     status
         Index into `STATES`, shape (n,).
     run
         Index into `runs`, -1 where missing, shape (n,).
+    message
+        Why a point failed, empty for others, shape (n,).
     runs
         The runs that made them.
-    messages
-        Why a point failed, by its index.
     quantities
         What some of the points have beside s, by `swtstudy.vocabulary.quantities.columns_of`, each of shape
         (n,); a point's run says whether it is known.
     """
 
-    table: FloatArray
+    table: Table
     solution: Solution
     status: NDArray[np.int8]
     run: NDArray[np.int32]
+    message: NDArray[np.object_]
     runs: tuple[Run, ...] = ()
-    messages: dict[int, str] = field(default_factory=dict)
     quantities: dict[str, FloatArray] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.table)
 
     @classmethod
-    def missing(cls, table: FloatArray) -> Records:
+    def missing(cls, table: Table) -> Records:
         """Records of points that are all missing."""
-        n = len(table)
-        return cls(table, Solution.blank(n), np.full(n, MISSING, np.int8), np.full(n, -1, np.int32))
+        return cls.of(table, Solution.blank(len(table)), MISSING)
 
     @classmethod
-    def of(cls, result: Result, table: FloatArray, run: Run) -> Records:
-        """Records of one result, whose canonical rows are `table`."""
-        run = replace(run, seconds=result.seconds, quantities=tuple(sorted(result.items)))
-        status = np.where(result.failed, FAILED, COMPUTED).astype(np.int8)
-        number = np.zeros(len(table), np.int32)
-        return cls(table, result.solution, status, number, (run,), result.messages, result.quantities)
+    def of(cls, table: Table, solution: Solution, status: int, message: str = "") -> Records:
+        """Records of points that are all in one state; they have no run yet."""
+        n = len(table)
+        state, run = np.full(n, status, np.int8), np.full(n, -1, np.int32)
+        return cls(table, solution, state, run, np.full(n, message, object))
 
-    def extended(self, result: Result) -> Records:
-        """These records with more quantities, from a result for exactly them."""
-        share = result.seconds / len(self)
+    @property
+    def seconds(self) -> float:
+        """Computing time of all runs, in seconds."""
+        return sum(run.seconds for run in self.runs)
+
+    def extended(self, more: Records) -> Records:
+        """These records with more quantities, known from one run of exactly them."""
+        share, items = more.seconds / len(self), made_by(more.runs)
         counts = np.bincount(self.run, minlength=len(self.runs))
         runs = tuple(
-            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *result.items})))
+            replace(run, seconds=share * count, quantities=tuple(sorted({*run.quantities, *items})))
             for run, count in zip(self.runs, counts.tolist(), strict=True)
         )
-        status = np.where(result.failed, FAILED, self.status).astype(np.int8)
-        known = self.quantities | result.quantities
-        return replace(self, status=status, runs=runs, messages=result.messages, quantities=known)
-
-    def take(self, rows: NDArray) -> Records:
-        """The records at the given indices; all runs are kept."""
-        rows = np.flatnonzero(rows) if rows.dtype == bool else rows
-        messages = {i: self.messages[j] for i, j in enumerate(rows.tolist()) if j in self.messages}
-        return Records(
-            self.table[rows],
-            self.solution.take(rows),
-            self.status[rows],
-            self.run[rows],
-            self.runs,
-            messages,
-            {name: values[rows] for name, values in self.quantities.items()},
-        )
+        status = np.where(more.status == FAILED, more.status, self.status)
+        known = self.quantities | more.quantities
+        return replace(self, status=status, message=more.message, runs=runs, quantities=known)
 
     def fill(self, rows: IntArray, part: Records) -> Records:
         """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
@@ -143,7 +132,7 @@ class Records:
             values[rows] = part.quantities.get(name, np.nan)
         self.status[rows] = part.status
         self.run[rows] = index[part.run]
-        self.messages.update({int(rows[i]): message for i, message in part.messages.items()})
+        self.message[rows] = part.message
         return replace(self, runs=runs)
 
     def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
@@ -214,24 +203,14 @@ def join(parts: Iterable[Records]) -> Records:
     """Records concatenated; equal runs become one, with their computing times added."""
     parts = list(parts)
     if not parts:
-        return Records.missing(np.empty((0, len(COLUMNS))))
+        return Records.missing(np.empty(0, ROW))
     runs: tuple[Run, ...] = ()
-    run, messages, start = [], {}, 0
-    names = {name: None for part in parts for name in part.quantities}
+    names, alike = dict.fromkeys(name for part in parts for name in part.quantities), []
     for part in parts:
         runs, index = _with_runs(runs, part.runs)
-        run.append(index[part.run])
-        messages.update({start + i: message for i, message in part.messages.items()})
-        start += len(part)
-    return Records(
-        np.concatenate([part.table for part in parts]),
-        Solution.joined([part.solution for part in parts]),
-        np.concatenate([part.status for part in parts]),
-        np.concatenate(run),
-        runs,
-        messages,
-        {name: np.concatenate([part.quantity(name) for part in parts]) for name in names},
-    )
+        quantities = {name: part.quantity(name) for name in names}
+        alike.append(replace(part, run=index[part.run], quantities=quantities))
+    return replace(Records.joined(alike), runs=runs)
 
 
 def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run, ...], NDArray[np.int32]]:
@@ -250,7 +229,7 @@ def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run,
     return tuple(every), np.array([*indices, -1], np.int32)
 
 
-def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
+def look_up(table: Table, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
     """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
     Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
@@ -269,7 +248,7 @@ def look_up(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) 
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
 
 
-def matching(table: FloatArray, records: Records, candidates: NDArray[np.bool_]) -> Records:
+def matching(table: Table, records: Records, candidates: NDArray[np.bool_]) -> Records:
     """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
     found = look_up(table, records, candidates)
     return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

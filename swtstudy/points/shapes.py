@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import as_number, values_taken
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import families_with, family_of
 from swtstudy.vocabulary.mistakes import Report, literal
@@ -28,34 +28,28 @@ _SLAB, _TOGETHER = 500_000, 5_000
 
 def check_shapes_given(
     fixed: Mapping[str, object],
-    axes: Mapping[str, object],
-    good_fixed: Mapping[str, Value],
-    good_axes: Mapping[str, tuple[Value, ...]],
-    keys: Callable[[str], str],
+    along: Mapping[str, object],
+    good: Mapping[str, Sequence[Any]],
     report: Report,
     rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> None:
     """Every profile needs its shape parameters; one that no profile has would change nothing."""
-    if "profile" in good_fixed:
-        profiles, sound = [str(good_fixed["profile"])], True
-    elif "profile" in fixed or "profile" in axes:
-        profiles, raw = [str(profile) for profile in good_axes.get("profile", ())], axes.get("profile")
-        # A profile that could not be read may be the one that has the others.
-        sound = isinstance(raw, Sequence) and len(profiles) == len(raw) > 0
-        profiles = list(dict.fromkeys(profiles))
-    else:
-        profiles, sound = [str(PARAMETERS["profile"].default)], True
+    given, read = {*fixed, *along}, good.get("profile", ())
+    profiles = list(dict.fromkeys(map(str, read if "profile" in given else values_taken("profile", {}))))
+    # A profile that could not be read may be the one that has the others.
+    raw = along.get("profile", read)
+    sound = isinstance(raw, Sequence) and len(raw) == len(read) and bool(profiles)
     needed = shapes_needed(profiles)
     for name in needed:
-        if name not in fixed and name not in axes:
+        if name not in given:
             owners = ", ".join(profile for profile in profiles if name in family_of(profile).shape)
-            report(keys(name), "nothing", f"{rows[name].allowed} ({owners} needs it)")
+            report.of(name, "nothing", f"{rows[name].allowed} ({owners} needs it)")
     for name in SHAPE_COLUMNS:
-        if name in needed or not sound or not (name in fixed or name in axes):
+        if name in needed or not sound or name not in given:
             continue
         found = literal(fixed[name]) if name in fixed else "an axis"
         allowed = f"only with the profile {' or '.join(families_with(name))}"
-        report(keys(name), f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
+        report.of(name, f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
 
 
 def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
@@ -63,11 +57,11 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
     return tuple(n for n in SHAPE_COLUMNS if any(n in family_of(p).shape for p in profiles))
 
 
-def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None:
+def check_shapes(grid: Grid, report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
     for profile in dict.fromkeys(grid.values("profile")):
         if isinstance(profile, Definition):
-            _check_table(grid, profile, keys, report)
+            _check_table(grid, profile, report)
             continue
         profile = str(profile)
         names = family_of(profile).shape
@@ -76,7 +70,7 @@ def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None
         shapes = _shapes_of(grid, profile)
         if shapes.size > MOST_SHAPES:
             found = f"{shapes.size} shapes of the {profile}"
-            report(", ".join(map(keys, names)), found, f"at most {MOST_SHAPES}")
+            report.of(names, found, f"at most {MOST_SHAPES}")
             continue
         refused, first = _refused(grid, profile, shapes)
         if first is not None:
@@ -85,17 +79,17 @@ def check_shapes(grid: Grid, keys: Callable[[str], str], report: Report) -> None
             shape, depth = first
             found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
             more = f"; {refused - 1} more like it" if refused > 1 else ""
-            report(", ".join(map(keys, names)), found + more, check_shape(profile, shape, depth) or "")
+            report.of(names, found + more, check_shape(profile, shape, depth) or "")
 
 
-def _check_table(grid: Grid, profile: Any, keys: Callable[[str], str], report: Report) -> None:
+def _check_table(grid: Grid, profile: Any, report: Report) -> None:
     """A profile that the user has defined, up to the largest depth."""
     from swtstudy.mechanics.indenter import check_shape
 
     depth = largest_depths(grid, profile, {}, 1.0 + np.maximum(np.array([_largest_course(grid)]), 0.0))
     wrong = check_shape(profile, {}, depth.item())
     if wrong is not None:
-        report(keys("profile"), str(profile), wrong)
+        report.of("profile", str(profile), wrong)
 
 
 def _largest_course(grid: Grid) -> float:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.points.canonical import COLUMNS, LOAD_COLUMNS, group_rows, select
+from swtstudy.mechanics.points import IntArray
+from swtstudy.points.canonical import LOAD_COLUMNS, ROW, Table, group_rows
 from swtstudy.points.codes import Definitions
 from swtstudy.points.grid import Grid
 
@@ -26,7 +26,7 @@ class UniquePoints:
     Attributes
     ----------
     table
-        Shape (m, len(COLUMNS)), sorted by profile and frequency ratio, then by load.
+        Shape (m,) of `ROW`, sorted by profile and frequency ratio, then by load.
     index
         Shape (grid.size,): row of `table` for every grid point.
     mirrored
@@ -35,7 +35,7 @@ class UniquePoints:
         What the user has defined, by its code.
     """
 
-    table: FloatArray
+    table: Table
     index: IntArray
     mirrored: NDArray[np.bool_]
     definitions: Definitions
@@ -52,7 +52,7 @@ def unique_points(grid: Grid) -> UniquePoints:
     if grid.size > LARGEST_GRID:
         found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
         raise ValueError(f"{found}; swtstudy audit samples them")
-    rows = np.empty((grid.size, len(COLUMNS)))
+    rows = np.empty(grid.size, ROW)
     mirrored = np.empty(grid.size, bool)
     # In slabs: the working memory for a point is several times that of its row.
     for start in range(0, grid.size, _SLAB):
@@ -62,6 +62,6 @@ def unique_points(grid: Grid) -> UniquePoints:
     return UniquePoints(rows[first], index, mirrored, grid.definitions)
 
 
-def loads(table: FloatArray) -> int:
+def loads(table: Table) -> int:
     """Number of distinct loads, each of which needs one contact solution."""
-    return len(group_rows(select(table, LOAD_COLUMNS))[0])
+    return len(group_rows(table[[*LOAD_COLUMNS]])[0])

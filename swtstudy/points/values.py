@@ -30,9 +30,9 @@ NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind
 _FRACTION_TOLERANCE = 1e-9
 
 
-def values_taken(name: str, fixed: Mapping[str, Any], along: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
-    """The values that a parameter has in a study: along its axis, or fixed, or its default."""
-    return along.get(name, (fixed.get(name, PARAMETERS[name].default),))
+def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
+    """The values that a parameter has in a study: those that are given, or its default."""
+    return good.get(name, (PARAMETERS[name].default,))
 
 
 def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:

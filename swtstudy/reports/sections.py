@@ -152,7 +152,7 @@ def _values(name: str, values: xr.DataArray) -> str:
 
 def _materials(dataset: xr.Dataset) -> Iterator[str]:
     if has_units(dataset):
-        given, _ = read_contact(dataset.attrs[CONTACT])
+        given = read_contact(dataset.attrs[CONTACT])
         for title, several in (
             ("Strain-life constants", given.materials),
             ("Strain-life constants in torsion", given.shear_materials),

@@ -19,7 +19,15 @@ from swtstudy.study.sampling.points_file import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.axes import DIRECTIONS
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import (
+    Mistake,
+    Report,
+    StudyError,
+    is_number,
+    literal,
+    nearest,
+    plain_number,
+)
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
@@ -243,19 +251,18 @@ def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[P
     """The tests as a sample of the study's contacts, and the lives that were observed, shape (n,)."""
     columns = _columns(tests)
     lives = [plain_number(value) for value in columns.pop(LIFE, ())]
-    mistakes = []
+    report = Report()
     if not lives:
         found = f"the columns {', '.join(columns)}"
-        mistakes.append(Mistake("tests", found, f"a column {LIFE}, the rounds to a crack"))
+        report("tests", found, f"a column {LIFE}, the rounds to a crack")
     if not all(0.0 < life < math.inf for life in lives):
         wrong = next(k for k, life in enumerate(lives) if not 0.0 < life < math.inf)
-        mistakes.append(Mistake("tests", f"{LIFE} {lives[wrong]:g} of test {wrong + 1}", "positive numbers"))
+        report("tests", f"{LIFE} {lives[wrong]:g} of test {wrong + 1}", "positive numbers")
     if 0 < len(lives) <= parameters:
-        mistakes.append(Mistake("tests", f"{len(lives)} tests", f"{parameters + 1} at least"))
+        report("tests", f"{len(lives)} tests", f"{parameters + 1} at least")
     if not columns:
-        mistakes.append(Mistake("tests", f"the column {LIFE} alone", "parameters that vary, besides"))
-    if mistakes:
-        raise StudyError(mistakes)
+        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
+    report.refuse()
     path = Path(study)
     raw = tables_of(path)
     kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
@@ -278,12 +285,8 @@ def _columns(tests: object) -> dict[str, list[Any]]:
         return {str(name): list(values) for name, values in tests.items()}
     if not isinstance(tests, str | PathLike):
         raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])
-    mistakes: list[Mistake] = []
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake("tests", found, allowed))
-
+    report = Report()
     found = read_points(Path(tests), report)
     if found is None:
-        raise StudyError(mistakes)
+        raise StudyError(replace(mistake, key="tests") for mistake in report)
     return found

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.quantity import quantity
 from swtstudy.vocabulary.axes import AXES
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
 from swtstudy.vocabulary.wording import value_words
 
 if TYPE_CHECKING:
@@ -68,11 +68,10 @@ def sensitivity(
     names, size = _design(dataset)
     quantities = [y] if isinstance(y, str) else list(y)
     values = [quantity(dataset, each) for each in quantities]
-    mistakes = [
-        m for name, each in zip(quantities, values, strict=True) for m in _mistakes(name, each, dataset)
-    ]
-    if mistakes:
-        raise StudyError(mistakes)
+    report = Report()
+    for name, each in zip(quantities, values, strict=True):
+        _check(name, each, dataset, report)
+    report.refuse()
     parts = []
     for each in values:
         axes = [str(dim) for dim in each.dims if dim != SAMPLE]
@@ -130,15 +129,14 @@ def _design(dataset: xr.Dataset) -> tuple[list[str], int]:
     raise StudyError([Mistake("sample", found, "all points of a saltelli design, as they were computed")])
 
 
-def _mistakes(name: str, values: xr.DataArray, dataset: xr.Dataset) -> list[Mistake]:
-    """Say why a quantity cannot be analysed: it is no number, or not known everywhere."""
+def _check(name: str, values: xr.DataArray, dataset: xr.Dataset, report: Report) -> None:
+    """Report why a quantity cannot be analysed: it is no number, or not known everywhere."""
     if SAMPLE not in values.dims or "flag_values" in values.attrs or values.dtype.kind not in "fiu":
-        return [
-            Mistake("y", f"{literal(name)}, which is no number over the sample", "a quantity such as 's'")
-        ]
+        report("y", f"{literal(name)}, which is no number over the sample", "a quantity such as 's'")
+        return
     wrong = np.argwhere(~np.isfinite(values.values))
     if not len(wrong):
-        return []
+        return
     place = values.isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
     varying = [*str(dataset[SAMPLE].attrs["parameters"]).split(), *(d for d in values.dims if d != SAMPLE)]
     where = ", ".join(f"{name}={value_words(str(name), place[name].item())}" for name in varying)
@@ -147,7 +145,7 @@ def _mistakes(name: str, values: xr.DataArray, dataset: xr.Dataset) -> list[Mist
     regime = dataset["regime"].isel(at, missing_dims="ignore")
     state = dataset["regime"].attrs["flag_meanings"].split()[int(regime)].replace("_", " ")
     found = f"no number at {len(wrong)} of {values.size} points, such as {where} ({state})"
-    return [Mistake(name, found, "a number at every point: other ranges, or another quantity")]
+    report(name, found, "a number at every point: other ranges, or another quantity")
 
 
 def _indices(rows: NDArray[Any], confidence: float, seed: int) -> NDArray[Any]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, FloatArray, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, IntArray, Points, Solution
+from swtstudy.points.canonical import Table, points_from
 from swtstudy.points.codes import Definitions
-from swtstudy.points.result import Result
+from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
 from swtstudy.points.unique import UniquePoints
 from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
@@ -61,7 +62,7 @@ class Chunk:
     rows
         Shape (n,): indices of the points in the table of the run.
     table
-        Their canonical rows, shape (n, len(COLUMNS)).
+        Their canonical rows, shape (n,).
     lengths
         Number of points in each block, adding up to n.
     definitions
@@ -71,7 +72,7 @@ class Chunk:
     """
 
     rows: IntArray
-    table: FloatArray
+    table: Table
     lengths: tuple[int, ...]
     definitions: Definitions
     asked: Asked = ONLY_S
@@ -102,44 +103,16 @@ class Chunk:
             start += length
 
 
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Result:
+def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Records:
     """Solve a chunk, even if single points of it fail; runs in a worker."""
-    from swtstudy.vocabulary.version import SOLVER_VERSION
-
     begin = time.perf_counter()
-    parts = _isolated(chunk, rtol, solver)
-    solutions, quantities, words = zip(*parts, strict=True)
-    starts = np.cumsum([0, *(len(solution.s) for solution in solutions)]).tolist()
-    messages = {start: message for start, message in zip(starts, words, strict=False) if message}
-    failed = np.zeros(len(chunk), bool)
-    failed[list(messages)] = True
-    items = chunk.asked.quantities
-    values = {name: np.concatenate([part[name] for part in quantities]) for name in columns_of(items)}
-    seconds = time.perf_counter() - begin
-    solution = Solution.joined(solutions)
-    return Result(chunk.rows, solution, failed, messages, seconds, SOLVER_VERSION, items, values)
+    found = join(_isolated(chunk, rtol, solver))
+    return _of_run(chunk, found, rtol, time.perf_counter() - begin)
 
 
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[tuple[Solution, dict[str, FloatArray], str]]:
-    """Solutions and quantities of the points, in order; a point that fails is isolated, with its message."""
-    if len(chunk.lengths) == 1:
-        try:
-            return [(*_checked(chunk, rtol, solver), "")]
-        except Exception as error:
-            if len(chunk) == 1:
-                return [(*_nothing(chunk), f"{type(error).__name__}: {error}")]
-    return [found for part in chunk.split() for found in _isolated(part, rtol, solver)]
-
-
-def given_up(chunk: Chunk, message: str) -> Result:
-    """The result of a chunk that could not be completed: every point failed."""
-    from swtstudy.vocabulary.version import SOLVER_VERSION
-
-    size = len(chunk)
-    messages = dict.fromkeys(range(size), message)
-    solution, values = _nothing(chunk)
-    items = chunk.asked.quantities
-    return Result(chunk.rows, solution, np.ones(size, bool), messages, 0.0, SOLVER_VERSION, items, values)
+def given_up(chunk: Chunk, rtol: float, message: str) -> Records:
+    """The records of a chunk that could not be completed: every point failed."""
+    return _of_run(chunk, _failed(chunk, message), rtol, 0.0)
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
@@ -149,22 +122,43 @@ def solve_points(points: Points, rtol: float) -> Solution:
     return mechanics.solve_points(points, rtol)
 
 
-def _nothing(chunk: Chunk) -> tuple[Solution, dict[str, FloatArray]]:
-    """Return the results of a chunk whose points failed: NaN in every column."""
-    values = {name: np.full(len(chunk), np.nan) for name in columns_of(chunk.asked.quantities)}
-    return Solution.blank(len(chunk)), values
+def _of_run(chunk: Chunk, records: Records, rtol: float, seconds: float) -> Records:
+    """Records of a chunk with what the worker knows of the run."""
+    from swtstudy.vocabulary.version import SOLVER_VERSION
+
+    items = tuple(sorted(chunk.asked.quantities))
+    run = Run(SOLVER_VERSION, rtol, "", "", seconds=seconds, quantities=items)
+    return replace(records, run=np.zeros(len(chunk), np.int32), runs=(run,))
 
 
-def _checked(chunk: Chunk, rtol: float, solver: Solver) -> tuple[Solution, dict[str, FloatArray]]:
-    from swtstudy.points.canonical import points_from
+def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[Records]:
+    """Records of the points, in order; a point that fails is isolated, with its message."""
+    if len(chunk.lengths) == 1:
+        try:
+            return [_checked(chunk, rtol, solver)]
+        except Exception as error:
+            if len(chunk) == 1:
+                return [_failed(chunk, f"{type(error).__name__}: {error}")]
+    return [found for part in chunk.split() for found in _isolated(part, rtol, solver)]
 
+
+def _failed(chunk: Chunk, message: str) -> Records:
+    """Return records of points that failed: NaN in every column."""
+    found = Records.of(chunk.table, Solution.blank(len(chunk)), FAILED, message)
+    return replace(
+        found, quantities={name: found.quantity(name) for name in columns_of(chunk.asked.quantities)}
+    )
+
+
+def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
     points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
     solution = solver(points, rtol) if asked.known is None else asked.known
     lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")
+    found = Records.of(chunk.table, solution, COMPUTED)
     if not asked.quantities:
-        return solution, {}
+        return found
     from swtstudy.mechanics.quantities import quantities_of
 
-    return solution, quantities_of(points, asked.quantities, solution)
+    return replace(found, quantities=quantities_of(points, asked.quantities, solution))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from swtstudy.mechanics.points import IntArray
 from swtstudy.points.cost import weights
 from swtstudy.points.records import MISSING, Records, Run
-from swtstudy.points.result import Result
 from swtstudy.runner.engine import WorkerError
 from swtstudy.runner.pace import Pace
 from swtstudy.runner.progress import ProgressBar
@@ -47,8 +48,8 @@ class Collector:
     def __exit__(self, *_: object) -> None:
         self._bar.close()
 
-    def add(self, result: Result) -> None:
-        """Save a result and fill it in.
+    def add(self, rows: IntArray, found: Records) -> None:
+        """Save what was found of the points in some rows, and fill it in.
 
         Raises
         ------
@@ -57,15 +58,17 @@ class Collector:
         OSError
             If it cannot be saved.
         """
-        if result.solver_version != SOLVER_VERSION:
-            found = f"a worker has version {result.solver_version} of the solver"
-            raise WorkerError(f"{found}, this machine {SOLVER_VERSION}")
-        there = self.records.take(result.rows)
+        (own,) = found.runs
+        if own.solver_version != SOLVER_VERSION:
+            words = f"a worker has version {own.solver_version} of the solver"
+            raise WorkerError(f"{words}, this machine {SOLVER_VERSION}")
+        there = self.records.take(rows)
         if (there.status == MISSING).all():
-            part = Records.of(result, there.table, self._run)
+            run = replace(self._run, seconds=own.seconds, quantities=own.quantities)
+            part = replace(found, runs=(run,))
         else:
-            part = there.trimmed().extended(result)
+            part = there.trimmed().extended(found)
         self._writer.add(part)
-        self.records = self.records.fill(result.rows, part)
-        self.pace.update(result, int(self._weights[result.rows].sum()))
-        self._bar.add(len(result))
+        self.records = self.records.fill(rows, part)
+        self.pace.update(own.seconds, int(self._weights[rows].sum()))
+        self._bar.add(len(rows))

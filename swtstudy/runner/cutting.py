@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import IntArray
 from swtstudy.points.blocks import block_ends
+from swtstudy.points.canonical import Table
 from swtstudy.points.cost import weights
 from swtstudy.points.unique import UniquePoints
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk
@@ -45,7 +46,7 @@ def chunks(
         yield Chunk.of(points, blocks, asked)
 
 
-def _long_cycles_first(table: FloatArray, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
+def _long_cycles_first(table: Table, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
     """The wanted rows of each block that has some, long cycles first, and of these the largest blocks.
 
     So the last blocks let no worker wait, nor do the first ones, which are solved beside one another.

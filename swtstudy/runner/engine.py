@@ -8,11 +8,12 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
-from swtstudy.points.result import Result
+from swtstudy.mechanics.points import IntArray
+from swtstudy.points.records import Records
 from swtstudy.runner.chunk import Chunk, Solver, given_up, solve_chunk
 
 #: Receives every result as soon as it arrives.
-Deliver = Callable[[Result], None]
+Deliver = Callable[[IntArray, Records], None]
 
 #: Chunks per worker in the successive waves of tasks that dask receives; the last number holds for all later
 #: waves. Each wave ends with idle workers; the first ones are short, so that later chunks are cut by their
@@ -72,7 +73,7 @@ def solve(
     """
     if pool is None:
         for chunk in chunks:
-            deliver(solve_chunk(chunk, rtol, solver))
+            deliver(chunk.rows, solve_chunk(chunk, rtol, solver))
         return
     waves = _Waves(rtol, solver, deliver, pool)
     waiting = iter(chunks)
@@ -103,7 +104,7 @@ class _Waves:
         if not lost:
             return
         if len(chunk) == 1:
-            self.deliver(given_up(chunk, LOST_WORKER))
+            self.deliver(chunk.rows, given_up(chunk, self.rtol, LOST_WORKER))
             return
         for part in chunk.split():
             self._alone(part)
@@ -122,8 +123,8 @@ class _Waves:
         def submitted(name: str, *_: object) -> None:
             in_flight[name] = waiting.pop(name)
 
-        def done(name: str, result: Result, *_: object) -> None:
-            self.deliver(result)
+        def done(name: str, found: Records, *_: object) -> None:
+            self.deliver(in_flight[name].rows, found)
             del in_flight[name]
 
         try:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.points.blocks import block_ends
-from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, select
+from swtstudy.points.canonical import SHARED_COLUMNS, group_rows
 from swtstudy.points.cost import weights
-from swtstudy.points.result import Result
+from swtstudy.points.records import Records
 from swtstudy.points.unique import UniquePoints
 from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 
@@ -28,7 +28,7 @@ def estimate(
     missing: NDArray[np.bool_],
     rtol: float,
     solver: Solver,
-    timed: Callable[[Result], None] = lambda result: None,
+    timed: Callable[[Records], None] = lambda found: None,
     asked: Asked = ONLY_S,
 ) -> float:
     """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
@@ -42,19 +42,18 @@ def estimate(
     rtol, solver
         As in `run`.
     timed
-        Called with the result of each block that was timed.
+        Called with the records of each block that was timed.
     asked
         What is asked of the points.
     """
     table, rows = points.table, np.flatnonzero(missing)
     if not len(rows):
         return 0.0
-    _, kind = group_rows(select(table[rows], SHARED_COLUMNS))
+    _, kind = group_rows(table[[*SHARED_COLUMNS]][rows])
     kinds, sizes = np.unique(kind, return_counts=True)
     largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
     ends, weight = block_ends(table), weights(table)
     lean, growth = _thinned(points)
-    loads = select(table, ("load",))[:, 0]
     spent, total, work = 0.0, 0.0, 0
     for index, each in enumerate(largest):
         middle = rows[kind == each][(kind == each).sum() // 2]
@@ -72,7 +71,7 @@ def estimate(
             result, seconds = _timed(lean, inside, asked, rtol, solver, share)
             spent += seconds
         timed(result)
-        total += growth.get(float(loads[middle]), 1.0) * result.seconds / len(result) * sizes[each]
+        total += growth.get(float(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
     return float(total + total / work * others)
@@ -93,7 +92,7 @@ def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[float, float]]:
 
 def _timed(
     points: UniquePoints, inside: NDArray[np.intp], asked: Asked, rtol: float, solver: Solver, share: float
-) -> tuple[Result, float]:
+) -> tuple[Records, float]:
     """The result of as many points of a block as take some share of the time, and the time of all tries."""
     count, spent = 1, 0.0
     while True:

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.points.cost import COUNTING, SECONDS_NONLOCAL, SECONDS_PER_WEIGHT, SECONDS_YIELD, weights
+from swtstudy.points.cost import rough_seconds, weights
 from swtstudy.points.records import Records, Run
 from swtstudy.runner.chunk import Solver
 from swtstudy.runner.collector import Collector
@@ -19,7 +19,7 @@ from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.quantities import YIELD, Request
+from swtstudy.vocabulary.quantities import Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
@@ -79,14 +79,8 @@ class Job:
     def seconds(self) -> float:
         """Roughly the work that is left, in seconds of one process."""
         wanted = self.work.missing | self.work.incomplete
-        seconds = weights(self.work.points.table[wanted]).sum() * SECONDS_PER_WEIGHT
-        asked = Request.of(self.work.quantities)
-        seconds *= 1.0 + COUNTING * asked.counts
-        if asked.distances:
-            seconds += wanted.sum() * SECONDS_NONLOCAL
-        if YIELD in asked.names:
-            seconds += wanted.sum() * SECONDS_YIELD
-        return float(seconds)
+        weight = weights(self.work.points.table[wanted]).sum()
+        return rough_seconds(weight, wanted.sum(), Request.of(self.work.quantities))
 
     def compute(self, workers: AbstractContextManager[Pool | None], solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes; without a pool in this process."""

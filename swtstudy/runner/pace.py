@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from swtstudy.points.cost import SECONDS_PER_WEIGHT
-from swtstudy.points.result import Result
 
 #: Seconds of work in a chunk: long compared with the cost of sending one, short enough to lose.
 CHUNK_SECONDS = 0.7
@@ -25,9 +24,9 @@ class Pace:
         self.seconds_per_weight = SECONDS_PER_WEIGHT / _FIRST_FRACTION
         self._first = True
 
-    def update(self, result: Result, weight: int) -> None:
-        """Take the timing of one more result into account."""
-        timed = max(result.seconds, _CLOCK_TICK) / weight
+    def update(self, seconds: float, weight: int) -> None:
+        """Take the timing of one more chunk into account."""
+        timed = max(seconds, _CLOCK_TICK) / weight
         self.seconds_per_weight = timed if self._first else (self.seconds_per_weight + timed) / 2
         self._first = False
 

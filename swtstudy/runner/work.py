@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.points.canonical import group_rows
+from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.columns import wanted
 from swtstudy.points.records import MISSING, Records, look_up, matching
 from swtstudy.points.unique import UniquePoints, unique_points
@@ -93,7 +92,7 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     return Work(points, records, items, of, dropped, outdated, coarse)
 
 
-def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
+def _dropped(table: Table, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
     """Known records of points that are not in a table, or of more quantities than are asked.
 
     The time of a run counts where it is used.
@@ -102,10 +101,12 @@ def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple
     elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0
     more = [not {*run.quantities} <= {*quantities} for run in known.runs]
     elsewhere |= np.array([*more, False])[known.run]
-    rows = np.flatnonzero(elsewhere & (known.status != MISSING))
+    elsewhere &= known.status != MISSING
+    dropped = known.take(elsewhere)
     # A kill may have left a record in two places.
-    first, _ = group_rows(np.column_stack([known.table[rows], known.run[rows]]))
-    dropped = known.take(rows[first]).trimmed()
+    _, group = group_rows(dropped.table)
+    _, first = np.unique(group * len(known.runs) + dropped.run, return_index=True)
+    dropped = dropped.take(first).trimmed()
     counted = used.trimmed().runs
     same = [replace(run, quantities=()) for run in counted]
     runs = tuple(
@@ -114,7 +115,7 @@ def _dropped(table: FloatArray, known: Records, used: Records, quantities: tuple
     return replace(dropped, runs=runs)
 
 
-def _unusable(table: FloatArray, known: Records, rtol: float) -> tuple[int, int]:
+def _unusable(table: Table, known: Records, rtol: float) -> tuple[int, int]:
     """Number of points known only from another version of the solver, or only with less accuracy."""
     if not len(known):
         return 0, 0

@@ -16,7 +16,7 @@ import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -59,27 +59,25 @@ def form_of(given: Mapping[str, Any]) -> Form:
     return Form(separator, decimal, dict(given.get("columns") or {}))
 
 
-def wrong_form(given: Mapping[str, Any], names: Sequence[str]) -> list[Mistake]:
-    """Return the mistakes in a form, of which there may be headers of columns of these names."""
-    mistakes = []
+def check_form(given: Mapping[str, Any], names: Sequence[str], report: Report) -> None:
+    """Report what is wrong with a form, of which there may be headers of columns of these names."""
+    before = len(report)
     for key, allowed in (("separator", SEPARATORS), ("decimal", DECIMALS)):
         if given.get(key) is not None and given[key] not in allowed:
-            words = f"one of {', '.join(map(repr, allowed))}"
-            mistakes.append(Mistake(key, literal(given[key]), words))
+            report(key, literal(given[key]), f"one of {', '.join(map(repr, allowed))}")
     headers = given.get("columns")
     if headers is not None and not (
         isinstance(headers, Mapping)
         and all(isinstance(each, str) and each.strip() for each in headers.values())
     ):
-        allowed_headers = f'a table of headers, such as {{ {names[0]} = "Fn [N]" }}'
-        return [*mistakes, Mistake("columns", literal(headers), allowed_headers)]
-    strange = [name for name in headers or () if name not in names]
-    mistakes += [Mistake(f"columns.{name}", literal(name), nearest(str(name), names, {})) for name in strange]
-    form = PLAIN if mistakes else form_of(given)
+        report("columns", literal(headers), f'a table of headers, such as {{ {names[0]} = "Fn [N]" }}')
+        return
+    for name in headers or ():
+        if name not in names:
+            report(f"columns.{name}", literal(name), nearest(str(name), names, {}))
+    form = PLAIN if len(report) > before else form_of(given)
     if form.separator == form.decimal:
-        found = f"both {form.decimal!r}"
-        mistakes.append(Mistake("separator, decimal", found, "two different signs"))
-    return mistakes
+        report("separator, decimal", f"both {form.decimal!r}", "two different signs")
 
 
 def read_columns(

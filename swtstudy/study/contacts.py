@@ -10,7 +10,7 @@ from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.quantities import every_variable
 
 if TYPE_CHECKING:
-    from swtstudy.units.reading import ContactDetails
+    from swtstudy.units.grid import ContactDetails
     from swtstudy.vocabulary.parameter import Parameter
 
 
@@ -22,10 +22,10 @@ def read_given(
         if "material" in raw and "units" not in raw:
             report("material", "constants without [units]", "with [units] only: a life needs a real contact")
         return None, None
+    from swtstudy.units.grid import ContactDetails
     from swtstudy.units.labels import Units, read_units
     from swtstudy.units.material import read_material, warn_of_units
     from swtstudy.units.moduli import Moduli
-    from swtstudy.units.reading import ContactDetails
 
     # Wrong units are reported: meanwhile others stand for them.
     units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")
@@ -38,17 +38,10 @@ def read_given(
     poisson = fixed.get("poisson_ratio")
     ratios = [_sound(each) for each in _two(poisson)]
     shear = None if known is None or poisson is None else Moduli(known, (ratios[0], ratios[1])).shear
-    materials = read_material(raw["material"], known, shear, units, folder, report)
+    given, distance = read_material(raw["material"], known, shear, units, folder, report)
     if all(sound):
-        warn_of_units(materials, (sound[0], sound[1]), units)
-    given = ContactDetails(
-        units,
-        materials.constants,
-        yield_strengths=materials.yield_strengths,
-        shear_materials=materials.shear_constants,
-        findley_limits=materials.findley_limits,
-    )
-    return given, materials.critical_distance
+        warn_of_units(given, (sound[0], sound[1]))
+    return given, distance
 
 
 def _two(value: object) -> list[object]:

@@ -165,18 +165,14 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     """The study of the tables of a file; see `Study.from_text`."""
     from swtstudy.study.structure import read_structure
 
-    table, mistakes = read_structure(raw, source)
-    of_structure = {mistake.key for mistake in mistakes}
-
-    def report(key: str, found: str, allowed: str) -> None:
-        if key not in of_structure:  # told once
-            mistakes.append(Mistake(key, found, allowed, source))
-
+    places: dict[str, str] = {}
+    report = Report(source, lambda name: f"{places.get(name, 'fixed')}.{name}")
+    table, of_structure = read_structure(raw, source)
+    report += of_structure
     if not storable(str(raw.get("title", ""))):
         report("title", literal(raw["title"]), STORABLE)
     fixed, axes = _parts(raw)
-    known, found = _definitions(raw, folder, source)
-    mistakes += found
+    known = _definitions(raw, folder, report)
     blocks = read_blocks(raw, known.get("load", {}), report)
     fixed, axes = _with_loads(fixed, axes, blocks)
     contacts, distance = read_given(raw, fixed, folder, report)
@@ -188,14 +184,10 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         contacts = replace(contacts, blocks=blocks)
     rows = rows_of(contacts)
     sample, sampled = _sample(raw, folder, known, report, rows)
-    places = dict.fromkeys(fixed, "fixed") | dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
+    places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     places |= {"load": "blocks"} if blocks else {}
     samples = {name: sample.values[name] if sample else None for name in sampled}
-
-    def keys(name: str) -> str:
-        return f"{places.get(name, 'fixed')}.{name}"
-
-    distances = read_distances(fixed, axes, keys, report, {**AXES, **rows}[DISTANCE])
+    distances = read_distances(fixed, axes, report, {**AXES, **rows}[DISTANCE])
     names = read_quantities(raw.get("quantities", []), "quantities", report)
     if contacts is not None and contacts.yield_strengths:
         names = tuple(dict.fromkeys((*names, YIELD)))
@@ -203,18 +195,21 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     asked = Request(names, *distances, counts=counts)
     grid: Grid | None
     if contacts is None:
-        grid, found = read_grid(fixed, axes, keys, source, others=(DISTANCE,), known=known, samples=samples)
+        grid, found = read_grid(
+            fixed, axes, report.key, source, others=(DISTANCE,), known=known, samples=samples
+        )
     else:
         from swtstudy.units.reading import read_contacts
 
-        grid, found = read_contacts(fixed, axes, contacts, keys, source, samples, known)
-    mistakes += found
+        grid, found = read_contacts(fixed, axes, contacts, report.key, source, samples, known)
+    report += found
     figure = _figure_from(raw)
     if figure is not None:
-        others = every_name() if contacts and mistakes else ()
+        others = every_name() if contacts and report else ()
         check_figure(figure, _dims(raw, grid), grid, asked, report, others)
-    if mistakes or table is None or grid is None:
-        raise StudyError(list(dict.fromkeys(mistakes)))
+    if report or table is None or grid is None:
+        told = {mistake.key for mistake in of_structure}  # once
+        raise StudyError(dict.fromkeys(m for m in report if m in of_structure or m.key not in told))
     if _names_files(raw):
         # An archive and what a killed run leaves are read in other folders, and when the files may be gone.
         text = to_toml(table.title, table.rtol, grid, figure, asked)
@@ -260,12 +255,9 @@ def _sample(
     return read_sample(raw["sample"], folder, report, known, single)
 
 
-def _definitions(
-    raw: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, dict[str, Definition]], list[Mistake]]:
+def _definitions(raw: Mapping[str, Any], folder: Path, report: Report) -> dict[str, dict[str, Definition]]:
     """Return the definitions of the study, by parameter and name, as far as its structure is sound."""
     known: dict[str, dict[str, Definition]] = {}
-    mistakes: list[Mistake] = []
     for parameter in ("load", "profile"):
         tables = raw.get(f"{parameter}s", {})
         if not tables or not isinstance(tables, dict):
@@ -275,9 +267,8 @@ def _definitions(
 
         sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
         read = read_loops if parameter == "load" else read_profiles
-        known[parameter], found = read(sound, folder, source)
-        mistakes += found
-    return known, mistakes
+        known[parameter] = read(sound, folder, report)
+    return known
 
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

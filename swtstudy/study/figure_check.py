@@ -82,11 +82,8 @@ def wrong_axes(
     roles = dict(layout.roles())
     for name in sizes:
         if name not in roles.values() and name in (*AXES, SAMPLE):
-            yield (
-                "figure",
-                f"no place for the axis {name}",
-                "every axis as x, hue, vertical or panels, or with a single value",
-            )
+            allowed = "every axis as x, hue, vertical or panels, or with a single value"
+            yield "figure", f"no place for the axis {name}", allowed
 
 
 def check_figure(
@@ -156,9 +153,8 @@ def wrong_formula(text: str) -> str | None:
     try:
         MathTextParser("path").parse(text)
     except ValueError as error:
-        return (
-            str(error).strip().splitlines()[-1].partition(": ")[2]
-        )  # without the name of the parser's error
+        # Without the name of the parser's error.
+        return str(error).strip().splitlines()[-1].partition(": ")[2]
     return None
 
 

@@ -10,7 +10,7 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 _ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 #: The same for one that a real contact may be given without its mean load.
@@ -23,10 +23,8 @@ _BESIDE = {
 }
 
 
-def read_loops(
-    tables: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, Definition], list[Mistake]]:
-    """The loops of a study, by name, and all that is wrong with them.
+def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+    """The loops of a study, by name, as far as they are sound.
 
     Parameters
     ----------
@@ -34,11 +32,10 @@ def read_loops(
         What the study has under ``loads``, as far as its structure is sound.
     folder
         That of the study, to which the paths of files are relative.
-    source
-        The study, for messages.
+    report
+        Told what is wrong with them.
     """
     found: dict[str, Definition] = {}
-    mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"loads.{name}"
         # A wrong loop stands for any: that it is used is no mistake of its own.
@@ -47,7 +44,7 @@ def read_loops(
             continue  # reported with the structure
         kind = _kind(table)
         if isinstance(kind, Mistake):
-            mistakes.append(Mistake(key, kind.found, kind.allowed, source))
+            report(key, kind.found, kind.allowed)
             continue
         try:
             if kind == "file":
@@ -57,8 +54,9 @@ def read_loops(
             else:
                 found[name] = _loop(name, table, kind)
         except StudyError as error:
-            mistakes += [_placed(each, key, kind, source) for each in error.mistakes]
-    return found, mistakes
+            for each in error.mistakes:
+                report(*_placed(each, key, kind))
+    return found
 
 
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
@@ -84,13 +82,13 @@ def _kind(table: Mapping[str, Any]) -> str | Mistake:
     return kind
 
 
-def _placed(mistake: Mistake, key: str, kind: str, source: str) -> Mistake:
+def _placed(mistake: Mistake, key: str, kind: str) -> tuple[str, str, str]:
     """A mistake in a loop, at its key in the study."""
     first = mistake.key.partition(",")[0].partition(".")[0]
     if kind == "file" and first in KEYS and not mistake.source:
-        return Mistake(f"{key}.{mistake.key}", mistake.found, mistake.allowed, source)
+        return f"{key}.{mistake.key}", mistake.found, mistake.allowed
     where = key if kind == "normal" else f"{key}.{kind}"
-    return Mistake(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed, source)
+    return where, f"{mistake.found}{place_of(mistake)}", mistake.allowed
 
 
 def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:

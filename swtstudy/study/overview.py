@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
-from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, YIELD
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
+from swtstudy.vocabulary.wording import listed
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -53,19 +54,11 @@ def _size(study: Study) -> str:
 
 def _cost(study: Study) -> str:
     """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
-    from swtstudy.points.cost import (
-        COUNTING,
-        SECONDS_NONLOCAL,
-        SECONDS_PER_WEIGHT,
-        SECONDS_YIELD,
-        duration,
-    )
+    from swtstudy.points.cost import duration, rough_seconds
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
     weight = sum(p + q for p, q in ratios) / len(ratios)
-    each = weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * study.asked.counts)
-    each += SECONDS_NONLOCAL * bool(study.asked.distances) + SECONDS_YIELD * (YIELD in study.asked.names)
-    seconds = study.grid.size * each
+    seconds = rough_seconds(study.grid.size * weight, study.grid.size, study.asked)
     return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 
 
@@ -75,13 +68,12 @@ def _row(
     """Kind, name, values and meaning of a parameter."""
     row = grid.row(name)
     unit = f" {row.units}" if row.units not in ("1", "rad") else ""
-    return kind, name, _values(values) + unit, row.described + (f"; figure: {role}" if role else "")
-
-
-def _values(values: tuple[Value, ...]) -> str:
-    if len(values) <= _LISTED:
-        return ", ".join(map(_value, values))
-    return f"{_value(values[0])}, {_value(values[1])} … {_value(values[-1])} ({len(values)} values)"
+    return (
+        kind,
+        name,
+        listed([*map(_value, values)], _LISTED) + unit,
+        row.described + (f"; figure: {role}" if role else ""),
+    )
 
 
 def _value(value: Value) -> str:

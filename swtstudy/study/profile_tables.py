@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-from swtstudy.study.columns import form_of, read_columns, wrong_form
+from swtstudy.study.columns import check_form, form_of, read_columns
 from swtstudy.study.loops import place_of
 from swtstudy.study.trace import read_trace
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import AXISYMMETRIC
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Report, StudyError
 
 #: Columns of the file of a profile.
 COLUMNS = ("radius", "height")
@@ -40,19 +40,16 @@ def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProf
     smoothing = 0.0 if smoothing is None else smoothing
     if "file" not in table:
         return TabulatedProfile(name, table["radius"], table["height"], smoothing, geometry)
-    if mistakes := wrong_form(table, COLUMNS):
-        raise StudyError(mistakes)
+    check_form(table, COLUMNS, report := Report())
+    report.refuse()
     radius, height = read_columns(folder / table["file"], COLUMNS, (), form_of(table)).T
     return TabulatedProfile(name, radius, height, smoothing, geometry)
 
 
-def read_profiles(
-    tables: Mapping[str, Any], folder: Path, source: str
-) -> tuple[dict[str, Definition], list[Mistake]]:
-    """The profiles of a study, by name, and all that is wrong with them; as `read_loops` for loads."""
+def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+    """The profiles of a study, by name; as `swtstudy.study.loops.read_loops` for loads."""
     # A wrong profile stands for any: that it is used is no mistake of its own.
     found: dict[str, Definition] = {name: _ANY for name in tables}
-    mistakes: list[Mistake] = []
     for name, table in tables.items():
         key = f"profiles.{name}"
         given = [each for each in (*COLUMNS, "file") if table.get(each) is not None]
@@ -60,12 +57,11 @@ def read_profiles(
             continue  # reported with the structure
         if given not in (["file"], [*COLUMNS]):
             words = " and ".join(given) or "nothing"
-            mistakes.append(Mistake(key, words, "radius and height, or file", source))
+            report(key, words, "radius and height, or file")
             continue
         try:
             found[name] = _profile(name, table, folder)
         except StudyError as error:
-            mistakes += [
-                Mistake(key, f"{each.found}{place_of(each)}", each.allowed, source) for each in error.mistakes
-            ]
-    return found, mistakes
+            for each in error.mistakes:
+                report(key, f"{each.found}{place_of(each)}", each.allowed)
+    return found

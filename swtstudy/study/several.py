@@ -7,7 +7,7 @@ from pathlib import Path
 
 from swtstudy.study.definition import Study
 from swtstudy.study.shipped import find_study
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, Report
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
@@ -23,26 +23,23 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     """
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
-    mistakes: list[Mistake] = []
-    for path in dict.fromkeys(_files(paths, mistakes)):
-        try:
+    report = Report()
+    for path in dict.fromkeys(_files(paths, report)):
+        with report:
             studies[path] = Study.from_toml(path)
-        except StudyError as error:
-            mistakes += error.mistakes
         first = names.setdefault(Path(path).stem, path)
         if first != path:
-            mistakes.append(Mistake("", f"the same name as {first}", "names that differ", path))
-    if mistakes:
-        raise StudyError(mistakes)
+            report.append(Mistake("", f"the same name as {first}", "names that differ", path))
+    report.refuse()
     return studies
 
 
-def _files(paths: Iterable[str], mistakes: list[Mistake]) -> Iterator[str]:
+def _files(paths: Iterable[str], report: Report) -> Iterator[str]:
     for path in paths:
         if not Path(path).is_dir():
             yield str(find_study(path))
             continue
         inside = sorted(map(str, Path(path).glob("*.toml")))
         if not inside:
-            mistakes.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
+            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
         yield from inside

@@ -15,8 +15,8 @@ from swtstudy.mechanics.load.loop import Loop, checked_mean, checked_name
 from swtstudy.mechanics.load.smooth_path import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study import recorded
-from swtstudy.study.columns import form_of, read_columns, wrong_form
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
+from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal, plain_number
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -214,16 +214,14 @@ def read_signal(
 
 def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
     """The signal in a file, from values of `KEYS`, which may be None; see `read_signal`."""
-    mistakes = [
-        Mistake(key, literal(given[key]), allowed)
-        for key, (sound, allowed) in _SOUND.items()
-        if given.get(key) is not None and not sound(given[key])
-    ]
-    mistakes += wrong_form(given, (*COLUMNS, BULK))
+    report = Report()
+    for key, (sound, allowed) in _SOUND.items():
+        if given.get(key) is not None and not sound(given[key]):
+            report(key, literal(given[key]), allowed)
+    check_form(given, (*COLUMNS, BULK), report)
     if given.get("recorded_cycles") is not None and given.get("period") is not None:
-        mistakes.append(Mistake("recorded_cycles, period", "both", "one of the two: the other follows"))
-    if mistakes:
-        raise StudyError(mistakes)
+        report("recorded_cycles, period", "both", "one of the two: the other follows")
+    report.refuse()
     time, values = _table(path, given)
     return _whole(name, time, values, given)
 

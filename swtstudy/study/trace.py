@@ -10,9 +10,9 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.study.columns import form_of, read_columns, wrong_form
+from swtstudy.study.columns import check_form, form_of, read_columns
 from swtstudy.vocabulary.families import AXISYMMETRIC
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
@@ -61,8 +61,8 @@ def read_trace(
         A ValueError with what is wrong.
     """
     own, given = Path(path), {"columns": columns, "separator": separator, "decimal": decimal}
-    if mistakes := wrong_form(given, COLUMNS):
-        raise StudyError(mistakes)
+    check_form(given, COLUMNS, report := Report())
+    report.refuse()
     position, height = read_columns(own, COLUMNS, (), form_of(given)).T
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])

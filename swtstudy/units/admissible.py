@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,17 +25,16 @@ if TYPE_CHECKING:
 
     from swtstudy.units.grid import PhysicalGrid
 
-Keys = Callable[[str], str]
 #: What is said of a contact in every message.
 _SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
 
 
-def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
+def check_contacts(grid: PhysicalGrid, report: Report) -> None:
     """Contacts that cannot be made, parameters beyond their range, and shapes that are not compact."""
     dims = at_rest_dims(grid)
     count = int(np.prod([size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims]))
     if count > MOST_CONTACTS:
-        report(", ".join(map(keys, dims)), f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
+        report.of(dims, f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
         return
     wrong = grid.at_rest.wrong
     if wrong:
@@ -43,15 +42,15 @@ def check_contacts(grid: PhysicalGrid, keys: Keys, report: Report) -> None:
         more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
         for mistake in error.mistakes:
             there = _words(grid, {name: value for name, value in own.items() if name != mistake.key})
-            report(keys(mistake.key), f"{mistake.found} at {there}{more}", mistake.allowed)
+            report.of(mistake.key, f"{mistake.found} at {there}{more}", mistake.allowed)
         return
-    if all([_in_range(grid, column, keys, report) for column in grid.numbers]):
-        check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, keys, report)
+    if all([_in_range(grid, column, report) for column in grid.numbers]):
+        check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, report)
         for profile in dict.fromkeys(grid.values("profile")):
-            _check_shapes(grid, profile, keys, report)
+            _check_shapes(grid, profile, report)
 
 
-def _in_range(grid: PhysicalGrid, column: str, keys: Keys, report: Report) -> bool:
+def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     """Return whether a parameter is in its range everywhere; report the first value that is not."""
     row, values = PARAMETERS[column], grid.numbers[column]
     source = grid.control.given_for(column)
@@ -75,15 +74,15 @@ def _in_range(grid: PhysicalGrid, column: str, keys: Keys, report: Report) -> bo
     if not np.isfinite(number):
         friction = f"friction = {as_number(here['friction']):g}"
         allowed = "0: without friction the contact slides at once"
-        report(keys(source), f"{found} at {words}, {friction}{more}", allowed)
+        report.of(source, f"{found} at {words}, {friction}{more}", allowed)
         return False
     bound = row.upper if high[first] else row.lower
     if not AXES[source].scale:  # a ratio, to which the number is not in proportion
         allowed = f"a mean of {'at most' if high[first] else 'at least'} {bound:g} {scale}"
-        report(keys(source), f"{own:g} at {words}, a mean of {number:.4g} {scale}{more}", allowed)
+        report.of(source, f"{own:g} at {words}, a mean of {number:.4g} {scale}{more}", allowed)
         return False
     most = f"{'at most' if high[first] else 'at least'} {bound * own / number:.4g} {unit}".strip()
-    report(keys(source), f"{found} at {words}, {number:.4g} {scale}{more}", f"{most}, {bound:g} {scale}")
+    report.of(source, f"{found} at {words}, {number:.4g} {scale}{more}", f"{most}, {bound:g} {scale}")
     return False
 
 
@@ -109,7 +108,7 @@ def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
     return ", ".join(words)
 
 
-def _check_shapes(grid: PhysicalGrid, profile: Value, keys: Keys, report: Report) -> None:
+def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     """A profile whose contact is no full disc, up to the largest depth of each load."""
     names = family_of(profile).shape
     if not names and not isinstance(profile, Definition):
@@ -132,7 +131,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, keys: Keys, report: Report
     why = check_shape(
         numbers["pure"][first], {name: float(v[first]) for name, v in shape.items()}, numbers["depth"][first]
     )
-    report(", ".join(map(keys, names or ("profile",))), words + more, f"{why} (in a_H and δ0)")
+    report.of(names or ("profile",), words + more, f"{why} (in a_H and δ0)")
 
 
 def _largest(

@@ -28,11 +28,6 @@ def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProf
     return TabulatedProfile(pure.name, *own, pure.geometry)
 
 
-def _contact_radius(table: TabulatedProfile, depth: float) -> float:
-    """Contact radius of a table in lengths."""
-    return float(make_profile(table, {}, np.array([depth])).radius(np.array([[depth]]))[0, 0])
-
-
 @dataclass(frozen=True)
 class Contact:
     """A real contact at rest, in any consistent set of units, such as N, mm and MPa.
@@ -67,7 +62,8 @@ class Contact:
     def length_scale(self) -> float:
         """The length a_H = √(R δ0), and of a power law or a table its contact radius at δ0."""
         if isinstance(self.profile, TabulatedProfile):
-            return _contact_radius(self.profile, self.depth)
+            profile = make_profile(self.profile, {}, np.array([self.depth]))
+            return float(profile.radius(np.array([[self.depth]]))[0, 0])
         assert self.radius is not None
         coefficient, power = length_law(self.profile, self.shape)
         return self.radius * (self.depth / (coefficient * self.radius)) ** power

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -46,14 +46,14 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[Value]) -> tupl
         A ValueError with every mistake in them; also if one of the loads is in no block.
     """
     known = list(map(str, loads))
-    mistakes = [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
+    report = Report()
+    report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
-        mistakes += wrong_rounds(number, f"blocks.{name}")
+        report += wrong_rounds(number, f"blocks.{name}")
     if left := [name for name in known if name not in rounds]:
         found = f"no rounds of {', '.join(map(literal, left))}"
-        mistakes.append(Mistake("blocks", found, "rounds of each load, or none of these loads"))
-    if mistakes:
-        raise StudyError(mistakes)
+        report("blocks", found, "rounds of each load, or none of these loads")
+    report.refuse()
     return tuple(Block(name, plain_number(number)) for name, number in rounds.items())
 
 

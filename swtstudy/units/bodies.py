@@ -12,7 +12,7 @@ from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negativ
 from swtstudy.units.moduli import Moduli
 from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.sizes import wrong_size
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
 from swtstudy.vocabulary.quantities import COUNTED
 
 if TYPE_CHECKING:
@@ -118,25 +118,24 @@ def constants_of_both(constants: object) -> tuple[FatigueConstants, FatigueConst
     StudyError
         If they are neither those of both bodies nor a pair.
     """
-    mistakes: list[Mistake] = []
-    both = _of_both("constants", constants, FatigueConstants, mistakes)
-    if mistakes:
-        raise StudyError(mistakes)
+    report = Report()
+    both = _of_both("constants", constants, FatigueConstants, report)
+    report.refuse()
     return both[0], both[1]
 
 
-def shear_constants_of_both(constants: object, mistakes: list[Mistake]) -> tuple[ShearConstants, ...]:
+def shear_constants_of_both(constants: object, report: Report) -> tuple[ShearConstants, ...]:
     """The constants of each body in torsion, none if none are given; what is wrong with them is added."""
-    return () if constants is None else _of_both("shear_constants", constants, ShearConstants, mistakes)
+    return () if constants is None else _of_both("shear_constants", constants, ShearConstants, report)
 
 
-def _of_both(name: str, constants: object, kind: type[_Kind], mistakes: list[Mistake]) -> tuple[_Kind, ...]:
+def _of_both(name: str, constants: object, kind: type[_Kind], report: Report) -> tuple[_Kind, ...]:
     """Constants of each body of those of both, or of a pair."""
     pair: Any = (constants, constants) if isinstance(constants, kind) else constants
     if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
         return pair[0], pair[1]
     allowed = f"a {kind.__name__}, or a pair of them for bodies of different materials"
-    mistakes.append(Mistake(name, literal(constants), allowed))
+    report(name, literal(constants), allowed)
     return ()
 
 
@@ -151,7 +150,7 @@ def _labelled(
     return xr.DataArray(values, like.coords, like.dims, name, attributes)
 
 
-def stresses_of_both(name: str, stress: object, mistakes: list[Mistake]) -> tuple[float, ...]:
+def stresses_of_both(name: str, stress: object, report: Report) -> tuple[float, ...]:
     """A property of both bodies that is a stress, none if not given; what is wrong with it is added."""
     if stress is None:
         return ()
@@ -159,5 +158,5 @@ def stresses_of_both(name: str, stress: object, mistakes: list[Mistake]) -> tupl
     wrong = [each for value in pair for each in wrong_size(name, value, "a positive stress")]
     if len(pair) != 2:
         wrong = [Mistake(name, literal(stress), "one, or a pair, one for each body")]
-    mistakes += dict.fromkeys(wrong)
+    report += dict.fromkeys(wrong)
     return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from swtstudy.units.contacts_at_rest import ContactsAtRest, contacts_at_rest
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ends_of_bulk, mean_of_bulk, mean_of_loads
-from swtstudy.units.rows import rows
+from swtstudy.units.rows import SIMILAR, rows
 from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.strips import labels_of
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE
@@ -37,24 +37,21 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class PhysicalGrid(Grid):
-    """A grid of real contacts.
+class ContactDetails:
+    """The facts that are given of contacts besides the values of their parameters.
 
     Attributes
     ----------
-    fixed, axes, samples
-        As of a `Grid`, in the units of the study; the body may be among them, 1 or 2, and is the last axis
-        where both bodies are asked for.
     units
         Labels of the units.
     pairs
         What differs from body to body of `OF_BODIES`, which is not among the fixed values then.
     materials
         Constants of both bodies; none if cycles are not asked for.
-    bulk_stress_body
-        0 or 1: the body that carries the bulk stress.
     similar
         Largest magnitude of Dundurs' β at which the bodies count as similar.
+    bulk_stress_body
+        0 or 1: the body that carries the bulk stress.
     blocks
         The sequence of loads of which Miner's sum is made; none if it is not asked for.
     yield_strengths
@@ -70,13 +67,21 @@ class PhysicalGrid(Grid):
     units: Units = field(default_factory=Units)
     pairs: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     materials: tuple[FatigueConstants, ...] = ()
+    similar: float = SIMILAR
     bulk_stress_body: int = 0
-    similar: float = math.inf
     blocks: tuple[Block, ...] = ()
     yield_strengths: tuple[float, ...] = ()
     body_names: tuple[str, ...] = ()
     shear_materials: tuple[ShearConstants, ...] = ()
     findley_limits: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class PhysicalGrid(ContactDetails, Grid):
+    """A grid of real contacts: a `Grid` in the units of the study.
+
+    The body may be among its values, 1 or 2, and is the last axis where both bodies are asked for.
+    """
 
     @property
     def of_loads(self) -> str | None:
@@ -104,13 +109,9 @@ class PhysicalGrid(Grid):
         return all(map(is_plane, self.values("profile")))
 
     @property
-    def about(self) -> dict[str, Any]:
+    def about(self) -> ContactDetails:
         """The facts of the contacts besides the values of the parameters."""
-        names = (
-            *("units", "pairs", "materials", "bulk_stress_body", "similar", "blocks"),
-            *("yield_strengths", "body_names", "shear_materials", "findley_limits"),
-        )
-        return {name: getattr(self, name) for name in names}
+        return ContactDetails(**{each.name: getattr(self, each.name) for each in fields(ContactDetails)})
 
     @cached_property
     def rows(self) -> dict[str, Parameter]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.units.sizes import wrong_size
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, plain_number
 from swtstudy.vocabulary.numbers import read_numbers
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
@@ -30,13 +30,12 @@ UNCOUNTED = (
 
 def check_constants(constants: object) -> None:
     """Check the constants of a material, whose exponents alone are negative; they become plain numbers."""
-    mistakes: list[Mistake] = []
+    report = Report()
     for name, value in vars(constants).items():
         sign = -1.0 if name.endswith("exponent") else 1.0
         allowed = "a negative number" if sign < 0.0 else "a positive number"
-        mistakes += wrong_size(name, value, allowed, sign)
-    if mistakes:
-        raise StudyError(mistakes)
+        report += wrong_size(name, value, allowed, sign)
+    report.refuse()
     for name, value in vars(constants).items():
         object.__setattr__(constants, name, plain_number(value))
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import logging
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeVar
 
 from swtstudy.points.values import read_exact
+from swtstudy.units.grid import ContactDetails
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.shear_life import ShearConstants
@@ -43,25 +44,6 @@ _BOTH = 2
 _Constants = TypeVar("_Constants", FatigueConstants, ShearConstants)
 
 
-@dataclass(frozen=True)
-class Materials:
-    """The constants of the materials of both bodies.
-
-    Attributes
-    ----------
-    constants, shear_constants, yield_strengths, findley_limits
-        Of each body, or none.
-    critical_distance
-        From the threshold and the fatigue limit, None without them.
-    """
-
-    constants: tuple[FatigueConstants, ...] = ()
-    yield_strengths: tuple[float, ...] = ()
-    critical_distance: float | None = None
-    shear_constants: tuple[ShearConstants, ...] = ()
-    findley_limits: tuple[float, ...] = ()
-
-
 def read_material(
     raw: Mapping[str, Any],
     young: tuple[object, object] | None,
@@ -69,8 +51,10 @@ def read_material(
     units: Units,
     folder: Path,
     report: Report,
-) -> Materials:
-    """Read the materials of both bodies, as far as they are sound; mistakes are reported.
+) -> tuple[ContactDetails, float | None]:
+    """Read the materials of both bodies, and their critical distance, None without a threshold.
+
+    As far as they are sound: mistakes are reported.
 
     Parameters
     ----------
@@ -90,7 +74,7 @@ def read_material(
     tables = _named(raw, folder, report) if by_name else [_of_body(raw, i) for i in range(_BOTH)]
     tables = [{name: _number(value) for name, value in table.items()} for table in tables]
     intended = {meant(str(name), KEYS) for name in unknown}
-    mistakes: list[Mistake] = []
+    mistakes = Report()
     constants = _constants(tables, young, intended, mistakes)
     shears = _shear_constants(tables, shear, intended, mistakes)
     strengths, limits = (_stresses(name, tables, mistakes) for name in (STRENGTH, LIMIT))
@@ -98,22 +82,25 @@ def read_material(
     for mistake in dict.fromkeys(mistakes):  # both bodies may have the same one
         report(*_in_units(mistake, units))
     if mistakes or unknown:
-        return Materials(yield_strengths=strengths)  # which a criterion may need: they are not lacking, too
+        # A criterion may need the strengths: they are not lacking, too.
+        return ContactDetails(units, yield_strengths=strengths), None
     if distance is not None:
         usual, words = distance.words(units)
         if usual:
             _log.info(words)
         else:
             warnings.warn(words, stacklevel=2)
-    length = None if distance is None else distance.length
-    return Materials(constants, strengths, length, shears, limits)
+    given = ContactDetails(
+        units, {}, constants, yield_strengths=strengths, shear_materials=shears, findley_limits=limits
+    )
+    return given, None if distance is None else distance.length
 
 
 def _constants(
     tables: list[dict[str, Any]],
     young: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[FatigueConstants, ...]:
     """The strain–life constants of both bodies; none if there are none, or mistakes."""
     others = {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}
@@ -121,7 +108,7 @@ def _constants(
     if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
         return ()
     own = dict(zip(CONSTANTS, CONSTANTS, strict=True))
-    return _of_both(FatigueConstants, own, tables, young, intended, mistakes)
+    return _of_both(FatigueConstants, own, tables, young, intended, report)
 
 
 def _of_both(
@@ -130,7 +117,7 @@ def _of_both(
     tables: list[dict[str, Any]],
     moduli: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[_Constants, ...]:
     """Constants of both bodies, from fields by their keys; none if there are mistakes in them."""
     (modulus,) = (key for key in fields_of if key.endswith("_modulus"))
@@ -148,31 +135,31 @@ def _of_both(
                 key = keys[each.key]
                 lacks = own[key] is None
                 if not lacks or key not in intended:
-                    mistakes.append(Mistake(key, "nothing" if lacks else each.found, each.allowed))
+                    report(key, "nothing" if lacks else each.found, each.allowed)
     return tuple(found) if len(found) == _BOTH else ()
 
 
-def warn_of_units(materials: Materials, young: tuple[float, float], units: Units) -> None:
+def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
     """Warn of strengths that no metal has beside the modulus of its body: one is in another unit."""
     given = {
-        "strength": [each.strength for each in materials.constants],
-        "shear_strength": [each.strength for each in materials.shear_constants],
-        STRENGTH: materials.yield_strengths,
-        LIMIT: materials.findley_limits,
+        "strength": [each.strength for each in of.materials],
+        "shear_strength": [each.strength for each in of.shear_materials],
+        STRENGTH: of.yield_strengths,
+        LIMIT: of.findley_limits,
     }
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
             if not USUAL_STRAINS[0] <= value / modulus <= USUAL_STRAINS[1]:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
                 ends = " to ".join(f"{end:g}" for end in USUAL_STRAINS)
-                warnings.warn(f"{words}, of metals {ends}: are both in {units.stress}?", stacklevel=2)
+                warnings.warn(f"{words}, of metals {ends}: are both in {of.units.stress}?", stacklevel=2)
 
 
 def _shear_constants(
     tables: list[dict[str, Any]],
     moduli: tuple[object, object] | None,
     intended: Iterable[object],
-    mistakes: list[Mistake],
+    report: Report,
 ) -> tuple[ShearConstants, ...]:
     """The constants of both bodies in torsion; none if there are none, or mistakes."""
     if not any(SHEAR_CONSTANTS.keys() & table.keys() for table in tables):
@@ -184,18 +171,18 @@ def _shear_constants(
             allowed = (
                 "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
             )
-            mistakes.append(Mistake(", ".join(lacking), "nothing", allowed))
+            report(", ".join(lacking), "nothing", allowed)
         return ()
-    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), mistakes)
+    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), report)
 
 
-def _stresses(name: str, tables: list[dict[str, Any]], mistakes: list[Mistake]) -> tuple[float, ...]:
+def _stresses(name: str, tables: list[dict[str, Any]], report: Report) -> tuple[float, ...]:
     """A property of both bodies that is a stress; none if there is none, or mistakes."""
     given = [table[name] for table in tables if name in table]
     wrong = [each for value in given for each in wrong_size(name, value, "a positive number")]
     if 0 < len(given) < len(tables):
         wrong.append(Mistake(name, "that of one body", "that of both bodies, or of none"))
-    mistakes += wrong
+    report += wrong
     return () if wrong or not given else tuple(map(float, given))
 
 

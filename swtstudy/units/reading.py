@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import replace
 from typing import Any
 
 from swtstudy.mechanics.load.loop import Loop
@@ -18,103 +18,71 @@ from swtstudy.points.values import Value, as_number, read_value, values_taken
 from swtstudy.units.admissible import check_contacts
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
-from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.labels import KINDS, Units
 from swtstudy.units.life import FatigueConstants
 from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
 from swtstudy.units.moduli import Moduli
-from swtstudy.units.rows import (
-    MEAN_LOADS,
-    NAMES_KEY,
-    OF_BODIES,
-    SIMILAR,
-    SIMILAR_KEY,
-    rows,
-    wrong_mean_load,
-)
+from swtstudy.units.rows import MEAN_LOADS, NAMES_KEY, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.units.shear_life import ShearConstants
 from swtstudy.units.strips import check_lengths, labels_of, still_load
 from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.families import is_plane
-from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, plain_number
+from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
-@dataclass(frozen=True)
-class ContactDetails:
-    """The facts that are given of contacts besides the values of their parameters; see `PhysicalGrid`."""
-
-    units: Units = field(default_factory=Units)
-    materials: tuple[FatigueConstants, ...] = ()
-    similar: float = SIMILAR
-    bulk_stress_body: int = 0
-    blocks: tuple[Block, ...] = ()
-    yield_strengths: tuple[float, ...] = ()
-    body_names: tuple[str, ...] = ()
-    shear_materials: tuple[ShearConstants, ...] = ()
-    findley_limits: tuple[float, ...] = ()
-
-
 def read_contacts(
     fixed: Mapping[str, object],
     axes: Mapping[str, Sequence[object] | Range | None],
     given: ContactDetails,
-    keys: Callable[[str], str] = lambda name: name,
+    keys: Callable[[str], str] = str,
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
-) -> tuple[PhysicalGrid | None, list[Mistake]]:
+) -> tuple[PhysicalGrid | None, Report]:
     """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
-    mistakes: list[Mistake] = []
-
-    def report(key: str, found: str, allowed: str) -> None:
-        mistakes.append(Mistake(key, found, allowed, source))
-
-    samples = samples or {}
+    report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     profiles = _profiles(everything, known)
     labels = labels_of(given.units, profiles, everything)
     own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
-    pairs, single = _pairs(fixed, own, keys, report)
+    pairs, single = _pairs(fixed, own, report)
     similar = single.pop(SIMILAR_KEY, given.similar)
-    body_names = _body_names(single, given.body_names, keys, report)
+    body_names = _body_names(single, given.body_names, report)
     if not 0.0 <= plain_number(similar) < math.inf:
-        report(keys(SIMILAR_KEY), literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+        report.of(SIMILAR_KEY, literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
     good_fixed, good_axes = read_values(
-        single, axes, keys, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
+        single, axes, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    check_lengths(profiles, everything, keys, report)
-    along = good_axes | good_samples
-    _check_given(everything, along | {n: (v,) for n, v in good_fixed.items()}, own, keys, report)
-    check_amplitudes(good_fixed, along, keys, report)
-    check_criteria(everything, good_fixed, along, keys, report)
-    _check_units_of_criteria(good_fixed, along, given, report)
-    check_shapes_given(single, {**axes, **samples}, good_fixed, along, keys, report, own)
-    if mistakes or None in (*samples.values(), *axes.values()):  # reported elsewhere
-        return None, mistakes
-    extra = {"pairs": {n: two for n, two in pairs.items() if two}, **vars(given)}
-    extra |= {"similar": plain_number(similar), "body_names": body_names}
-    grid = completed(good_fixed, good_axes, good_samples, extra)
-    check_bodies(grid, keys, report)
-    check_loops(grid, keys, report)
-    if not mistakes:
-        check_contacts(grid, keys, report)
-    return (None if mistakes else grid), mistakes
+    check_lengths(profiles, everything, report)
+    good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
+    _check_given(everything, good, own, report)
+    check_amplitudes(good, report)
+    check_criteria(everything, good, report)
+    _check_units_of_criteria(good, given, report)
+    check_shapes_given(single, {**axes, **samples}, good, report, own)
+    if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
+        return None, report
+    about = replace(given, pairs=pairs, similar=plain_number(similar), body_names=body_names)
+    grid = completed(good_fixed, good_axes, good_samples, about)
+    check_bodies(grid, report)
+    check_loops(grid, report)
+    if not report:
+        check_contacts(grid, report)
+    return (None if report else grid), report
 
 
 def _check_units_of_criteria(
-    fixed: Mapping[str, Value],
-    along: Mapping[str, tuple[Value, ...]],
-    given: ContactDetails,
-    report: Report,
+    good: Mapping[str, Sequence[Any]], given: ContactDetails, report: Report
 ) -> None:
     """The criterion that needs the strength of the bodies, the one that has no life, and those of tension."""
-    criteria = values_taken("criterion", fixed, along)
+    criteria = values_taken("criterion", good)
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
@@ -130,39 +98,35 @@ def completed(
     fixed: dict[str, Value],
     axes: dict[str, tuple[Value, ...]],
     samples: dict[str, tuple[Value, ...]],
-    extra: Mapping[str, Any],
+    about: ContactDetails,
 ) -> PhysicalGrid:
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
-    pairs = {name: two for name, two in extra["pairs"].items() if two[0] != two[1]}
-    fixed = fixed | {name: two[0] for name, two in extra["pairs"].items() if name not in pairs}
+    pairs = {name: two for name, two in about.pairs.items() if two[0] != two[1]}
+    fixed = fixed | {name: two[0] for name, two in about.pairs.items() if name not in pairs}
+    about = replace(about, pairs=pairs)
     given = {*fixed, *axes, *samples, *pairs}
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
-    fixed = fixed | still_load(profiles, {*given, *_scaling(fixed, axes, samples)})
+    scaling = {name for load in _loops(fixed, axes, samples) for name in load.scaled_by}
+    fixed = fixed | still_load(profiles, given | scaling)
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
     fixed = fixed | measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
-    table = rows(labels_of(extra["units"], profiles, given))
+    table = rows(labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
-    if any("bulk_stress_amplitude" in load.scaled_by for load in _loops(fixed, axes, samples)):
+    if "bulk_stress_amplitude" in scaling:
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
     if "bulk_stress_ratio" in given:
         del defaults["bulk_stress_mean"]
     fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
-    grid = PhysicalGrid(
-        {name: fixed[name] for name in table if name in fixed},
-        dict(axes),
-        dict(samples),
-        **{**extra, "pairs": pairs},
-    )
+    own = {name: fixed[name] for name in table if name in fixed}
+    grid = PhysicalGrid(own, dict(axes), dict(samples), **vars(about))
     if "body" in given or not _differ(grid):
         return grid
-    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, {**extra, "pairs": pairs})
+    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, about)
 
 
-def _body_names(
-    single: dict[str, object], given: tuple[str, ...], keys: Callable[[str], str], report: Report
-) -> tuple[str, ...]:
+def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
     """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
     raw = single.pop(NAMES_KEY, given or None)
     if raw is None:
@@ -170,7 +134,7 @@ def _body_names(
     names = tuple(raw) if isinstance(raw, list | tuple) else ()
     sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
     if len(names) != 2 or not sound or names[0] == names[1]:
-        report(keys(NAMES_KEY), literal(raw), 'two names, such as ["pad", "specimen"]')
+        report.of(NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         return ()
     if single.get("body") in names:
         single["body"] = names.index(str(single["body"])) + 1
@@ -182,11 +146,6 @@ def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
     raw = everything.get("profile", PARAMETERS["profile"].default)
     several = raw if isinstance(raw, list | tuple) else [raw]
     return [known.get("profile", {}).get(each, each) if isinstance(each, str) else each for each in several]
-
-
-def _scaling(*values: Mapping[str, Value | tuple[Value, ...]]) -> set[str]:
-    """The amplitudes that scale loops."""
-    return {name for load in _loops(*values) for name in load.scaled_by}
 
 
 def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Definition]:
@@ -205,7 +164,7 @@ def _differ(grid: PhysicalGrid) -> bool:
 
 
 def _pairs(
-    fixed: Mapping[str, object], own: Mapping[str, Parameter], keys: Callable[[str], str], report: Report
+    fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
 ) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
     """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
@@ -215,15 +174,10 @@ def _pairs(
             continue
         pairs[name] = ()
         if len(raw) != 2:
-            report(keys(name), literal(raw), f"{own[name].allowed}; or two, one for each body")
+            report.of(name, literal(raw), f"{own[name].allowed}; or two, one for each body")
             continue
-        read, _ = read_values(
-            {f"{name}[{i}]": one for i, one in enumerate(raw)},
-            {},
-            keys,
-            report,
-            rows={f"{name}[{i}]": own[name] for i in range(2)},
-        )
+        both = {f"{name}[{i}]": one for i, one in enumerate(raw)}
+        read, _ = read_values(both, {}, report, rows=dict.fromkeys(both, own[name]))
         if len(read) == 2:
             pairs[name] = tuple(map(as_number, read.values()))
     return pairs, {name: value for name, value in fixed.items() if name not in pairs}
@@ -233,7 +187,6 @@ def _check_given(
     everything: Collection[str],
     good: Mapping[str, tuple[Value, ...]],
     own: Mapping[str, Parameter],
-    keys: Callable[[str], str],
     report: Report,
 ) -> None:
     """Report which values a contact lacks, and which exclude one another."""
@@ -245,17 +198,16 @@ def _check_given(
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
-            report(keys(name), "nothing", own[name].allowed)
+            report.of(name, "nothing", own[name].allowed)
     if "radius" in everything and all(tables) and tables:
-        report(keys("radius"), "a radius", "nothing: the table of the profile has lengths")
+        report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     mean = mean_of_loads(everything, measured)
     if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        report(", ".join(map(keys, MEAN_LOADS)), *wrong)
+        report.of(MEAN_LOADS, *wrong)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
-        both = f"{keys('bulk_stress_mean')}, {keys('bulk_stress_ratio')}"
-        report(both, "both", "one of the two")
+        report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
-        report(keys("body"), literal(list(good["body"])), "1 or 2")
+        report.of("body", literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = {name for load in loops for name in load.scaled_by}
     if all(load.normal_ends == (0.0, 0.0) for load in loops):
@@ -263,7 +215,7 @@ def _check_given(
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
         named = {*everything, *still_load(profiles, {*everything, *scaling})}
-        check_forces(named, {}, {"profile": profiles}, keys, report)
+        check_forces(named, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = next(force for force, other in PAIRS.items() if other == name)
@@ -275,10 +227,10 @@ def _check_given(
             column, unit = name.partition("_")[0], own[name].units
             allowed = f"1 if the column {column} of the loop is in {unit}"
             allowed += f"; or {force}, 1 if it is in {own[force].units}"
-        report(keys(name), "nothing", allowed)
+        report.of(name, "nothing", allowed)
 
 
-def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report) -> None:
+def check_bodies(grid: PhysicalGrid, report: Report) -> None:
     """Bodies that are not similar."""
     young, poisson = (
         [grid.pairs[name]] if name in grid.pairs else [(as_number(value),) * 2 for value in grid.values(name)]
@@ -290,11 +242,11 @@ def check_bodies(grid: PhysicalGrid, keys: Callable[[str], str], report: Report)
             if abs(beta) > grid.similar:
                 allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
                 found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
-                report(", ".join(map(keys, OF_BODIES)), found, allowed)
+                report.of(OF_BODIES, found, allowed)
                 return
 
 
-def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, float]]]:
+def read_contact(text: object) -> ContactDetails:
     """Read the attribute of results; see `swtstudy.units.grid.PhysicalGrid`.
 
     Raises
@@ -307,16 +259,13 @@ def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, f
     except RecursionError:
         raise ValueError("nested too deeply") from None
     try:
-        units = Units(**{kind: str(raw["units"][kind]) for kind in KINDS})
-        pairs = {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()}
-        materials = tuple(FatigueConstants(**each) for each in raw["materials"])
-        blocks = tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ()))
         given = ContactDetails(
-            units,
-            materials,
+            Units(**{kind: str(raw["units"][kind]) for kind in KINDS}),
+            {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()},
+            tuple(FatigueConstants(**each) for each in raw["materials"]),
             float(raw["similar"]),
             int(raw["bulk_stress_body"]),
-            blocks,
+            tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ())),
             tuple(map(float, raw.get("yield_strengths", ()))),
             tuple(map(str, raw.get("body_names", ()))),
             tuple(ShearConstants(**each) for each in raw.get("shear_materials", ())),
@@ -324,7 +273,7 @@ def read_contact(text: object) -> tuple[ContactDetails, dict[str, tuple[float, f
         )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
-    several = materials, given.yield_strengths, given.body_names, given.shear_materials, given.findley_limits
-    if not pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
+    several = [each for name, each in vars(given).items() if isinstance(each, tuple) and name != "blocks"]
+    if not given.pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(raw)}")
-    return given, pairs
+    return given

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from swtstudy.units.grid import PhysicalGrid
 
 
+#: Facts that an archive has even where there are none; without others it stays as those of before.
+_ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
+
+
 def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
     """Return whether a data variable is a life for which no strain cycles have been counted."""
     return has_units(dataset) and name in LIVES and "counted" not in dataset
@@ -63,18 +67,5 @@ def without_units(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def _text(grid: PhysicalGrid) -> str:
-    return json.dumps(
-        {
-            "units": asdict(grid.units),
-            "pairs": dict(grid.pairs),
-            "materials": [asdict(each) for each in grid.materials],
-            "similar": grid.similar,
-            "bulk_stress_body": grid.bulk_stress_body,
-            **({"blocks": [asdict(each) for each in grid.blocks]} if grid.blocks else {}),
-            # Archives of studies without stay as they were.
-            **({"yield_strengths": [*grid.yield_strengths]} if grid.yield_strengths else {}),
-            **({"body_names": [*grid.body_names]} if grid.body_names else {}),
-            **({"shear_materials": [*map(asdict, grid.shear_materials)]} if grid.shear_materials else {}),
-            **({"findley_limits": [*grid.findley_limits]} if grid.findley_limits else {}),
-        }
-    )
+    facts = asdict(grid.about)
+    return json.dumps({name: value for name, value in facts.items() if value or name in _ALWAYS})

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from swtstudy.units.labels import Units
@@ -30,19 +30,17 @@ def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) 
     return LineUnits(**vars(units))
 
 
-def check_lengths(
-    profiles: Iterable[object], given: Collection[str], keys: Callable[[str], str], report: Report
-) -> None:
+def check_lengths(profiles: Iterable[object], given: Collection[str], report: Report) -> None:
     """A depth of plane contacts, a length where none has one, and none where loads need it."""
     plane = [is_plane(profile) for profile in profiles]
     if any(plane) and "depth" in given:
         why = "a plane contact has no depth, only a load"
-        report(keys("depth"), "a depth with a plane profile", f"normal_force: {why}")
+        report.of("depth", "a depth with a plane profile", f"normal_force: {why}")
     if LENGTH in given and not any(plane):
-        report(keys(LENGTH), "a length without a plane profile", "only with profiles such as cylinder")
+        report.of(LENGTH, "a length without a plane profile", "only with profiles such as cylinder")
     if any(plane) and not all(plane) and LENGTH not in given:
         allowed = "the length of the plane contacts: beside axisymmetric ones their loads are forces"
-        report(keys(LENGTH), "nothing", allowed)
+        report.of(LENGTH, "nothing", allowed)
 
 
 def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:

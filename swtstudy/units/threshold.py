@@ -9,7 +9,7 @@ from typing import Any
 
 from swtstudy.units.labels import KNOWN, Units
 from swtstudy.units.sizes import wrong_size
-from swtstudy.vocabulary.mistakes import Mistake, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, plain_number
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
 RANGES = ("threshold_stress_intensity_range", "fatigue_limit_range")
@@ -57,9 +57,7 @@ class CriticalDistance:
         return False, words
 
 
-def critical_distance(
-    tables: Sequence[Mapping[str, Any]], mistakes: list[Mistake]
-) -> CriticalDistance | None:
+def critical_distance(tables: Sequence[Mapping[str, Any]], report: Report) -> CriticalDistance | None:
     """That of the properties of both bodies; None without them, or with mistakes, which are added."""
     given = [[table.get(name) for name in (*RANGES, LOAD_RATIO)] for table in tables]
     one = given[0]
@@ -80,7 +78,7 @@ def critical_distance(
             found.append(Mistake(name, "nothing", f"a positive number, since there is {other}"))
         else:
             found += wrong_size(name, values[0], "a positive number")
-    mistakes += found
+    report += found
     if found:
         return None
     ratio = None if one[2] is None else plain_number(one[2])

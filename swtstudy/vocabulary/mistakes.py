@@ -14,9 +14,6 @@ from typing import TypeGuard
 from swtstudy.vocabulary.axes import SYMBOLS
 from swtstudy.vocabulary.parameter import spelled
 
-#: Called with key, found and allowed of a mistake; knows the source of the input.
-Report = Callable[[str, str, str], None]
-
 
 @dataclass(frozen=True)
 class Mistake:
@@ -62,6 +59,47 @@ class StudyError(ValueError):
 
     def __reduce__(self) -> tuple[type[StudyError], tuple[tuple[Mistake, ...]]]:
         return StudyError, (self.mistakes,)
+
+
+class Report(list[Mistake]):
+    """Mistakes in their order; called with key, found and allowed of one, it adds that.
+
+    Parameters
+    ----------
+    source
+        Where the input comes from.
+    keys
+        The key of a parameter, from its name.
+    """
+
+    def __init__(self, source: str = "", keys: Callable[[str], str] = str) -> None:
+        super().__init__()
+        self._source, self._keys = source, keys
+
+    def __call__(self, key: str, found: str, allowed: str) -> None:
+        self.append(Mistake(key, found, allowed, self._source))
+
+    def key(self, names: str | Iterable[str]) -> str:
+        """The key of one parameter, or of several."""
+        return ", ".join(map(self._keys, [names] if isinstance(names, str) else names))
+
+    def of(self, names: str | Iterable[str], found: str, allowed: str) -> None:
+        """Add a mistake in one parameter, or in several."""
+        self(self.key(names), found, allowed)
+
+    def __enter__(self) -> Report:
+        """Within a with block, the mistakes of a StudyError are added, and what is left of it is not done."""
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, *_: object) -> bool:
+        if isinstance(error, StudyError):
+            self += error.mistakes
+        return isinstance(error, StudyError)
+
+    def refuse(self) -> None:
+        """Raise a StudyError with the mistakes, if there are any."""
+        if self:
+            raise StudyError(self)
 
 
 def literal(value: object, longest: int = 60) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -110,6 +110,13 @@ def number_words(value: float, digits: int = 4) -> str:
         return f"{float(text):.0f}"
     lead = {"1": "", "-1": "-"}.get(lead, f"{lead}·")
     return f"{lead}10{str(int(power)).translate(_RAISED)}"
+
+
+def listed(words: Sequence[str], most: int) -> str:
+    """Words after commas, of many the first two and the last."""
+    if len(words) <= most:
+        return ", ".join(words)
+    return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
 
 
 def flag_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:

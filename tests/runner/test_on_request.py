@@ -25,6 +25,8 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
+from swtstudy.points import records
+from swtstudy.points.canonical import ROW
 from swtstudy.runner import chunk
 from swtstudy.runner.run import Stopped
 from swtstudy.vocabulary.quantities import Request
@@ -269,11 +271,10 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
 
 
 def test_a_worker_that_dies_gives_up_quantities_too() -> None:
-    table = np.zeros((1, 12))
-    lost = chunk.Chunk(np.arange(1), table, (1,), {}, chunk.Asked(("dissipation",)))
-    result = chunk.given_up(lost, "gone")
-    assert result.failed.all()
-    assert np.isnan(result.quantities["dissipation_error"]).all()
+    lost = chunk.Chunk(np.arange(1), np.zeros(1, ROW), (1,), {}, chunk.Asked(("dissipation",)))
+    found = chunk.given_up(lost, 1e-3, "gone")
+    assert (found.status == records.FAILED).all()
+    assert np.isnan(found.quantities["dissipation_error"]).all()
 
 
 def test_the_same_request_in_two_ways() -> None:

@@ -18,10 +18,9 @@ from folders import TESTS
 import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.archive.error import ArchiveError
-from swtstudy.points.canonical import COLUMNS
 from swtstudy.points.cost import SECONDS_PER_WEIGHT, duration, weights
 from swtstudy.points.grid import Grid
-from swtstudy.points.result import Result
+from swtstudy.points.records import FAILED, Records, Run
 from swtstudy.points.unique import unique_points
 from swtstudy.runner import engine
 from swtstudy.runner.chunk import Chunk
@@ -74,14 +73,8 @@ def test_symmetric_points_are_computed_once(small, tmp_path):
 
 def test_chunks_aim_at_a_fraction_of_a_second(small):
     pace = Pace()
-    table = unique_points(small.grid).table
-    solution = stand_in.smooth
-    from swtstudy.points.canonical import points_from
-
     for _ in range(30):
-        n = len(table)
-        solved = solution(points_from(table, {}), 1e-3)
-        pace.update(Result(np.arange(n), solved, np.zeros(n, bool), {}, 0.02 * n, "1"), 2 * n)
+        pace.update(0.02 * small.grid.size, 2 * small.grid.size)
     assert pace.chunk_weight() == pytest.approx(CHUNK_SECONDS / 0.01)
 
 
@@ -95,7 +88,7 @@ def test_a_lost_worker_is_replaced(wide, tmp_path):
     done = []
     with LocalPool(2) as pool:
         solver = partial(stand_in.kill_once, str(tmp_path / "killed"))
-        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
+        solve(chunks, 1e-3, solver, lambda rows, found: done.extend(rows), pool)
     assert (tmp_path / "killed").exists()
     assert sorted(done) == list(range(len(table)))
 
@@ -110,7 +103,7 @@ def test_only_what_was_in_hand_is_tried_alone(wide, tmp_path, monkeypatch):
     # In the second wave, of 16 chunks.
     solver = partial(stand_in.kill_once_at, 0.4, str(tmp_path / "killed"))
     with LocalPool(2) as pool:
-        solve(chunks, 1e-3, solver, lambda result: done.extend(result.rows), pool)
+        solve(chunks, 1e-3, solver, lambda rows, found: done.extend(rows), pool)
     assert sorted(done) == list(range(len(table)))
     assert 1 <= len(alone) <= 2 * 2
 
@@ -127,22 +120,23 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing():
     chunk = Chunk.of(unique_points(study.grid), [np.arange(5), np.arange(5, 10)])
     results = []
     with LocalPool(1) as pool:
-        solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), results.append, pool)
-    assert sorted(row for result in results for row in result.rows) == list(range(10))
-    failed = [result for result in results if result.failed.any()]
-    assert [result.rows.tolist() for result in failed] == [[2]]
-    assert failed[0].messages == {0: LOST_WORKER}
+        solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), lambda *each: results.append(each), pool)
+    assert sorted(row for rows, _ in results for row in rows) == list(range(10))
+    ((rows, failed),) = [each for each in results if (each[1].status == FAILED).any()]
+    assert rows.tolist() == [2]
+    assert failed.message.tolist() == [LOST_WORKER]
 
 
 @pytest.mark.parametrize("solver", [stand_in.fail_at, stand_in.lose_at])
 def test_one_failure_is_one_point(solver):
     study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
     results = []
-    solve([Chunk.of(unique_points(study.grid), [np.arange(10)])], 1e-3, partial(solver, 0.3), results.append)
-    (result,) = results
-    assert np.flatnonzero(result.failed).tolist() == [2]
-    assert np.isnan(result.solution.s).tolist() == result.failed.tolist()
-    assert list(result.messages) == [2]
+    chunk = Chunk.of(unique_points(study.grid), [np.arange(10)])
+    solve([chunk], 1e-3, partial(solver, 0.3), lambda rows, found: results.append(found))
+    (found,) = results
+    assert np.flatnonzero(found.status == FAILED).tolist() == [2]
+    assert np.flatnonzero(np.isnan(found.solution.s)).tolist() == [2]
+    assert np.flatnonzero(found.message).tolist() == [2]
 
 
 def test_rooms_import_only_what_lies_before_them():
@@ -271,17 +265,16 @@ def test_workers_keep_the_memory_of_arrays_unless_the_user_says_otherwise(monkey
 
 def test_the_pace_of_the_first_chunks_and_of_later_ones():
     """The first are a fifth as long as later ones; then the mean of the last estimate and the new timing."""
-    result = Result(np.arange(1), None, np.zeros(1, bool), {}, 4.0, "1")
     pace = Pace()
     assert pace.chunk_weight() == pytest.approx(0.2 * CHUNK_SECONDS / SECONDS_PER_WEIGHT)
-    pace.update(result, 200)
+    pace.update(4.0, 200)
     assert pace.seconds_per_weight == pytest.approx(0.02)
-    pace.update(result, 100)
+    pace.update(4.0, 100)
     assert pace.seconds_per_weight == pytest.approx(0.03)
     assert pace.chunk_weight() == pytest.approx(0.7 / 0.03)
-    pace.update(replace(result, seconds=0.0), 10**9)
+    pace.update(0.0, 10**9)
     for _ in range(60):
-        pace.update(replace(result, seconds=0.0), 10**9)
+        pace.update(0.0, 10**9)
     assert pace.chunk_weight() == 10_000
 
 
@@ -299,7 +292,7 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
         assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
         left = {1: 5, 2: 5}
-        left[int(table[0, COLUMNS.index("q")])] -= 3
+        left[int(table["q"][0])] -= 3
         assert estimate(points, missing, 1e-3, None) == pytest.approx(left[1] * 1.0 + left[2] * 2.0)
         assert estimate(points, np.zeros(len(table), bool), 1e-3, None) == 0.0
 
@@ -315,9 +308,7 @@ def test_a_plan_times_no_more_points_than_its_budget_allows():
         seconds = estimate(points, every, 1e-3, None, lambda result: told.append(len(result)))
     assert sum(told) <= 2
     weight = weights(points.table)
-    assert seconds == pytest.approx(
-        50.0 * weight.sum() / weight[points.table[:, COLUMNS.index("q")] == 1].sum()
-    )
+    assert seconds == pytest.approx(50.0 * weight.sum() / weight[points.table["q"] == 1].sum())
 
 
 def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
@@ -332,7 +323,7 @@ def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
         k = len(load.vertices)
         counts.append(k)
         seconds = float(len(chunk) * 1e-4 * k * np.log(k))
-        return Result(np.arange(len(chunk)), None, np.zeros(len(chunk), bool), {}, seconds, "1")
+        return that_took(seconds, chunk.table)
 
     with mock.patch("swtstudy.runner.estimate.solve_chunk", solve):
         seconds = estimate(points, np.ones(2, bool), 1e-3, None)
@@ -341,9 +332,13 @@ def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
 
 
 def timed_by_ratio(timed, chunk, rtol, solver):
-    """A result that took q seconds a point."""
-    q = chunk.table[:, COLUMNS.index("q")]
-    return Result(np.arange(len(q)), None, np.zeros(len(q), bool), {}, float(q.sum()), "1")
+    """Records that took q seconds a point."""
+    return that_took(float(chunk.table["q"].sum()), chunk.table)
+
+
+def that_took(seconds, table):
+    """Records of points for which a worker took some seconds."""
+    return replace(Records.missing(table), runs=(Run("1", 1e-3, "", "", seconds=seconds),))
 
 
 @pytest.mark.parametrize(

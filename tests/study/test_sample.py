@@ -267,7 +267,7 @@ def test_the_audit_draws_from_a_sample():
     rows = drawn_rows(grid, 10, 0)
     table = unique_points(grid).table
     assert len(rows) == 10
-    assert all((table == row).all(axis=1).any() for row in rows)
+    assert {*rows.tolist()} <= {*table.tolist()}
 
 
 @pytest.fixture(scope="module")

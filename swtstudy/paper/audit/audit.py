@@ -71,7 +71,7 @@ def audit_study(
 
     rows, definitions = drawn_rows(study.grid, points, seed), study.grid.definitions
     audit = partial(audit_point, definitions=definitions, dense=dense)
-    keys = list(map(tuple, rows.tolist()))
+    keys = rows.tolist()
     known: dict[tuple[float, ...], AuditedPoint] = {}
     if Path(path).exists():
         known = audited_points(open_audit(path))

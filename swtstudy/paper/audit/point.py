@@ -12,7 +12,7 @@ from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.paper.audit.dense import dense_look
-from swtstudy.points.canonical import points_from
+from swtstudy.points.canonical import ROW, points_from
 from swtstudy.points.codes import Definitions
 
 #: Which of the surface line's assumptions the body's maximum breaks, in the order of the flag values; the
@@ -92,7 +92,7 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
 
     With ``dense`` its surface line is looked at densely, too (`swtstudy.paper.audit.dense`).
     """
-    points = points_from(np.array([row]), definitions)
+    points = points_from(np.array([tuple(row)], ROW), definitions)
     line = solve_points(points, TOLERANCE / 10.0)
     s, x = float(line.s[0]), float(line.critical_x[0])
     regime, s_dense = REGIMES[int(line.regime[0])], float("nan")

@@ -48,7 +48,7 @@ def report(dataset: xr.Dataset) -> str:
 
 
 def _lines(dataset: xr.Dataset) -> Iterator[str]:
-    excess, remainder, verdict = (dataset[name].values for name in ("excess", "remainder", "verdict"))
+    excess, verdict = dataset["excess"].values, dataset["verdict"].values
     finite = np.isfinite(excess)
     exceeded = finite & (excess > TOLERANCE)
     ν = dataset["poisson_ratio"].values
@@ -71,14 +71,14 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
             most = _percent(excess[here].max(), 1)
             yield f"| {_WORDS[name]} | {here.sum()} | {most} | {ν[here].min():.2f} |"
     yield ""
-    yield from _shares("ν", _ranges(ν), finite, exceeded, excess, remainder)
-    yield from _shares("profile", _values(dataset["profile"].values), finite, exceeded, excess, remainder)
+    yield from _shares("ν", _ranges(ν), dataset)
+    yield from _shares("profile", _values(dataset["profile"].values), dataset)
     regime = np.array(REGIMES)[dataset["regime"].values]
-    yield from _shares("regime", _values(regime), finite, exceeded, excess, remainder)
+    yield from _shares("regime", _values(regime), dataset)
     # An older audit has no such columns.
     if any(name in dataset.coords and dataset[name].values.any() for name in _BULK):
         groups = _bulk_groups(dataset)
-        yield from _shares("bulk stress", groups, finite, exceeded, excess, remainder)
+        yield from _shares("bulk stress", groups, dataset)
         name, inside = groups[0]
         enough = finite & inside
         on_line = f"{(enough & ~exceeded).sum()} of {enough.sum()}"
@@ -131,15 +131,10 @@ def _overlooked(dataset: xr.Dataset) -> Iterator[str]:
     )
 
 
-def _shares(
-    title: str,
-    groups: list[tuple[str, NDArray[np.bool_]]],
-    finite: NDArray[np.bool_],
-    exceeded: NDArray[np.bool_],
-    excess: NDArray[np.float64],
-    remainder: NDArray[np.float64],
-) -> Iterator[str]:
+def _shares(title: str, groups: list[tuple[str, NDArray[np.bool_]]], dataset: xr.Dataset) -> Iterator[str]:
     """A table of how often and by how much s and s_surface are exceeded in groups of points."""
+    excess, remainder = dataset["excess"].values, dataset["remainder"].values
+    finite, exceeded = np.isfinite(excess), excess > TOLERANCE
     yield f"| {title} | points | above s | by up to | above s_surface by up to |"
     yield "|---|---|---|---|---|"
     for name, group in groups:

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.archive.attributes import defined_in, definitions_text
-from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import VERDICTS, AuditedPoint
-from swtstudy.points.canonical import COLUMNS
+from swtstudy.points.canonical import COLUMNS, ROW, Table
 from swtstudy.points.codes import Definitions, code_of, value_of
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -42,13 +42,13 @@ _LATER = {"s_error", "s_dense", "shortfall"}
 _WITH_NAMES = {name for name, row in PARAMETERS.items() if row.kind == "name"}
 
 
-def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions: Definitions) -> xr.Dataset:
+def audit_dataset(rows: Table, points: Sequence[AuditedPoint], definitions: Definitions) -> xr.Dataset:
     """The Dataset of an audit.
 
     Parameters
     ----------
     rows
-        Shape (n, len(COLUMNS)): their canonical rows.
+        Shape (n,): their canonical rows.
     points
         The audited points, one for each row.
     definitions
@@ -61,9 +61,9 @@ def audit_dataset(rows: FloatArray, points: Sequence[AuditedPoint], definitions:
     """
     import xarray as xr
 
-    coordinates: dict[str, Any] = {name: ("sample", rows[:, i]) for i, name in enumerate(COLUMNS)}
+    coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS}
     for name in _WITH_NAMES & {*COLUMNS}:
-        names = [str(value_of(code, definitions, name)) for code in rows[:, COLUMNS.index(name)]]
+        names = [str(value_of(code, definitions, name)) for code in rows[name]]
         coordinates[name] = ("sample", np.array(names, dtype=object))
     columns = {name: np.array([getattr(each, name) for each in points], float) for name in _SCALARS}
     for group, prefix in (("position", "body"), ("normal", "normal")):
@@ -104,19 +104,19 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     return dataset
 
 
-def canonical_rows(dataset: xr.Dataset) -> FloatArray:
-    """The canonical rows of an audit's points, shape (n, len(COLUMNS))."""
+def canonical_rows(dataset: xr.Dataset) -> Table:
+    """The canonical rows of an audit's points, shape (n,)."""
     known = defined_in(dataset.attrs)
-    rows = np.zeros((dataset.sizes["sample"], len(COLUMNS)))
-    for i, name in enumerate(COLUMNS):
+    rows = np.zeros(dataset.sizes["sample"], ROW)
+    for name in COLUMNS:
         # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria.
         if name in dataset.coords:
             values = dataset[name].values
             own = known.get(name, {})
             codes = name in _WITH_NAMES
-            rows[:, i] = [code_of(own.get(value, value), name) for value in values] if codes else values
+            rows[name] = [code_of(own.get(value, value), name) for value in values] if codes else values
         elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
-            rows[:, i] = PARAMETERS[name].default
+            rows[name] = PARAMETERS[name].default
     return rows
 
 
@@ -125,7 +125,7 @@ def audited_points(dataset: xr.Dataset) -> dict[tuple[float, ...], AuditedPoint]
     unknown = np.full(dataset.sizes["sample"], np.nan)
     values = {name: dataset[name].values if name in dataset else unknown for name in _MEANINGS}
     points = {}
-    for i, row in enumerate(map(tuple, canonical_rows(dataset).tolist())):
+    for i, row in enumerate(canonical_rows(dataset).tolist()):
         position, normal = (
             np.array([values[f"{prefix}_{axis}"][i] for axis in "xyz"]) for prefix in ("body", "normal")
         )

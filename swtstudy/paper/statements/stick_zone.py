@@ -12,7 +12,7 @@ from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.of_points import load_of
 from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.points.canonical import SHARED_COLUMNS, points_from, select
+from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, points_from
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,9 +29,9 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     """
     rows, _ = grid_of(dataset).canonical()
     radius = np.empty(len(rows))
-    _, group = np.unique(select(rows, SHARED_COLUMNS), axis=0, return_inverse=True)
+    _, group = group_rows(rows[[*SHARED_COLUMNS]])
     for family in range(int(group.max()) + 1):
-        members = np.flatnonzero(group.ravel() == family)
+        members = np.flatnonzero(group == family)
         radius[members] = _radius(points_from(rows[members], {}))
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 

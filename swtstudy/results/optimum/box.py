@@ -11,7 +11,7 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 
 
 @dataclass(frozen=True)
@@ -55,23 +55,23 @@ class Box:
         return replace(self.corners, axes=axes, samples=samples)
 
 
-def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], list[Mistake]]:
+def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], Report]:
     """The ranges by name, ``(low, high)`` each, of parameters of some names, None for one that is none."""
     if not isinstance(over, Mapping) or not over:
         raise StudyError([Mistake("over", literal(over), 'ranges by name, such as {"phase": (0, "2*pi")}')])
-    mistakes: list[Mistake] = []
+    report = Report()
     axes: dict[str, list[object] | None] = {}
     for name, ends in over.items():
         key = f"over.{name}"
         if name not in names:
-            mistakes.append(Mistake(key, "not a parameter that is a number", nearest(str(name), names)))
+            report(key, "not a parameter that is a number", nearest(str(name), names))
             continue
         axes[name] = None
         if not isinstance(ends, list | tuple | np.ndarray) or np.shape(ends) != (2,):
-            mistakes.append(Mistake(key, literal(ends), "both ends of a range, (low, high)"))
+            report(key, literal(ends), "both ends of a range, (low, high)")
         else:
             axes[name] = list(ends)
-    return axes, mistakes
+    return axes, report
 
 
 def read_box(over: object, fixed: Mapping[str, object]) -> Box:
@@ -82,8 +82,8 @@ def read_box(over: object, fixed: Mapping[str, object]) -> Box:
     StudyError
         With every mistake.
     """
-    axes, mistakes = read_ranges(over, NUMERIC)
+    axes, report = read_ranges(over, NUMERIC)
     corners, found = read_grid(fixed, axes, lambda name: f"over.{name}" if name in axes else name)
-    if corners is None or mistakes:
-        raise StudyError([*mistakes, *found])
+    if corners is None or report:
+        raise StudyError([*report, *found])
     return Box.of(corners, over)  # type: ignore[arg-type]

@@ -15,7 +15,7 @@ from swtstudy.results.optimum.objective import Objective
 from swtstudy.solving import solve_grid
 from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, nearest
 from swtstudy.vocabulary.quantities import NAMED, Request
 
 if TYPE_CHECKING:
@@ -75,13 +75,12 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    mistakes = mistakes_in(minimise, rtol, seed)
+    report = mistakes_in(minimise, rtol, seed)
     try:
         box = read_box(over, parameters)
     except StudyError as error:
-        raise StudyError([*error.mistakes, *mistakes]) from None
-    if mistakes:
-        raise StudyError(mistakes)
+        raise StudyError([*error.mistakes, *report]) from None
+    report.refuse()
     return optimum_in(
         box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
     )
@@ -98,15 +97,13 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
     return dataset_of(box, found, minimise, solve).assign_attrs(words)
 
 
-def mistakes_in(
-    minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
-) -> list[Mistake]:
+def mistakes_in(minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED) -> Report:
     """Report mistakes in how an optimum is asked for; ``known`` may be minimised."""
-    found = []
+    found = Report()
     if minimise not in known:
-        found.append(Mistake("minimise", literal(minimise), nearest(str(minimise), known)))
+        found("minimise", literal(minimise), nearest(str(minimise), known))
     if not is_rtol(rtol):
-        found.append(Mistake("rtol", literal(rtol), ALLOWED_RTOL))
+        found("rtol", literal(rtol), ALLOWED_RTOL)
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:
-        found.append(Mistake("seed", literal(seed), "a whole number from 0 to 2**32 - 1"))
+        found("seed", literal(seed), "a whole number from 0 to 2**32 - 1")
     return found

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
 
 #: The largest index that NumPy's random numbers can be.
 LARGEST_SAMPLED = 2**63 - 1
 
 
-def drawn_rows(grid: Grid, points: int, seed: int) -> FloatArray:
+def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
     """Canonical rows of random points of a grid, without repetition, shape (n, columns).
 
     Raises
@@ -30,5 +30,5 @@ def drawn_rows(grid: Grid, points: int, seed: int) -> FloatArray:
         _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
         index = index[np.sort(first)]
     rows = np.concatenate([grid.canonical(i, i + 1)[0] for i in map(int, index)])
-    _, first = np.unique(rows, axis=0, return_index=True)
+    first, _ = group_rows(rows)
     return rows[np.sort(first)[:points]]

@@ -1,0 +1,50 @@
+"""Records of points: taken, joined and filled in by rows, and kept in parts as plain columns."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from swtstudy.archive.parts import PartsWriter, read_parts
+from swtstudy.mechanics.points import Solution
+from swtstudy.points.canonical import COLUMNS, ROW
+from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
+
+
+def some(count: int, status: int = COMPUTED, message: str = "", **quantities: float) -> Records:
+    """Records of points that differ in their phase, and all say the same."""
+    table = np.zeros(count, ROW)
+    table["phase"] = np.arange(count)
+    run = Run("1", 1e-3, "", "", seconds=1.0)
+    found = replace(Records.of(table, Solution.blank(count), status, message), runs=(run,))
+    values = {name: np.full(count, value) for name, value in quantities.items()}
+    return replace(found, run=np.zeros(count, np.int32), quantities=values)
+
+
+def test_records_are_joined_with_the_quantities_of_all() -> None:
+    whole = join([some(2, FAILED, "why"), some(3, stick_radius=0.5)])
+    assert whole.message.tolist() == ["why"] * 2 + [""] * 3
+    assert whole.table["phase"].tolist() == [0, 1, 0, 1, 2]
+    np.testing.assert_array_equal(whole.quantities["stick_radius"], [np.nan, np.nan, 0.5, 0.5, 0.5])
+    assert whole.seconds == 2.0
+    assert len(whole.runs) == 1
+    part = whole.take(np.array([4, 1]))
+    assert part.message.tolist() == ["", "why"]
+    assert part.status.tolist() == [COMPUTED, FAILED]
+    np.testing.assert_array_equal(part.quantities["stick_radius"], [0.5, np.nan])
+
+
+def test_parts_hold_the_points_as_a_matrix(tmp_path: Path) -> None:
+    records = some(3, FAILED, "why", stick_radius=0.25)
+    PartsWriter(tmp_path).add(records)
+    (file,) = tmp_path.glob("*.npz")
+    with np.load(io.BytesIO(file.read_bytes())) as part:
+        assert part["table"].shape == (3, len(COLUMNS))
+        assert part["table"][:, COLUMNS.index("phase")].tolist() == [0, 1, 2]
+    read = read_parts(tmp_path)
+    assert (read.table == records.table).all()
+    assert read.message.tolist() == ["why"] * 3
+    assert read.quantities.keys() == {"stick_radius"}
