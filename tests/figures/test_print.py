@@ -5,9 +5,9 @@ from itertools import pairwise
 import matplotlib
 import numpy as np
 import pytest
+from command import call
 from made_up import PANELS, made_up
 from matplotlib.transforms import Bbox
-from test_cli import call
 
 import swtstudy
 from swtstudy import Study
