@@ -594,6 +594,7 @@ def test_a_new_study_of_a_cylinder_has_forces(tmp_path, monkeypatch):
     [
         ("swtstudy run", "fig", {"plain,figure3", "plain,figure8"}),
         ("swtstudy validate", "mi", {"plain,mine.toml"}),
+        ("swtstudy validate", "stu", {"plain,studies/own.toml"}),
         ("swtstudy info", "", {"plain,results/mine.nc"}),
         ("swtstudy plan", "elsewhere/", {"file,elsewhere/"}),
         ("swtstudy", "me", {"plain,merge"}),
@@ -601,8 +602,8 @@ def test_a_new_study_of_a_cylinder_has_forces(tmp_path, monkeypatch):
 )
 def test_the_shell_completes(tmp_path, monkeypatch, words, typed, offered):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "results").mkdir()
-    for name in ("mine.toml", "results/mine.nc"):
+    for name in ("mine.toml", "studies/own.toml", "results/mine.nc"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text("")
     variables = {
         "_SWTSTUDY_COMPLETE": "bash_complete",

@@ -273,6 +273,7 @@ def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
     assert lines[at + 8].endswith("is enough at 2 of 2 points.")
     plain = report(made_up_audit())
     assert "bulk stress" not in plain
+    assert "The body's maximum exceeds s_surface at 0 points.\n" in plain
 
 
 def test_a_sample_has_every_point_at_most_once():
