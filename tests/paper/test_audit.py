@@ -57,6 +57,7 @@ def test_verdicts(changes, verdict):
 
 def test_audited_points_are_read_as_they_were_written(tmp_path):
     written = made_up_audit(on_line=2, off_line=1)
+    assert written.verdict.dtype == written.regime.dtype == np.int8
     save(written, tmp_path / "audit.nc")
     read = audited_points(open_audit(tmp_path / "audit.nc"))
     again = audit_dataset(np.array(list(read)), list(read.values()), {})
