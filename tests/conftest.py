@@ -32,6 +32,9 @@ TOGETHER = (
 )
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
+#: Examples in docstrings that take seconds.
+LONG_EXAMPLES = ("swtstudy.results.optimum.optimise.optimise",)
+
 SMALL = """
 title = "A small study"
 rtol = 1e-3
@@ -49,7 +52,7 @@ hue = "normal_amplitude"
 """
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def small_text() -> str:
     return SMALL
 
@@ -66,11 +69,19 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
 
 
 @pytest.fixture(autouse=True)
-def ctrl_c_as_it_was() -> Iterator[None]:
+def signals_as_they_were() -> Iterator[None]:
     """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""
-    before = signal.getsignal(signal.SIGINT)
+    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
     yield
-    signal.signal(signal.SIGINT, before)
+    for each, handler in before.items():
+        signal.signal(each, handler)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Examples in docstrings have no place for a marker."""
+    for item in items:
+        if item.name in LONG_EXAMPLES:
+            item.add_marker(pytest.mark.slow)
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -89,12 +100,3 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 def pytest_addoption(parser: pytest.Parser) -> None:
     words = "How many studies test_fuzz.py changes; 8700 take some ten minutes."
     parser.addoption("--changed-studies", type=int, default=150, help=words)
-
-
-@pytest.fixture(autouse=True)
-def _signals() -> Iterator[None]:
-    """What a command that is stopped in this process leaves of its signals is put back."""
-    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
-    yield
-    for each, handler in before.items():
-        signal.signal(each, handler)

@@ -107,18 +107,10 @@ def test_the_picture_has_nine_panels():
     assert numbers == set("1234")
 
 
-@pytest.mark.parametrize(
-    "parameters",
-    [
-        {"profile": "truncated_paraboloid", "flat_radius": 1, "friction": 1.2, "phase": 1.5},
-        {"tangential_amplitude": 0, "normal_amplitude": 0},
-        {"friction": 0},
-    ],
-)
-def test_extremes_are_drawn_too(parameters):
-    figure = swtstudy.inspect(**parameters, style={"font.size": 7})
+def test_without_friction_it_is_drawn_too():
+    figure = swtstudy.inspect(friction=0, style={"font.size": 7})
     assert figure.axes[0].xaxis.label.get_fontsize() == 7
-    assert ("not finite" in figure.get_suptitle()) == (parameters.get("friction") == 1.2)
+    assert "not finite" not in figure.get_suptitle()
 
 
 def test_nothing_that_moves_is_drawn_as_nothing():
@@ -132,6 +124,7 @@ def test_nothing_that_moves_is_drawn_as_nothing():
 @pytest.mark.parametrize(("friction", "words"), [(0.3, "critical"), (1.2, "largest")])
 def test_there_is_no_critical_point_where_swt_has_no_bound(friction, words):
     figure = swtstudy.inspect(profile="truncated_paraboloid", flat_radius=1, friction=friction, phase=1.5)
+    assert ("not finite" in figure.get_suptitle()) == (words == "largest")
     legend = {text.get_text() for text in figure.axes[1].get_legend().get_texts()}
     titles = " ".join(axes.get_title("left") for axes in figure.axes)
     assert ("critical point" in legend, "largest sampled" in legend) == (

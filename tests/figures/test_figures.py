@@ -15,9 +15,21 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.wording import value_words
 
 
+@pytest.fixture(scope="module")
+def known(tmp_path_factory):
+    path = tmp_path_factory.mktemp("panels") / "panels.nc"
+    return run(Study.from_text(PANELS), path, solver=stand_in.smooth)
+
+
 @pytest.fixture
-def panels(tmp_path):
-    return run(Study.from_text(PANELS), tmp_path / "panels.nc", solver=stand_in.smooth)
+def panels(known):
+    return known.copy(deep=True)
+
+
+@pytest.fixture
+def one_panel(panels):
+    """For tests of what is the same of any figure."""
+    return panels.isel(phase=0)
 
 
 def test_lines_ticks_and_legend(small, tmp_path):
@@ -57,14 +69,14 @@ def test_lines_differ_in_colour_and_style(panels):
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]
 )
-def test_the_ending_is_the_format(panels, tmp_path, suffix, start):
-    save_figure(draw(panels), tmp_path / f"figure{suffix}")
+def test_the_ending_is_the_format(one_panel, tmp_path, suffix, start):
+    save_figure(draw(one_panel), tmp_path / f"figure{suffix}")
     assert (tmp_path / f"figure{suffix}").read_bytes().startswith(start)
 
 
-def test_other_endings_are_refused(panels, tmp_path):
+def test_other_endings_are_refused(one_panel, tmp_path):
     with pytest.raises(ValueError, match=r"found \.docx; allowed: \.png"):
-        save_figure(draw(panels), tmp_path / "figure.docx")
+        save_figure(draw(one_panel), tmp_path / "figure.docx")
 
 
 def test_what_cannot_be_drawn_is_refused(panels):
@@ -161,18 +173,18 @@ def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
     assert band[:, 1].max() == pytest.approx(1.05 * float(s.max()))
 
 
-def test_the_user_has_the_last_word_on_the_look(panels, tmp_path):
+def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
     import matplotlib
 
-    assert draw(panels, style={"lines.linewidth": 5.0}).axes[0].lines[0].get_linewidth() == 5.0
+    assert draw(one_panel, style={"lines.linewidth": 5.0}).axes[0].lines[0].get_linewidth() == 5.0
     with matplotlib.rc_context({"font.size": 6.0, "axes.prop_cycle": matplotlib.cycler(color=["r", "g"])}):
-        lines = draw(panels).axes[0].lines
+        lines = draw(one_panel).axes[0].lines
     assert [line.get_color() for line in lines] == ["r", "g", "r"]
     assert {line.get_linestyle() for line in lines} == {"-"}
     with pytest.raises(OSError, match="no_such_style"):
-        draw(panels, style="no_such_style")
+        draw(one_panel, style="no_such_style")
     for name in ("one", "two"):
-        save_figure(draw(panels), tmp_path / f"{name}.svg")
+        save_figure(draw(one_panel), tmp_path / f"{name}.svg")
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 
@@ -183,10 +195,10 @@ def test_lines_differ_in_greyscale():
     assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 
 
-def test_a_notebook_shows_a_figure_without_pyplot(panels):
+def test_a_notebook_shows_a_figure_without_pyplot(one_panel):
     formatters = pytest.importorskip("IPython.core.formatters")
     # Of its own, a formatter knows nothing of matplotlib.
-    assert formatters.PNGFormatter()(draw(panels)).startswith(b"\x89PNG")
+    assert formatters.PNGFormatter()(draw(one_panel)).startswith(b"\x89PNG")
 
 
 def test_pyplot_is_not_touched():

@@ -5,6 +5,7 @@ import pytest
 import swtstudy
 
 
+@pytest.mark.slow
 def test_labels_are_those_of_the_results():
     # Here and not above: it takes seconds, and every process of tests collects all tests.
     pytest.importorskip("hvplot")

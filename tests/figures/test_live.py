@@ -168,7 +168,7 @@ def test_a_fine_curve_misses_little_of_the_least_value():
         live.redraw(fine, **given)
         return float(np.nanmin(live.figure.axes[2].get_lines()[0].get_ydata()))
 
-    dense = swtstudy.solve(phase=np.linspace(0.0, np.pi, 721), normal_amplitude=0.85, rtol=1e-3).s
+    dense = swtstudy.solve(phase=np.linspace(0.0, np.pi, 241), normal_amplitude=0.85, rtol=1e-3).s
     assert least(False) > 1.02 * float(dense.min())
     assert least(True) < 1.01 * float(dense.min())
 

@@ -5,9 +5,9 @@ from itertools import pairwise
 import matplotlib
 import numpy as np
 import pytest
+from command import call
 from made_up import PANELS, made_up
 from matplotlib.transforms import Bbox
-from test_cli import call
 
 import swtstudy
 from swtstudy import Study
@@ -145,7 +145,7 @@ def test_letters_of_print_unless_the_user_wants_others():
 def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
     from swtstudy.figures.save import save_figure
 
-    for width, dots in (("column", 8.5 / CM * 300), ("page", 17.5 / CM * 300), (None, 4.0 * 150)):
+    for width, dots in (("column", 8.5 / CM * 300), (None, 4.0 * 150)):
         save_figure(drawn("lines", width), tmp_path / "figure.png")
         head = (tmp_path / "figure.png").read_bytes()[16:20]
         assert int.from_bytes(head, "big") == pytest.approx(dots, abs=1)

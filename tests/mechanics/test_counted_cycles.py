@@ -157,9 +157,9 @@ def test_no_place_and_plane_has_much_more_damage() -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_damage_is_never_less_than_that_of_one_cycle(seed: int) -> None:
-    _, share, number = cycles_of(random_points(seed, 12), 1e-3)
+    _, share, number = cycles_of(random_points(seed, 5), 1e-3)
     known = np.isfinite(share[:, 0, 0])
-    assert known.sum() > 10
+    assert known.sum() > 3
     assert (share[known, 0, 0] == 1.0).all()
     assert (number[known, 0, 0] >= 1.0).all()
     assert (np.nan_to_num(share) <= 1.0 + 1e-3).all()
@@ -215,6 +215,7 @@ TWO = (
     .replace("2e-3", "2e-4")
     .replace("[axes]", "[axes]\nfrequency_ratio = [1, 3]")
     .replace("[150, 200]", "[200]")
+    .replace("[1e-3, 2.5e-3]", "[1e-3]")
 )
 
 
@@ -239,7 +240,7 @@ def test_other_constants_need_no_new_run(two, tmp_path) -> None:
         assert several.all()
     assert "rounds of the load" in found.cycles.comment
     table = found.drop_dims("direction").swt.to_table()
-    assert len(table) == 4
+    assert len(table) == 2
     assert not {"counted", "counted_number"} & {*table.columns}
 
 
@@ -271,7 +272,7 @@ def test_without_a_material_nothing_is_counted() -> None:
 def test_archives_of_before_say_that_they_are_uncounted_and_a_run_counts(two, tmp_path) -> None:
     study, found = Study.from_text(TWO), two[0]
     (words,) = [line for line in describe(found) if "strain cycles" in line]
-    assert words.endswith("several in 2 of 4 points")
+    assert words.endswith("several in 1 of 2 points")
     runs = json.loads(found.attrs["runs"])
     for run in runs:
         run["quantities"].remove("strain_cycles")

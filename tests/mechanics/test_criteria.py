@@ -29,6 +29,7 @@ from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.points.grid import complete
+from swtstudy.reports.parts import section
 from swtstudy.solving import solve_grid
 
 Array = NDArray[np.float64]
@@ -468,7 +469,7 @@ hue = "criterion"
 """
 
 
-def test_from_a_study_of_shear_to_its_figure(tmp_path: Path) -> None:
+def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Study file, archive, info, figure and page, in units."""
     (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")
     runner = CliRunner()
@@ -493,6 +494,8 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path) -> None:
     assert lower.get_ylabel() == "$f$ (MPa)"
     for axes in (upper, lower):  # one criterion has each
         assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
+    # Pictures of points take seconds.
+    monkeypatch.setattr("swtstudy.reports.page.points_section", lambda _: section("points", "Points"))
     call("report", archive, "-o", tmp_path / "shear.html")
     assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 
@@ -564,7 +567,7 @@ def test_a_point_by_criteria_of_shear_in_units() -> None:
         assert float(found[name]) == pytest.approx(made, rel=1e-3)
         with pytest.raises(ValueError, match=f"criterion: found {criterion}; allowed: swt"):
             contact.swt(0.1)
-        assert len(contact.inspect().axes) == 9  # no axis of a strain
+    assert len(contact.inspect().axes) == 9  # no axis of a strain
 
 
 def test_swt_has_no_sensitivity_to_tell_points_apart() -> None:

@@ -232,7 +232,7 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
     np.testing.assert_array_equal(primitives.pressure(upper)[0], outer[0])
     largest = max(inner.max(), outer.max(), 1.0)
     for k, r in enumerate(position):
-        for j in range(k % 3, radius.size, 3):
+        for j in range(k % 5, radius.size, 5):
             assert inner[:, k, j] == pytest.approx(indenter.inner(r, radius[j]), abs=1e-9 * largest)
             pressure, load = indenter.outer(r, radius[j])
             assert outer[0, k, j] == pytest.approx(pressure, abs=1e-9 * largest)

@@ -18,7 +18,7 @@ from swtstudy.vocabulary.families import FAMILIES
 Array = NDArray[np.float64]
 
 few = settings(
-    max_examples=12,
+    max_examples=6,
     derandomize=True,
     database=None,
     deadline=None,
@@ -122,7 +122,7 @@ def test_s_is_continuous_in_every_parameter(point: Points) -> None:
 
 
 @few
-@given(st.lists(single_points(("paraboloid",)), min_size=2, max_size=5))
+@given(st.lists(single_points(("paraboloid",)), min_size=2, max_size=3))
 def test_chunks_do_not_matter(singles: list[Points]) -> None:
     names = [name for name, values in vars(singles[0]).items() if isinstance(values, np.ndarray)]
     batch = replace(

@@ -86,7 +86,7 @@ def test_integrals_of_the_pieces(one: TabulatedProfile) -> None:
     np.testing.assert_array_equal(primitives.inner(radius[None, None])[:, 0], inner)
     np.testing.assert_array_equal(primitives.outer(radius[None, None])[:, 0], outer)
     for k, r in enumerate(position.tolist()):
-        for j in range(k % 2, radius.size, 2):
+        for j in {k, (k + 3) % radius.size}:
             np.testing.assert_allclose(inner[:, k, j], of_table.inner(r, radius[j]), rtol=0.0, atol=2e-8)
             # Behind a face g′ and g′/ξ are fitted each by itself, at a kink to what 105 points tell.
             np.testing.assert_allclose(outer[:, k, j], of_table.outer(r, radius[j]), rtol=0.0, atol=2e-5)
@@ -115,7 +115,7 @@ def test_contact_radius_and_load(one: TabulatedProfile) -> None:
     ],
 )
 def test_s_converges_to_that_of_the_closed_form(name: str, coarse: float, fine: float) -> None:
-    box = random_points(5, 6)
+    box = random_points(5, 3)
     columns = {
         name: getattr(box, name)
         for name in (

@@ -57,6 +57,7 @@ def test_verdicts(changes, verdict):
 
 def test_audited_points_are_read_as_they_were_written(tmp_path):
     written = made_up_audit(on_line=2, off_line=1)
+    assert written.verdict.dtype == written.regime.dtype == np.int8
     save(written, tmp_path / "audit.nc")
     read = audited_points(open_audit(tmp_path / "audit.nc"))
     again = audit_dataset(np.array(list(read), ROW), list(read.values()), {})
@@ -273,6 +274,7 @@ def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
     assert lines[at + 8].endswith("is enough at 2 of 2 points.")
     plain = report(made_up_audit())
     assert "bulk stress" not in plain
+    assert "The body's maximum exceeds s_surface at 0 points.\n" in plain
 
 
 def test_a_sample_has_every_point_at_most_once():

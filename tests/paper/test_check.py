@@ -8,10 +8,10 @@ import stand_in
 from click.testing import CliRunner
 from made_up import made_up_audit
 
-from swtstudy import Study, run
+from swtstudy import Study, open_results, run
 from swtstudy.archive.write import save
 from swtstudy.cli import main
-from swtstudy.paper.statements.check import STATEMENTS, STUDIES, check
+from swtstudy.paper.statements.check import STATEMENTS, STUDIES, about_archive, check
 from swtstudy.paper.statements.report import markdown, summary, terminal_table
 
 AUDIT = "audit_parameter_box"
@@ -51,6 +51,14 @@ def test_all_archives_make_a_table(tmp_path):
     assert len(rows) == len(STATEMENTS)
     assert all(row.count(" | ") >= 4 for row in rows)
     assert summary(check(tmp_path)) in table
+
+
+def test_statements_about_one_archive_are_those_about_its_study_alone():
+    dataset = open_results(folders.RESULTS / "figure3.nc")
+    outcomes = about_archive("figure3", dataset)
+    assert {each.statement.studies for each in outcomes} == {("figure3",)}
+    assert all(each.finding.holds for each in outcomes)
+    assert about_archive("mine", dataset) == []
 
 
 def test_tables_fit():

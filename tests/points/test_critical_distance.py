@@ -31,12 +31,19 @@ from swtstudy.units.variables import variables
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
 
 
-def test_critical_distances_are_an_axis_of_the_quantities_alone() -> None:
-    found = swtstudy.solve(phase=[0.5, 1.0], critical_distance=["1/20", 0.2], quantities=EVERY[:1], rtol=1e-3)
+@pytest.fixture(scope="module")
+def two_distances(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    axes = "phase = [0.5, 1.0]\ncritical_distance = ['1/10', 0.2]"
+    path = tmp_path_factory.mktemp("distances") / "a.nc"
+    return run(study(axes=axes, quantities=EVERY[:1]), path, workers=1)
+
+
+def test_critical_distances_are_an_axis_of_the_quantities_alone(two_distances: xr.Dataset) -> None:
+    found = two_distances
     assert found.s.dims == found.dissipation.dims == ("phase",)
     assert found.s_volume.dims == ("phase", "critical_distance")
     assert found.s_line.dims == found.s_line_error.dims == ("phase", "critical_distance", "direction")
-    assert found.critical_distance.values.tolist() == [0.05, 0.2]
+    assert found.critical_distance.values.tolist() == [0.1, 0.2]
     assert tuple(found.direction.values) == DIRECTIONS
     one = swtstudy.solve(phase=1.0, critical_distance=0.2, rtol=1e-3)
     for name, dims in (("s_volume", ()), ("s_point", ("direction",)), ("s_line", ("direction",))):
@@ -184,13 +191,6 @@ def test_points_with_nonlocal_values_are_cut_into_small_blocks(monkeypatch: pyte
     seconds = estimate(points, every, 1e-2, stand_in.smooth, lambda result: timed.append(len(result)), asked)
     assert timed == [8]
     assert seconds > 0.0
-
-
-@pytest.fixture(scope="module")
-def two_distances(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
-    axes = "phase = [0.5, 1.0]\ncritical_distance = [0.1, 0.2]"
-    path = tmp_path_factory.mktemp("distances") / "a.nc"
-    return run(study(axes=axes, quantities=EVERY[:1]), path, workers=1)
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,7 @@ def same(one: xr.Dataset, other: xr.Dataset) -> None:
 
 def test_a_stopped_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
     path = tmp_path / "line.nc"
-    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth)
+    undisturbed = run(line, tmp_path / "other.nc", solver=stand_in.smooth, workers=1)
     with pytest.raises(Stopped, match="of 400 distinct points are saved") as stopped:
         run(line, path, solver=stand_in.Interrupting(192), workers=1)
     saved = int(str(stopped.value).split()[1])
@@ -310,7 +310,9 @@ def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
 @pytest.mark.parametrize(
     ("largest", "words"),
     [
-        (20_000, r"File too large; ([1-9]\d*) of 400 distinct points"),  # enough for small parts
+        pytest.param(  # enough for small parts
+            20_000, r"File too large; ([1-9]\d*) of 400 distinct points", marks=pytest.mark.slow
+        ),
         (40_000, r"cannot write the archive \(.*\); (400) of 400 distinct points"),  # and for all parts
     ],
 )

@@ -116,12 +116,12 @@ def test_a_solver_that_workers_cannot_import_is_said(wide, tmp_path, monkeypatch
 
 
 def test_a_point_that_kills_its_worker_is_alone_in_failing():
-    study = Study.from_text('title = "t"\n[axes]\nfriction = {start = "0.1", stop = 1, num = 10}')
-    chunk = Chunk.of(unique_points(study.grid), [np.arange(5), np.arange(5, 10)])
+    study = Study.from_text('title = "t"\n[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]')
+    chunk = Chunk.of(unique_points(study.grid), [np.arange(2), np.arange(2, 4)])
     results = []
     with LocalPool(1) as pool:
         solve([chunk], 1e-3, partial(stand_in.kill_at, 0.3), lambda *each: results.append(each), pool)
-    assert sorted(row for rows, _ in results for row in rows) == list(range(10))
+    assert sorted(row for rows, _ in results for row in rows) == list(range(4))
     ((rows, failed),) = [each for each in results if (each[1].status == FAILED).any()]
     assert rows.tolist() == [2]
     assert failed.message.tolist() == [LOST_WORKER]
@@ -212,7 +212,7 @@ def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, 
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
-@pytest.mark.parametrize("closing", ["2>&-", ">&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closing", ["2>&-", "<&- >&- 2>&-"])
 def test_the_command_does_without_closed_streams(tmp_path, closing):
     (tmp_path / "one.toml").write_text('title = "t"\nrtol = 1e-2\n')
     command = f'exec "{sys.executable}" -m swtstudy run one.toml {closing}'

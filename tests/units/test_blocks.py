@@ -22,8 +22,9 @@ poisson_ratio = 0.33
 radius = 50
 friction = 0.5
 body = 1
-critical_distance = 0.05
 """
+#: With means, each of which has a life.
+WITH_MEANS = RIG + "critical_distance = 0.05\n"
 START = "[loads.start-up]\nabsolute = true\nvertices = [[150, -50], [180, 60], [150, 20]]\n"
 RUNNING = "[loads.running]\nabsolute = true\nvertices = [[200, -60], [210, 60]]\n"
 ALUMINIUM = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
@@ -36,12 +37,12 @@ def block(load: str, rounds: object) -> str:
 def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) -> None:
     """Both loads with a mean of their own, one of them in two blocks; lives of each in studies of its own."""
     blocks = block("start-up", 10) + block("running", 1e3) + block("start-up", 5.5)
-    study = Study.from_text(RIG + START + RUNNING + blocks)
+    study = Study.from_text(WITH_MEANS + START + RUNNING + blocks)
     found = run(study, tmp_path / "blocks.nc")
     for end in ("", "_volume", "_point", "_line"):
         lives = []
         for name, load in (("start-up", START), ("running", RUNNING)):
-            own = RIG.replace("[fixed]", f'[fixed]\nload = "{name}"')
+            own = WITH_MEANS.replace("[fixed]", f'[fixed]\nload = "{name}"')
             lives.append(run(Study.from_text(own + load), tmp_path / f"{name}.nc")[f"cycles{end}"])
         damage = 15.5 / lives[0], 1e3 / lives[1]
         np.testing.assert_allclose(found[f"repetitions{end}"], 1.0 / sum(damage), rtol=1e-9)
