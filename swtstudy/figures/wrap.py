@@ -41,7 +41,7 @@ def wrap_texts(figure: Figure) -> None:
 
 
 def letters(words: str) -> int:
-    r"""How many letters a label has about: of a formula those that are seen.
+    r"""Return about the number of letters of a label: of a formula those that are seen.
 
     Examples
     --------

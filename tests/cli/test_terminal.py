@@ -69,7 +69,7 @@ def test_every_regime_without_s_has_an_explanation() -> None:
 
 
 def test_every_command_is_in_one_section_and_says_a_whole_sentence() -> None:
-    listed = [name for names in _SECTIONS.values() for name in names]
+    listed = [str(command.name) for commands in _SECTIONS.values() for command in commands]
     assert sorted(listed) == sorted(main.commands)
     text = " ".join(" ".join(lines_of("--help")).split())
     assert "..." not in text.split("Examples:")[0].replace("[ARGS]...", "")
