@@ -18,10 +18,10 @@ import numpy as np
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, nodes_at
 from swtstudy.mechanics.line import surface_maximum
-from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.scene import scene_of
 
 with warnings.catch_warnings():

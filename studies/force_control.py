@@ -14,9 +14,8 @@ from pathlib import Path
 import xarray as xr
 
 import swtstudy
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.vocabulary.wording import place_words
 

@@ -17,9 +17,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import styled
+from swtstudy.figures.style import save_figure, styled
 from swtstudy.mechanics import Points, solve_points
 
 COUNTS = (1, 4, 16, 64, 256, 1024, 4096)

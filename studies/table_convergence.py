@@ -17,13 +17,12 @@ from accuracy import random_points
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.vocabulary.families import FAMILIES, is_plane
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.choices import FAMILIES, is_plane
+from swtstudy.vocabulary.parameters import Control
 
 COUNTS = (25, 50, 100, 200, 500, 1000, 2000)
 NOISE = (1e-5, 1e-4, 1e-3, 1e-2)

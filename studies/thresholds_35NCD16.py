@@ -21,9 +21,8 @@ from numpy.typing import NDArray
 
 import swtstudy
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 
 YOUNG, POISSON, FRICTION = 205e3, 0.3, 0.8
 #: Yield strength, and fatigue limits in reversed bending and torsion, MPa.

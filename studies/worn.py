@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 
 import swtstudy
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 
 TABLES = Path(__file__).parent / "worn"
 RADIUS, FORCE, FRICTION = 50.0, 200.0, 0.5

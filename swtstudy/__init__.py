@@ -9,13 +9,11 @@ from swtstudy.results.registration import register_with_xarray
 from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
-    from swtstudy.archive.open import open_results
+    from swtstudy.archive.archive import open_results
     from swtstudy.contacts.physical import physical
     from swtstudy.fields.history import criterion_of_history, swt_of_history
     from swtstudy.fields.inspection import inspect_point
-    from swtstudy.fields.slip import slip_map
-    from swtstudy.fields.stress import stress_field
-    from swtstudy.fields.swt import swt_field
+    from swtstudy.fields.stress import slip_map, stress_field, swt_field
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.load import draw_load
     from swtstudy.figures.profile import draw_profile
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
     from swtstudy.mechanics.load.load_path import LoadPath
     from swtstudy.paper.audit.audit import audit_study
     from swtstudy.results.fitting import fit
-    from swtstudy.results.optimum.optimise import optimise
+    from swtstudy.results.optimise import optimise
     from swtstudy.results.sensitivity import sensitivity
     from swtstudy.runner.run import run
     from swtstudy.runner.suite import run_suite
@@ -31,8 +29,7 @@ if TYPE_CHECKING:
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import read_signal
     from swtstudy.study.trace import read_trace
-    from swtstudy.units.life import FatigueConstants
-    from swtstudy.units.shear_life import ShearConstants
+    from swtstudy.units.life import FatigueConstants, ShearConstants
     from swtstudy.vocabulary.mistakes import StudyError
 
 __all__ = [
@@ -69,7 +66,7 @@ __all__ = [
 _HOMES = {
     "FatigueConstants": "swtstudy.units.life",
     "LoadPath": "swtstudy.mechanics.load.load_path",
-    "ShearConstants": "swtstudy.units.shear_life",
+    "ShearConstants": "swtstudy.units.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.vocabulary.mistakes",
     "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
@@ -80,18 +77,18 @@ _HOMES = {
     "fit": "swtstudy.results.fitting",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
-    "open_results": "swtstudy.archive.open",
-    "optimise": "swtstudy.results.optimum.optimise",
+    "open_results": "swtstudy.archive.archive",
+    "optimise": "swtstudy.results.optimise",
     "physical": "swtstudy.contacts.physical",
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
     "run_suite": "swtstudy.runner.suite",
     "sensitivity": "swtstudy.results.sensitivity",
-    "slip_map": "swtstudy.fields.slip",
+    "slip_map": "swtstudy.fields.stress",
     "solve": "swtstudy.solving",
     "stress_field": "swtstudy.fields.stress",
-    "swt_field": "swtstudy.fields.swt",
+    "swt_field": "swtstudy.fields.stress",
     "swt_of_history": "swtstudy.fields.history",
 }
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from swtstudy.points.nearest import TOLERANCE
+from swtstudy.points.values import AXIS_TOLERANCE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -66,7 +66,7 @@ class SwtAccessor:
         >>> swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2).swt.words().values.tolist()
         ['partial_slip', 'lift_off']
         """
-        from swtstudy.results.table import words_of
+        from swtstudy.results.evaluate import words_of
 
         return words_of(self._dataset, name)
 
@@ -175,7 +175,7 @@ class SwtAccessor:
         layout = FigureLayout(x, hue, panels, rows, title, kind, vertical, regimes, validity)
         return draw(self._dataset, layout, style, width)
 
-    def slice(self, *, tolerance: float = TOLERANCE, **places: object) -> xr.Dataset:
+    def slice(self, *, tolerance: float = AXIS_TOLERANCE, **places: object) -> xr.Dataset:
         """The part of results at given values of their parameters.
 
         Parameters
@@ -197,7 +197,7 @@ class SwtAccessor:
         StudyError
             A ValueError with every name and value that the results lack, and those that they have.
         """
-        from swtstudy.results.select import slice_at
+        from swtstudy.results.evaluate import slice_at
 
         return slice_at(self._dataset, places, tolerance)
 
@@ -219,7 +219,7 @@ class SwtAccessor:
         ValueError
             If it is no such place, or not in the results.
         """
-        from swtstudy.results.quantity import quantity
+        from swtstudy.results.evaluate import quantity
 
         return quantity(self._dataset, f"s/s({place})")
 
@@ -256,7 +256,7 @@ class SwtAccessor:
         ValueError
             If the quantity has no such dimension, or the results are empty.
         """
-        from swtstudy.results.extrema import extrema
+        from swtstudy.results.evaluate import extrema
 
         return extrema(self._dataset, dim, y)
 
@@ -271,6 +271,6 @@ class SwtAccessor:
             for each, such as "s_point[depth]". The index has the name "point", so that
             ``to_table().to_csv(file)`` writes a CSV file whose columns all have names.
         """
-        from swtstudy.results.table import to_table
+        from swtstudy.results.evaluate import to_table
 
         return to_table(self._dataset)

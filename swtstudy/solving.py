@@ -9,8 +9,7 @@ import numpy as np
 
 from swtstudy.points.canonical import points_from
 from swtstudy.points.reading import read_distances, read_grid
-from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
-from swtstudy.vocabulary.mistakes import Report, StudyError, literal
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
 
@@ -78,11 +77,8 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     from swtstudy.mechanics import solve_points
     from swtstudy.mechanics.points import Solution
     from swtstudy.mechanics.quantities import quantities_of
-    from swtstudy.points.blocks import block_ends
-    from swtstudy.points.columns import columns_at, wanted
-    from swtstudy.points.labelled import arrays_of, label
-    from swtstudy.points.margins import margins
-    from swtstudy.points.unique import unique_points
+    from swtstudy.points.labelled import arrays_of, label, margins
+    from swtstudy.points.unique import block_ends, columns_at, unique_points, wanted
     from swtstudy.vocabulary.quantities import columns_of
 
     unique = unique_points(grid)

@@ -33,7 +33,7 @@ TOGETHER = (
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
 #: Examples in docstrings that take seconds.
-LONG_EXAMPLES = ("swtstudy.results.optimum.optimise.optimise",)
+LONG_EXAMPLES = ("swtstudy.results.optimise.optimise",)
 
 SMALL = """
 title = "A small study"

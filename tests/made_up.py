@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.paper.audit.point import AuditedPoint
-from swtstudy.paper.audit.table import audit_dataset
+from swtstudy.paper.audit.report import audit_dataset
 from swtstudy.points.canonical import ROW
 
 #: Phases over one turn, its end included.

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.indenter import check_shape
-from swtstudy.vocabulary.families import FAMILIES, family_of, is_plane
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.choices import FAMILIES, family_of, is_plane
+from swtstudy.vocabulary.parameters import Control
 
 #: Those of discs, which all that is prescribed goes with, and those of strips.
 PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))

@@ -14,7 +14,7 @@ from made_up import PANELS, made_up
 import swtstudy
 from swtstudy import Study, run
 from swtstudy.accessor import SwtAccessor
-from swtstudy.results.quantity import quantity, quantity_error
+from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 
 
@@ -193,7 +193,7 @@ def test_results_of_solve():
         "import swtstudy, xarray",
         "import xarray, swtstudy",
         "import swtstudy.accessor",
-        "from swtstudy.archive.open import open_results; import xarray",
+        "from swtstudy.archive.archive import open_results; import xarray",
         "from swtstudy.solving import solve",
         "import swtstudy.points.labelled",
         "from swtstudy import Study; import dask.array, xarray.core.dataset",

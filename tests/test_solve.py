@@ -7,8 +7,7 @@ import xarray as xr
 
 import swtstudy
 from swtstudy import StudyError, solve
-from swtstudy.vocabulary.accuracy import SMALLEST_STORED_RTOL, is_rtol
-from swtstudy.vocabulary.mistakes import plain_number
+from swtstudy.vocabulary.mistakes import SMALLEST_STORED_RTOL, is_rtol, plain_number
 
 
 def test_dimensions_in_the_order_given():

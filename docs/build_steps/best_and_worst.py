@@ -5,12 +5,11 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy import inspect_point, open_results
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import new_figure
-from swtstudy.figures.style import COLOURS, styled
+from swtstudy.figures.style import COLOURS, save_figure, styled
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.reports.findings import Lever, levers
-from swtstudy.reports.symbols import value_text
+from swtstudy.reports.values import value_text
 
 
 def lever(root: Path) -> Lever:

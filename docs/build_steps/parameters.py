@@ -1,7 +1,7 @@
 """The table of parameters."""
 
 from build_steps.markdown import table
-from swtstudy.vocabulary.families import FAMILIES, PLAIN, PLAIN_STRIP, Family
+from swtstudy.vocabulary.choices import FAMILIES, PLAIN, PLAIN_STRIP, Family
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 

@@ -69,10 +69,10 @@ WHOLE = House(
 )
 MECHANICS = House(
     "swtstudy.mechanics",
-    ("rows", "points", "numerics"),
+    ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("margins", "solver", "worst_means", "quantities", "__init__"),
+        *("margins", "solver", "quantities", "__init__"),
     ),
 )
 

@@ -15,7 +15,7 @@ from chart import chart
 from methods import METHODS, until_patience_ends
 from scenes import COARSE, FINE, SCENES
 
-from swtstudy.figures.save import save_figure
+from swtstudy.figures.style import save_figure
 
 
 def main() -> None:

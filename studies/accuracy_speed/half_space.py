@@ -9,7 +9,7 @@ from histories import INSTANTS, history_at
 
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.reference.textbook import brute_force
+from swtstudy.paper.reference import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
 WIDTH, LAYERS, PLANES = 2.0, 2, 180

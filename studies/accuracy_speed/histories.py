@@ -6,7 +6,7 @@ import numpy as np
 
 from swtstudy.mechanics import Points
 from swtstudy.mechanics.body.body import nodes_at
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of

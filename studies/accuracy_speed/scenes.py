@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.paper.reference.textbook import textbook_s
+from swtstudy.paper.reference import textbook_s
 
 #: Tolerance of the reference values.
 REFERENCE_RTOL = 1e-9

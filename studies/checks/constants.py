@@ -22,23 +22,29 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 KINDS = {"wavy": "wavy", "struve": "wavy", "surface_maximum": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"stress.tip": "tip"}
-KINDS |= {"harmonic_sum": "loop", "_path": "loop", "polygon": "loop", ".control.": "force", "bulk": "bulk"}
+KINDS |= {
+    "harmonic_sum": "loop",
+    "smooth": "loop",
+    "_path": "loop",
+    "polygon": "loop",
+    ".control.": "force",
+    "bulk": "bulk",
+}
 KINDS |= {
     "nonlocal": "means",
-    "around": "means",
-    "time_peaks": "means",
     "local_swt": "means",
     "half_sphere": "means",
     "quick_planes": "means",
 }
-KINDS |= {"spring_cells": "means", "histories": "means", "conjugate": "work", ".work": "work"}
-KINDS |= {"flat_faced": "edge", ".field.": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
+KINDS |= {"histories": "means", ".work": "work"}
+KINDS |= {"paraboloid": "edge", ".punch": "body", ".strip": "body", ".superposition": "body"}
+KINDS |= {".contact_states": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
 #: Numbers that mean something rather than tune something.
 DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 #: Other values than half and twice, or a hundredth and a hundred times: v is the constant.
 OTHERS = {
-    "accuracy.DIGITS_PER_ZOOM": ("4.0",),
-    "accuracy.SETTLED": ("1.0",),
+    "look.DIGITS_PER_ZOOM": ("4.0",),
+    "look.SETTLED": ("1.0",),
     "surface_maximum.ANGLES": ("v[::2]",),
     "surface_maximum.CLOSER": ("v[:, ::2]",),
     "surface_maximum.DIGITS": ("3.5",),
@@ -47,7 +53,7 @@ OTHERS = {
     "first_look.JUMP": ("10 * v",),
     "first_look.SIDE_BY_SIDE": ("0.0",),
     "first_look.TWIN": ("0.0",),
-    "flat_faced.APPROACH_COUNT": ("5",),
+    "paraboloid.APPROACH_COUNT": ("5",),
     "growth.NODES_PER_OSCILLATION": ("v / 2",),
     "look.REACH": ("0.125",),
     "maximum.SCAN_RESOLUTION": ("Resolution(1, 0, 3.5)", "Resolution(2, 0, 2.5)"),
@@ -71,7 +77,7 @@ OTHERS = {
     "tip.OF_EDGE": ("Slowness(1e-9, 1e-7, 10.0)", "Slowness(1e-5, 1e-3, 10.0)"),
     "tip.OF_FRONT": ("Slowness(1e-12, 1e-9, 30.0)", "Slowness(1e-7, 1e-5, 10.0)"),
     "value.STARTS": ("v[:1]", "v / 2", "2 * v"),
-    "wavy_paraboloid.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
+    "wavy.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),
     "body_maximum.DEPTHS": ("v[::2]",),
     "body_maximum.FIRST_STEPS": ("v / 2", "2 * v"),

@@ -16,7 +16,7 @@ from pathlib import Path
 from cheap import cheap
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.error import ArchiveError
+from swtstudy.archive.paths import ArchiveError
 
 STUDY = """
 title = "Two profiles over phase and friction"

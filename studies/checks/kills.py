@@ -187,25 +187,25 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
 
 def make_parts(text: str, path: Path) -> None:
     """Stop a run when everything is computed, before it writes its archive."""
-    from swtstudy.archive import write
+    from swtstudy.archive import netcdf
 
-    save = write.save
+    save = netcdf.save
 
     def stop(*_: object, **__: object) -> None:
         raise Stopped("before the archive")
 
-    write.save = stop  # type: ignore[assignment]
+    netcdf.save = stop  # type: ignore[assignment]
     try:
         run(Study.from_text(text), path, solver=cheap, workers=1)
     except Stopped:
         pass
     finally:
-        write.save = save
+        netcdf.save = save
 
 
 def time_of_write(dataset: xr.Dataset, folder: Path) -> float:
     """Seconds that writing such an archive takes."""
-    from swtstudy.archive.write import save
+    from swtstudy.archive.netcdf import save
 
     begin = time.perf_counter()
     save(dataset, folder / "timed.nc")

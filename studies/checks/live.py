@@ -10,8 +10,8 @@ import time
 
 import numpy as np
 
-from swtstudy.figures.live_controls import SLIDERS, Explorer
-from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.figures.live import SLIDERS, Explorer
+from swtstudy.vocabulary.choices import FAMILIES
 
 #: Places of a slider, as fractions of its range.
 PLACES = np.linspace(0.1, 0.9, 7)

@@ -18,12 +18,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 

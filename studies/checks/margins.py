@@ -15,9 +15,8 @@ from pathlib import Path
 import numpy as np
 from overlooked import SCENES
 
-from swtstudy.mechanics.line.accuracy import Accuracy
-from swtstudy.mechanics.line.first_look import SHARE, resolved
-from swtstudy.mechanics.line.many_cusps import joined_pieces
+from swtstudy.mechanics.line.first_look import SHARE, joined_pieces, resolved
+from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.maximum import maximum
 from swtstudy.mechanics.line.positions import Pieces
 from swtstudy.mechanics.line.singular_edge import not_finite

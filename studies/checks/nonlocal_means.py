@@ -25,8 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import around
-from swtstudy.mechanics.body import nonlocal_swt as means
+from swtstudy.mechanics.body import nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.mechanics.stress.scene import Scene, scene_of
@@ -59,8 +58,8 @@ SEED = 19
 RUNS = 3
 #: Means with so many places and instants are what the others are held against.
 TIGHT = {
-    "ONE": around.ONE._replace(distances=19, inclinations=39, on_line=63),
-    "FINENESS": around.FINENESS._replace(steps=8, cells=60, settled=1e-5),
+    "ONE": nonlocal_swt.ONE._replace(distances=19, inclinations=39, on_line=63),
+    "FINENESS": nonlocal_swt.FINENESS._replace(steps=8, cells=60, settled=1e-5),
 }
 #: Places of the other rule: over the distance from the circle, the angle about the axis, and the depth.
 OTHER = 9, 4, 13
@@ -109,12 +108,12 @@ def place_of(point: Points) -> tuple[Scene, FloatArray, FloatArray, FloatArray]:
     return scene_of(point), solution.critical_x, solution.critical_angle, solution.s
 
 
-def timed(points: Points, distance: FloatArray) -> tuple[means.NonlocalSwt, float]:
+def timed(points: Points, distance: FloatArray) -> tuple[nonlocal_swt.NonlocalSwt, float]:
     """Means, and the least processor time a point of some runs, ms."""
     at, spent = place_of(points)[:3], []
     for _ in range(RUNS):
         begin = time.process_time()
-        found = means.nonlocal_swt(*at, distance)
+        found = nonlocal_swt.nonlocal_swt(*at, distance)
         spent.append(time.process_time() - begin)
     return found, 1e3 * min(spent) / len(points)
 
@@ -132,9 +131,9 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
 def off_and_claimed(point: Points, distance: float) -> tuple[FloatArray, FloatArray]:
     """What the three kinds of means of one point are off from tight ones, and claim, over these, (3,)."""
     at = place_of(point)[:3]
-    quick = means.nonlocal_swt(*at, np.array([distance]))
-    with patch.multiple(around, **TIGHT):
-        tight = means.nonlocal_swt(*at, np.array([distance]))
+    quick = nonlocal_swt.nonlocal_swt(*at, np.array([distance]))
+    with patch.multiple(nonlocal_swt, **TIGHT):
+        tight = nonlocal_swt.nonlocal_swt(*at, np.array([distance]))
     off, claimed = np.zeros((2, len(KINDS)))
     for k, name in enumerate(KINDS):
         value, error, fine = getattr(quick, name), getattr(quick, f"{name}_error"), getattr(tight, name)
@@ -194,7 +193,7 @@ def against_other(profile: str, count: int) -> list[str]:
     for point, distance in islice(random_points(profile), count):
         scene, x, angle, _ = place_of(point)
         distance = min(distance, 0.6 * abs(float(x[0])))
-        found = means.nonlocal_swt(scene, x, angle, np.array([distance]))
+        found = nonlocal_swt.nonlocal_swt(scene, x, angle, np.array([distance]))
         other = other_mean(scene, float(x[0]), distance)
         value, error = float(found.volume[0, 0]), float(found.volume_error[0, 0])
         load = f"δA/δ0 = {point.normal_amplitude[0]:.2f}, U = {point.tangential_amplitude[0]:.2f}"
@@ -208,7 +207,7 @@ def falling(profile: str) -> str:
     """Line of the table of distances that fall."""
     point, _ = next(random_points(profile))
     *at, s = place_of(point)
-    found = means.nonlocal_swt(*at, np.array([1e-8, 1e-6, 1e-4, 1e-2]))
+    found = nonlocal_swt.nonlocal_swt(*at, np.array([1e-8, 1e-6, 1e-4, 1e-2]))
     return f"| {profile} | " + " | ".join(f"{v:.5f}" for v in found.volume[0] / s[0]) + " |"
 
 

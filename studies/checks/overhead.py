@@ -26,7 +26,7 @@ from cheap import asleep, spinning
 from swtstudy import Study, run
 from swtstudy.runner import collector
 from swtstudy.runner.chunk import Solver
-from swtstudy.runner.progress import ProgressBar
+from swtstudy.runner.collector import ProgressBar
 
 WORKERS = 2
 

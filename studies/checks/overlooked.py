@@ -28,8 +28,8 @@ from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import check_shape
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.audit.dense import dense_look
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.paper.audit.point import dense_look
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")]

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 POINTS, ROUNDS, RTOLS = 100, 5, (1e-4, 1e-6)
 

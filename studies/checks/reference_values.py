@@ -1,7 +1,7 @@
 """Values of s that the tests hold s and s_error against, at random points of the box and of the ranges' ends.
 
 ``python studies/checks/reference_values.py``, from the project's folder, writes results/reference_values.csv:
-s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.dense`) finds, if that is more. Both
+s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.point`) finds, if that is more. Both
 share the stress history, but neither the choice of instants, positions and planes nor how one is improved.
 """
 
@@ -21,7 +21,7 @@ from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.audit.dense import dense_look
+from swtstudy.paper.audit.point import dense_look
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")

@@ -14,7 +14,7 @@ from swtstudy.mechanics.body import body_maximum
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.quantities import quantities_of
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
 
 SEED = 5

@@ -15,9 +15,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import swtstudy
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 from swtstudy.figures.ticks import tick_in_ratios
 
 COUNTS = (50, 100, 200, 400, 800, 1400, 2000)

@@ -9,10 +9,9 @@ from pathlib import Path
 
 from matplotlib.image import imread
 
-from swtstudy.figures.live_controls import Explorer
-from swtstudy.figures.save import save_figure
+from swtstudy.figures.live import Explorer
 from swtstudy.figures.sheet import new_figure
-from swtstudy.figures.style import COLOURS, styled
+from swtstudy.figures.style import COLOURS, save_figure, styled
 
 #: Dots per inch of the panels, inches of a row of the sliders, and the share of a column that its words have.
 DOTS, ROW, WORDS = 150.0, 0.27, 0.56

@@ -12,9 +12,8 @@ import numpy as np
 from cycler import cycler
 from matplotlib.axes import Axes
 
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import WIDTHS, new_figure
-from swtstudy.figures.style import COLOURS, styled
+from swtstudy.figures.style import COLOURS, save_figure, styled
 
 #: Depth of the indenter, and radius of the zone that sticks, over the contact radius.
 DEPTH, STICK = 0.36, 0.55

@@ -11,9 +11,8 @@ import numpy as np
 import swtstudy
 from swtstudy.figures.legend import place_legend
 from swtstudy.figures.maps import draw_slip_map
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import styled
+from swtstudy.figures.style import save_figure, styled
 
 
 def main() -> None:

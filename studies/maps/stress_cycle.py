@@ -10,9 +10,8 @@ import numpy as np
 
 import swtstudy
 from swtstudy.figures.maps import draw_stress_cycle
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import styled
+from swtstudy.figures.style import save_figure, styled
 
 
 def main() -> None:

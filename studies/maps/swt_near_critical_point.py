@@ -10,9 +10,8 @@ import numpy as np
 
 import swtstudy
 from swtstudy.figures.maps import draw_swt_map
-from swtstudy.figures.save import save_figure
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import styled
+from swtstudy.figures.style import save_figure, styled
 
 #: How many times larger the depth is drawn than the distance along the surface.
 STRETCH = 20

@@ -1,19 +1,25 @@
-"""Reading the attributes of an archive; malformed ones raise a ValueError with the reason."""
+"""The attributes of an archive: reading them, and the versions with which it was made.
+
+Malformed ones raise a ValueError with the reason. Nothing here imports xarray, which workers need not wait
+for.
+"""
 
 from __future__ import annotations
 
 import json
 import math
+import platform
 from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import MISSING, asdict, fields
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any, TypedDict
 
 from swtstudy.points.records import Run
-from swtstudy.study.figure import VARIABLES, FigureLayout, reference
-from swtstudy.study.figure_check import wrong_layout
+from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
 from swtstudy.vocabulary.quantities import every_variable, is_item
+from swtstudy.vocabulary.version import __version__
 
 
 class Failure(TypedDict):
@@ -124,3 +130,18 @@ def _run(raw: object) -> Run:
         if not good:
             raise ValueError(f"{item.name} of a run: {'nothing' if value is MISSING else literal(value)}")
     return Run.from_json(raw)
+
+
+#: Packages whose versions can affect the numbers or the file.
+_PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
+
+
+def versions() -> str:
+    """Versions of Python, of this package and of those that affect its numbers and files."""
+    found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
+    for name in _PACKAGES:
+        try:
+            found.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            continue
+    return ", ".join(found)

@@ -19,8 +19,15 @@ from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
-from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, SMALLEST_STORED_RTOL, is_rtol
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    SMALLEST_STORED_RTOL,
+    Mistake,
+    StudyError,
+    is_rtol,
+    literal,
+    plain_number,
+)
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import (
     DISTANCE,

@@ -17,8 +17,7 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.units.labels import Units
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
-from swtstudy.vocabulary.axes import AXES, CONTACT_AXES
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import listed, number_words, value_words
 

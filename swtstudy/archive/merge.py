@@ -10,23 +10,20 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.archive.archive import build, history_line
+from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.attributes import read_figure, read_runs
-from swtstudy.archive.error import ArchiveError
-from swtstudy.archive.open import open_results
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.points.canonical import canonical_number, describe_point, group_rows
-from swtstudy.points.codes import Definitions
-from swtstudy.points.columns import wanted
+from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
 from swtstudy.points.requested import CONTACT, has_units, request_of
-from swtstudy.points.unique import unique_points
+from swtstudy.points.unique import unique_points, wanted
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
-from swtstudy.vocabulary.axes import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 #: Relative difference of s from rounding alone, between two machines.

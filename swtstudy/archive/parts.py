@@ -4,7 +4,8 @@ A part is an npz file with a check sum at its end: it is read exactly as it was 
 
 Parts are in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. Records of
 points that the latest study does not have are kept as a part in another folder, ``figure3.nc.kept``, for
-studies that have these points.
+studies that have these points. All records known for the path of an archive are those in itself, in its
+parts, and kept from other studies.
 """
 
 from __future__ import annotations
@@ -22,10 +23,9 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.archive.lock import refuse_link
+from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.canonical import COLUMNS, ROW, group_rows
-from swtstudy.points.codes import NAMES
+from swtstudy.points.canonical import COLUMNS, NAMES, ROW, group_rows
 from swtstudy.points.records import Records, Run, join
 from swtstudy.vocabulary.files import replacing, unfinished
 
@@ -216,3 +216,25 @@ def _check_sum(content: bytes | memoryview) -> bytes:
 def _warn_left_out(path: Path, reason: str) -> None:
     """Warn once, however often the part is read."""
     _log.warning("%s: left out, its points will be computed again (%s)", path, reason)
+
+
+def known_records(path: Path) -> Records:
+    """The records in the archive at `path`, if there is one, in its parts, and kept beside it.
+
+    Raises
+    ------
+    ArchiveError
+        If the file is not an archive, and so must not be replaced.
+    """
+    found = []
+    if path.exists():
+        # Where nothing is known, workers start before xarray is imported here.
+        from swtstudy.archive.netcdf import read_archive
+        from swtstudy.archive.recall import records_of
+
+        try:
+            found.append(records_of(read_archive(path), path))
+        except ArchiveError as error:
+            raise ArchiveError(f"{error}; move it away to start anew") from None
+    found += [read_parts(parts_folder(path)), read_parts(kept_folder(path))]
+    return join(found)

@@ -9,18 +9,17 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import defined_in, read_failures, read_runs
-from swtstudy.archive.error import ArchiveError
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.columns import columns_back
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import arrays_of
 from swtstudy.points.reading import given_twice
 from swtstudy.points.records import FAILED, Records, made_by
 from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of
 from swtstudy.points.shapes import shapes_needed
-from swtstudy.points.unique import unique_points
+from swtstudy.points.unique import columns_back, unique_points
 from swtstudy.points.values import Value, read_value
-from swtstudy.units.admissible import check_contacts
+from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
@@ -28,8 +27,7 @@ from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.prescribed import Control, replaced_by
+from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 

@@ -14,23 +14,12 @@ from typing import Any
 import click
 
 import swtstudy
-from swtstudy.cli.audit import audit
-from swtstudy.cli.check import check
-from swtstudy.cli.fit import fit
-from swtstudy.cli.info import info
-from swtstudy.cli.list import list_studies
-from swtstudy.cli.merge import merge
-from swtstudy.cli.new import new
+from swtstudy.cli.checks import audit, check, fit, sensitivity
 from swtstudy.cli.options import check_options, examples
-from swtstudy.cli.plan import plan
-from swtstudy.cli.plot import plot
-from swtstudy.cli.report import report
+from swtstudy.cli.points import show, solve
+from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
-from swtstudy.cli.schema import schema
-from swtstudy.cli.sensitivity import sensitivity
-from swtstudy.cli.show import show
-from swtstudy.cli.solve import solve
-from swtstudy.cli.validate import validate
+from swtstudy.cli.studies import list_studies, new, plan, schema, validate
 
 #: Exit code for input that cannot be used, the same as click's for wrong options.
 BAD_INPUT = 2

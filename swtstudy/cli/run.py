@@ -83,8 +83,8 @@ def run(
     After 2 and 130 everything computed so far is saved, and the same command
     continues from there.
     """
-    from swtstudy.archive.names import archive_paths
-    from swtstudy.study.several import read_studies
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.study.definition import read_studies
     from swtstudy.study.shipped import shipped_folder
     from swtstudy.vocabulary.files import check_writable
 

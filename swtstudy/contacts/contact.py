@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.contacts.measured import InUnits, Measured, require_swt
-from swtstudy.contacts.overview import as_html, as_text, headline
+from swtstudy.contacts.measured import InUnits, Measured, as_html, as_text, headline, require_swt
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid, spanned
-from swtstudy.units.at_rest import Contact
+from swtstudy.units.at_rest import Contact, Moduli
 from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import (
     bodies_of,
@@ -29,16 +28,20 @@ from swtstudy.units.bodies import (
 )
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.loads import mean_of_bulk
-from swtstudy.units.moduli import Moduli
 from swtstudy.units.reading import completed
-from swtstudy.units.scales import length_of
-from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL, is_rtol
-from swtstudy.vocabulary.criteria import SWT
+from swtstudy.units.rows import length_of
+from swtstudy.vocabulary.choices import SWT, family_of, is_profile
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.families import family_of, is_profile
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    DEFAULT_RTOL,
+    Mistake,
+    Report,
+    StudyError,
+    is_rtol,
+    literal,
+)
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from swtstudy.study.definition import study_from, tables_of
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.rows import REST_DEPENDS_ON
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS
 
 if TYPE_CHECKING:
     import xarray as xr

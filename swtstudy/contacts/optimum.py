@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.results.optimum.box import Box, read_ranges
-from swtstudy.results.optimum.optimise import mistakes_in, optimum_in
+from swtstudy.results.objective import Box, read_ranges
+from swtstudy.results.optimise import mistakes_in, optimum_in
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
 from swtstudy.units.variables import variables
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:

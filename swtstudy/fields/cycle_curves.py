@@ -1,20 +1,130 @@
-"""Curves of one parameter point: the course of its load over the cycle, its springs at marked instants."""
+"""Curves of one parameter point: forces and displacements over the cycle, its springs at marked instants.
+
+The springs show the memory diagram over the radius; forces are known whichever of them are prescribed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.fields.forces import course
-from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
 from swtstudy.mechanics.contact.cycle import NO_SLIP
+from swtstudy.mechanics.contact.memory import held_offset
+from swtstudy.mechanics.control.coordinate import ForceCoordinate
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.stress.work import LARGEST_SIZE, Conjugate
+
+#: Gauss nodes for each growth of the memory: 1e-6 of the amplitude and better.
+NODES = 64
+
+
+@dataclass(frozen=True)
+class Course:
+    """Both components of load and answer at T instants, each of shape (T,).
+
+    Attributes
+    ----------
+    depth, displacement
+        δ/δ0 and G* u/(μ E* δ0); NaN in the plane, where only their changes at constant load are known.
+    normal_force, tangential_force
+        F_N/F_0 and F_x/(μ F_0).
+    """
+
+    depth: FloatArray
+    displacement: FloatArray
+    normal_force: FloatArray
+    tangential_force: FloatArray
+
+
+def course(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Course:
+    """The prescribed loads and the responses over the cycle.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    unit
+        Shape (1,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
+    nodes
+        T instants of its cycle.
+    """
+    load, whole = scene.cycle.load, Conjugate.whole(scene, unit, NODES)
+    normal, tangential = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
+    if scene.profile.plane:
+        unknown = np.full_like(normal, np.nan)
+        return Course(unknown, unknown, normal, tangential)
+    other_normal = whole.other.of(scene.coordinate.radius(np.maximum(normal, 0.0)[None]))[0]
+    size = max(1, LARGEST_SIZE // (scene.cycle.memory.start.shape[2] * NODES))
+    answer = np.empty_like(tangential)
+    for first in range(0, answer.size, size):
+        part = slice(first, first + size)
+        answer[part] = of_instants(whole, nodes.interval[part]).at(nodes.instant[part, None, None])[:, 0, 0]
+    if whole.by_force:
+        return Course(other_normal, answer, normal, tangential)
+    return Course(normal, tangential, other_normal, answer)
+
+
+def of_instants(whole: Conjugate, interval: NDArray[np.intp]) -> Conjugate:
+    """That of one cycle at T instants, as T cycles of one interval each."""
+    return whole.take_intervals(np.zeros(len(interval), dtype=np.intp), interval)
+
+
+def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Compression and tangential force of the springs at some radii.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    nodes
+        T instants of its cycle.
+    radius
+        Shape (X,), ξ in a_H.
+
+    Returns
+    -------
+    compression, force
+        Shape (T, X): w in δ0, and τ = G* u_MDR/(μ E* δ0), |τ| ≤ w. In the plane, where strips have no
+        springs, what the diagram has in their place: N − N(ξ) over P_0, and the tangential force over μP_0.
+    """
+    if isinstance(scene.coordinate, ForceCoordinate) and not scene.profile.plane:
+        whole = Conjugate.whole(scene, scene.coordinate.unit, NODES)
+        return _of_conjugate(of_instants(whole, nodes.interval), nodes.instant, radius)
+    cycle = scene.cycle
+    states = cycle.states(nodes.interval[None], nodes.instant[None])
+    edge, tangential, front, sign = (
+        values[0][:, None] for values in (states.edge, states.tangential, states.front, states.sign)
+    )
+    at = scene.coordinate.of(radius[None])[0]
+    piece = np.maximum((cycle.memory.start[0, nodes.interval, None] <= at[:, None]).sum(axis=-1) - 1, 0)
+    pieces = cycle.memory.take((np.zeros_like(piece)[None], nodes.interval[:, None], piece))
+    stuck = tangential - held_offset(cycle.load, pieces, np.broadcast_to(at, (1, *piece.shape)))[0]
+    compression = np.maximum(edge - at, 0.0)
+    force = np.where(at < front, stuck, sign * compression)
+    return compression, np.where(compression > 0.0, force, 0.0)
+
+
+def _of_conjugate(
+    conjugate: Conjugate, instant: FloatArray, radius: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The same where the normal force is the diagram's coordinate: offsets are integrals over it."""
+    states = conjugate.cycle.states(np.zeros((1, 1), dtype=np.intp), instant[:, None])
+    edge, front = (conjugate.other.of(conjugate.coordinate.radius(v)) for v in (states.edge, states.front))
+    radii = np.broadcast_to(radius, (len(instant), radius.size))
+    depth = conjugate.other.of(radii)
+    compression = np.maximum(edge - depth, 0.0)
+    at = np.minimum(conjugate.coordinate.of(radii), states.front)
+    stuck = conjugate.at(instant[:, None, None])[:, 0] - conjugate.offset(at[:, None])[:, 0]
+    force = np.where(depth < front, stuck, states.sign * compression)
+    return compression, np.where(compression > 0.0, force, 0.0)
+
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]
 
@@ -39,7 +149,7 @@ def instants_of(scene: Scene, special: list[float]) -> TimeNodes:
 
 
 def course_of_load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
-    """Forces and displacements over time; see `swtstudy.fields.forces.course`. In the plane forces alone."""
+    """Forces and displacements over time; see `course`. In the plane forces alone."""
     both = course(scene, unit, nodes)
     forces: Variables = {
         "normal_force": ("time", both.normal_force, named("normal force", "F_N/F_0")),
@@ -124,7 +234,7 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[N
 
 
 def springs_of(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
-    """The memory diagram over r at some instants; see `swtstudy.fields.springs.spring_forces`."""
+    """The memory diagram over r at some instants; see `spring_forces`."""
     compression, force = spring_forces(scene, some, radius)
     dims = ("instant", "r")
     if scene.profile.plane:

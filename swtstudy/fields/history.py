@@ -8,12 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.planes import all_planes
-from swtstudy.mechanics.planes.all_planes import CriticalPlane
-from swtstudy.mechanics.planes.crossland import crossland
-from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
-from swtstudy.mechanics.planes.swt import SWT_EXPONENT, Swt
+from swtstudy.mechanics.planes.all_planes import CriticalPlane, crossland
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, FatemiSocie, Findley, Swt
+from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
-from swtstudy.vocabulary.numbers import read_numbers
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: What has no plane, and the criteria of shear.

@@ -1,4 +1,7 @@
-"""One parameter point explained: everything that makes its s, as numbers."""
+"""One parameter point explained: everything that makes its s, as numbers.
+
+Its load and its memory diagram are known without s, in milliseconds.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +20,12 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import read_point
-from swtstudy.fields.places import turns
-from swtstudy.fields.slip import slip_map
+from swtstudy.fields.one_point import label_time, read_point, turns
+from swtstudy.fields.stress import slip_map
 from swtstudy.mechanics.body.body import TimeNodes
-from swtstudy.mechanics.contact.stick_zone import stick_coordinate
-from swtstudy.mechanics.control.force import unit_half_load
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.contact.slip_front import stick_coordinate
+from swtstudy.mechanics.control.coordinate import unit_half_load
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.line.first_look import Seen, first_look
 from swtstudy.mechanics.line.look import Resolution
 from swtstudy.mechanics.margins import Margins
@@ -33,7 +35,7 @@ from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.solving import solve
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -211,3 +213,52 @@ def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
         "pressure": (dims, _both_sides(p, p), named("pressure", "p")),
         "traction": (dims, _both_sides(q, q), named("tangential traction in +x", "q")),
     }
+
+
+#: Distances from the axis, for smooth curves.
+_RADII_OF_SPRINGS = 301
+
+
+def load_and_springs(**parameters: object) -> xr.Dataset:
+    """The course of the load over one stationary cycle, and the MDR springs at a few marked instants.
+
+    Parameters
+    ----------
+    **parameters
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each, of a point that is in
+        equilibrium.
+
+    Returns
+    -------
+    xarray.Dataset
+        Of `swtstudy.inspect_point`: depth, displacement, normal_force, tangential_force and edge_state over
+        time, compression and force over r at the instants at which depth or displacement is extreme,
+        largest_radius and control.
+    """
+    points = read_point(parameters)
+    scene = scene_of(points)
+    nodes = instants_of(scene, [])
+    time = label_time(scene, turns(scene) * nodes.instant, ("time",))
+    unit = unit_half_load(points.profile, points.shape, 1)
+    cycle = course_of_load(scene, unit, nodes)
+    curves = {name: part[1] for name, part in cycle.items()}
+    marked, reasons = marked_instants(time.values / time.values[-1], curves)
+    some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
+    largest = float(scene.largest_radius[0])
+    radius = np.linspace(0.0, largest, _RADII_OF_SPRINGS)
+    return xr.Dataset(
+        {
+            **cycle,
+            **springs_of(scene, some, radius),
+            "edge_state": ("time", edge_states(scene, nodes)),
+            "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
+        },
+        {
+            "time": time,
+            "r": ("r", radius, named("distance from the axis", "r/a_H")),
+            "instant": np.arange(1, len(marked) + 1),
+            "instant_time": ("instant", time.values[marked]),
+            "reason": ("instant", reasons),
+            "control": points.control.name,
+        },
+    )

@@ -1,20 +1,28 @@
-"""One parameter point from keywords, as given: its phase is not folded, so that time keeps its origin."""
+"""One parameter point from keywords, as given, and positions and instants in it as labelled arrays.
+
+Its phase is not folded, so that time keeps its origin.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from fractions import Fraction
 
 import numpy as np
+import xarray as xr
 
-from swtstudy.mechanics.load.loop import Loop
-from swtstudy.mechanics.points import Points
+from swtstudy.mechanics.body.body import TimeNodes, nodes_at
+from swtstudy.mechanics.control.diagram import MappedLoad
+from swtstudy.mechanics.load.bimodal import BimodalLoad
+from swtstudy.mechanics.load.load import Loop
+from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
-from swtstudy.vocabulary.families import family_of
-from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.choices import family_of
+from swtstudy.vocabulary.definition import read_numbers
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -55,3 +63,120 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 def read_scene(parameters: Mapping[str, object]) -> Scene:
     """The contact cycle of one point; see `read_point`."""
     return scene_of(read_point(parameters))
+
+
+_NAMES = {
+    "x": "position in the direction of sliding",
+    "y": "position across the direction of sliding",
+    "z": "depth",
+}
+
+
+def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Coordinates in a_H, broadcast against one another.
+
+    Parameters
+    ----------
+    x, y, z
+        Numbers; one-dimensional sequences, which span a grid with the dimensions x, y, z; or DataArrays,
+        whose dimensions are kept: three DataArrays that share one dimension are a list of points.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if a coordinate is not a finite number, z is negative, or DataArrays have different
+        coordinates along a shared dimension.
+    """
+    arrays: list[xr.DataArray] = []
+    report = Report()
+    for name, values in zip("xyz", (x, y, z), strict=True):
+        with report:
+            arrays.append(_coordinate(name, values))
+    report.refuse()
+    if float(arrays[2].min()) < 0.0:
+        found = f"{float(arrays[2].min()):g}"
+        raise StudyError([Mistake("z", found, "depths z ≥ 0 into the body")])
+    try:
+        placed = xr.broadcast(*xr.align(*arrays, join="exact"))
+    except ValueError as error:
+        found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
+        allowed = "the same coordinates along the dimensions that they share"
+        raise StudyError([Mistake("x, y, z", found, allowed)]) from None
+    return placed[0], placed[1], placed[2]
+
+
+def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.DataArray]:
+    """The coordinates x, y, z without the dimensions that broadcasting added."""
+    result = {}
+    for name, place, raw in zip("xyz", places, given, strict=True):
+        own = _coordinate(name, raw).dims
+        result[name] = place.isel({dim: 0 for dim in place.dims if dim not in own}, drop=True)
+    return result
+
+
+def read_distances(name: str, values: object, allowed: str) -> FloatArray:
+    """A number or a one-dimensional sequence of them, finite, shape (k,), k > 0; the sign is not checked."""
+    distances = np.atleast_1d(read_numbers(name, values, allowed))
+    if distances.ndim > 1 or distances.size == 0 or not np.isfinite(distances).all():
+        raise StudyError([Mistake(name, literal(values), allowed)])
+    return distances
+
+
+def _coordinate(name: str, values: object) -> xr.DataArray:
+    allowed = "finite positions in a_H"
+    if isinstance(values, xr.DataArray):
+        values = values.copy(data=read_numbers(name, values.values, allowed))
+    else:
+        array = read_numbers(name, values, allowed)
+        if array.ndim > 1:
+            found = f"{array.ndim} dimensions"
+            raise StudyError([Mistake(name, found, "a number, a sequence or a DataArray")])
+        values = xr.DataArray(array, dims=(name,) * array.ndim)
+    if values.size == 0 or not bool(np.isfinite(values).all()):
+        raise StudyError([Mistake(name, "no or not finite values", allowed)])
+    long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
+    return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
+
+
+def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
+    """Instants of the stationary cycle.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    time
+        ω1 t in rad, a number or a one-dimensional sequence. The cycle has the period 2πq, where ω2/ω1 = p/q.
+        A loop has the period 2π.
+
+    Returns
+    -------
+    time, nodes
+        These, and the same instants of the cycle in the order of time.
+    """
+    allowed = "a finite number or a sequence of them, ω1 t in rad"
+    array = read_numbers("time", time, allowed)
+    if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
+        raise StudyError([Mistake("time", literal(time), allowed)])
+    nodes = nodes_at(scene, np.mod(array.ravel() / turns(scene), 2.0 * np.pi))
+    return label_time(scene, array, ("time",) * array.ndim), nodes
+
+
+def turns(scene: Scene) -> int:
+    """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
+    two = _harmonic(scene)
+    return 1 if two is None else two.q
+
+
+def label_time(scene: Scene, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
+    words, symbol = ("omega1 t", r"\omega_1 t") if _harmonic(scene) else ("angle of the period", r"\varphi")
+    attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
+    return xr.DataArray(time, dims=dims, attrs=attributes)
+
+
+def _harmonic(scene: Scene) -> BimodalLoad | None:
+    """The two harmonic loads as they are prescribed; None for a loop."""
+    load = scene.cycle.load
+    given = load.given if isinstance(load, MappedLoad) else load
+    return given if isinstance(given, BimodalLoad) else None

@@ -1,23 +1,35 @@
-"""The stress beneath the contact over position and time."""
+"""Fields over position and time: the stress beneath the contact, swt, stick and slip.
+
+swt, or another criterion, over the body is the field of which s is the maximum.
+"""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.places import as_given, label_time, read_places, read_time, turns
+from swtstudy.fields.one_point import (
+    as_given,
+    label_time,
+    read_distances,
+    read_places,
+    read_scene,
+    read_time,
+    turns,
+)
 from swtstudy.mechanics.body.body import Body, TimeNodes, closer_nodes, time_nodes
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.field.kernels import kernels_of
-from swtstudy.mechanics.stress.field.punch import COMPONENTS
+from swtstudy.mechanics.stress.punch import COMPONENTS
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.mechanics.stress.superposition import kernels_of
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 #: Pairs of depth in a_H and number of cells: deeper than that, so many cells give the stress to 1e-8 p0.
-_CELLS = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
+_CELLS_BY_DEPTH = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
 #: Steps on each stretch between two events: a smooth extreme is missed by 0.6 % of the range there at most.
-_STEPS = 10
+_STEPS_OF_STRESS = 10
 #: Cells of the field in which extremes are searched, and rounds of the search: swt is then within 1e-6 of
 #: that over all instants.
 _SEARCH = 60, 2
@@ -115,7 +127,7 @@ def _at_own_instants(scene: Scene, places: tuple[xr.DataArray, ...]) -> tuple[xr
 
 
 def _cells(depth: float) -> int:
-    return next(count for limit, count in _CELLS if depth > limit)
+    return next(count for limit, count in _CELLS_BY_DEPTH if depth > limit)
 
 
 def _attributes(name: str) -> dict[str, str]:
@@ -137,5 +149,116 @@ def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes
         x, y, z in a_H.
     """
     distance = kernels_of(scene.profile).distance(*np.array(point[:2]))
-    nodes = time_nodes(scene, _STEPS, [distance])
+    nodes = time_nodes(scene, _STEPS_OF_STRESS, [distance])
     return closer_nodes(scene, nodes, point, *_SEARCH)
+
+
+#: Cells of the field.
+_CELLS_OF_SWT = 60
+#: Steps on each stretch between two events.
+_STEPS_OF_SWT = 4
+#: Distances from the axis whose points are computed together, at the instants of all of them.
+_RADII_AT_ONCE = 12
+
+
+def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:
+    """swt at points of the half-space over all plane orientations (eq. 9).
+
+    Parameters
+    ----------
+    x, y, z
+        Position in a_H, as for `swtstudy.stress_field`.
+    **parameters
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
+
+    Returns
+    -------
+    xarray.Dataset
+        s_local: swt over E* δ0/R; normal_x, normal_y, normal_z: unit normals of the critical planes.
+
+    Notes
+    -----
+    At each point the instants are aligned with the events at its distance from the axis: otherwise swt on the
+    surface would be up to 20 % low, in rings. Between the events there are few instants: where an extreme
+    over the cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the
+    default history of `stress_field` is exact, but slower. Few distinct distances (a grid in polar
+    coordinates) are computed faster. Nothing of a plane contact depends on y.
+    """
+    scene = read_scene(parameters)
+    places = read_places(x, y, z)
+    flat = np.stack([place.values.ravel() for place in places])
+    away = kernels_of(scene.profile).distance(flat[0], flat[1])
+    distance, group = np.unique(np.round(away, 12), return_inverse=True)
+    swt, normal = np.empty(flat.shape[1]), np.empty((flat.shape[1], 3))
+    for first in range(0, distance.size, _RADII_AT_ONCE):
+        some = (group >= first) & (group < first + _RADII_AT_ONCE)
+        nodes = time_nodes(scene, _STEPS_OF_SWT, distance[first : first + _RADII_AT_ONCE])
+        swt[some], normal[some] = Body(scene, nodes, _CELLS_OF_SWT).swt(*flat[:, some])
+    dims, shape = places[0].dims, places[0].shape
+    unit = "E* delta0/R" if scene.criterion.degree == 2 else "E* delta0/a_H"
+    words = f"{scene.criterion.words.replace('–', '-')} over {unit}"
+    meaning = {"long_name": words, "units": "1", "symbol": scene.criterion.symbol}
+    variables = {"s_local": (dims, swt.reshape(shape), meaning)}
+    for axis, name in enumerate("xyz"):
+        meaning = {"long_name": "unit normal of the critical plane", "units": "1", "symbol": f"n_{name}"}
+        variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)
+    return xr.Dataset(variables, as_given(places, x, y, z))
+
+
+#: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.
+_INSTANTS_OF_SLIP = 64
+#: States of the surface, in the order of the flag values.
+_STATES = ("open", "stick", "forward_slip", "backward_slip")
+
+
+def slip_map(r: object, *, time: object | None = None, **parameters: object) -> xr.Dataset:
+    """State of the contact at distances from its centre over one stationary cycle.
+
+    Parameters
+    ----------
+    r
+        Distance from the axis in a_H, a number or a one-dimensional sequence.
+    time
+        ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
+    **parameters
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
+
+    Returns
+    -------
+    xarray.Dataset
+        state (a flag) over time and r; slip_radius and contact_radius in a_H over time: the contact slips
+        between the two. In forward slip the body under the indenter is dragged towards +x.
+
+    Raises
+    ------
+    ValueError
+        If a distance, an instant or a parameter is not allowed.
+    """
+    scene = read_scene(parameters)
+    if time is None:
+        time = 2.0 * np.pi * turns(scene) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    instants, nodes = read_time(scene, time)
+    allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
+    distances = read_distances("r", r, allowed)
+    if (distances < 0.0).any():
+        raise StudyError([Mistake("r", literal(r), allowed)])
+    radius = xr.DataArray(distances, dims="r")
+    radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
+    states = scene.cycle.states(nodes.interval[None], nodes.instant[None])
+    edge, front, sign = states.edge, states.front, states.sign
+    at = scene.coordinate.of(radius.values[None])[0]
+    slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
+    state = np.where(at < front[0][:, None], 1, np.where(at < edge[0][:, None], slips, 0)).astype(np.int8)
+    flags = {
+        "long_name": "state of the contact",
+        "flag_values": np.arange(len(_STATES), dtype=np.int8),
+        "flag_meanings": " ".join(_STATES),
+    }
+    variables: dict[str, Any] = {
+        "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
+    }
+    for name, values in (("slip_radius", front), ("contact_radius", edge)):
+        there = np.where(edge > 0.0, scene.coordinate.radius(values), 0.0).reshape(instants.shape)
+        meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
+        variables[name] = (instants.dims, there, meaning)
+    return xr.Dataset(variables, {"time": instants, "r": radius})

@@ -7,33 +7,27 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.borders import mark_borders
-from swtstudy.figures.legend import add_legend
-from swtstudy.figures.lines import draw_lines
-from swtstudy.figures.loop_legend import loops_of
-from swtstudy.figures.outside import mark_cells
+from swtstudy.figures.legend import add_legend, loops_of
+from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
+from swtstudy.figures.marks import mark_borders, mark_cells
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
-from swtstudy.figures.scale import add_scale, hue_scale
-from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
-from swtstudy.figures.wrap import wrap_texts
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
-from swtstudy.results.quantity import known_regime, quantity, quantity_error
-from swtstudy.results.select import require_points
-from swtstudy.study.figure import LINE_KINDS, FigureLayout
-from swtstudy.study.figure_check import wrong_axes, wrong_layout
-from swtstudy.vocabulary.axes import AXES
+from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
+from swtstudy.study.figure import LINE_KINDS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import axis_words
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-    from swtstudy.figures.figure import Figure
+    from swtstudy.figures.sheet import Figure
 
 #: Width of a colour bar on a screen, inches.
 _SCALE_WIDTH = 1.5

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
-from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
 from swtstudy.figures.inspection_panels import (
     draw_load,
     draw_slip,
@@ -16,13 +15,13 @@ from swtstudy.figures.inspection_panels import (
     draw_swt,
     draw_tractions,
 )
-from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.ticks import plain_ticks
-from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.validity import validity_lines
-from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
 

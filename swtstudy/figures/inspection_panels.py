@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
-from swtstudy.figures.maps import draw_slip_map, draw_time_axis
-from swtstudy.figures.panel_marks import (
+from swtstudy.figures.force_panels import (
     DASHED,
     DOTTED,
     FAINT,
@@ -25,10 +23,12 @@ from swtstudy.figures.panel_marks import (
     mark_over_time,
     thin,
 )
+from swtstudy.figures.maps import draw_slip_map, draw_time_axis
+from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.style import DASHES
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.vocabulary.criteria import SWT, SYMBOLS
+from swtstudy.vocabulary.choices import SWT, SYMBOLS
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.wrap import wrap_texts
-from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.load.loop import Loop
+from swtstudy.mechanics.load.load import PERIOD, Loop
 from swtstudy.points.values import as_number
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.wording import as_text
 
 if TYPE_CHECKING:

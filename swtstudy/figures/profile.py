@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.figures.in_units import NO_LABELS, Labels, show_units
-from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.wrap import wrap_texts
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
-from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words

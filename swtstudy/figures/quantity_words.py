@@ -1,20 +1,25 @@
-"""Quantities of results as they appear in a figure."""
+"""Quantities of results as they appear in a figure: their names, and numbers with units along axes.
+
+What is drawn without units may have axes whose numbers are lengths, forces or stresses.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
-from swtstudy.vocabulary.criteria import SWT, SYMBOLS
-from swtstudy.vocabulary.families import family_of
+from swtstudy.vocabulary.choices import SWT, SYMBOLS, family_of
 from swtstudy.vocabulary.quantities import QUANTITIES, attributes_of, every_variable
 from swtstudy.vocabulary.wording import as_text, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 _UNITS = {"degree": "°"}
 
@@ -25,7 +30,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     Parameters
     ----------
     values
-        The quantity, as from `swtstudy.results.quantity.quantity`.
+        The quantity, as from `swtstudy.results.evaluate.quantity`.
     y
         Its name in the layout.
     """
@@ -93,3 +98,61 @@ def is_life(attributes: Mapping[Any, Any]) -> bool:
 def flag_words(values: xr.DataArray) -> list[str]:
     """The meanings of flags, in the order of their values from 0; empty if the values are not flags."""
     return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]
+
+
+#: Ticks of an axis at most.
+_TICKS = 5
+
+
+class Label(NamedTuple):
+    """The scale, symbol and unit that a variable has of a real contact.
+
+    Attributes
+    ----------
+    scale
+        What 1 is worth.
+    symbol
+        Its symbol with a unit, as LaTeX.
+    units
+        Label of the unit; "1" for a plain number.
+    """
+
+    scale: float
+    symbol: str
+    units: str
+
+    @property
+    def unit(self) -> str:
+        """The unit in words of a figure, after a blank."""
+        return "" if self.units == "1" else f" {as_text(self.units)}"
+
+    def axis(self) -> str:
+        """Label of an axis of it."""
+        return f"${self.symbol}$" + (f" ({self.unit.strip()})" if self.unit else "")
+
+    def number(self, value: float, digits: int = 4) -> str:
+        """A value with its unit."""
+        return f"{self.scale * value:.{digits}g}{self.unit}"
+
+
+#: By the name of a variable.
+Labels = Mapping[str, Label]
+NO_LABELS: Labels = MappingProxyType({})
+
+
+def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) -> None:
+    """Label the axes of a panel, x and y, of which each is that of a variable or of none."""
+    for axis, name in zip((axes.xaxis, axes.yaxis), of, strict=True):
+        if name in labels:
+            _show(axis, labels[name])  # type: ignore[index]
+
+
+def _show(axis: Axis, label: Label) -> None:
+    """Ticks at round numbers of the unit."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = sorted(end * label.scale for end in axis.get_view_interval())
+    ticks = MaxNLocator(_TICKS, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    inside = [tick for tick in ticks if low <= tick <= high]
+    axis.set_ticks([tick / label.scale for tick in inside], labels=[f"{tick:.6g}" for tick in inside])
+    axis.set_label_text(label.axis())

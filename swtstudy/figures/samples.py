@@ -9,14 +9,14 @@ from matplotlib import rcParams
 from matplotlib.lines import Line2D
 
 from swtstudy.figures.legend import add_legend
-from swtstudy.figures.outside import mark_points
+from swtstudy.figures.marks import mark_points
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
-from swtstudy.results.quantity import quantity
+from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import axis_words, place_words
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from swtstudy.figures.figure import Figure
+    from swtstudy.figures.sheet import Figure
 
 #: The most panels of a scatter plot side by side.
 _ACROSS = 3

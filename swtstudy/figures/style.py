@@ -1,4 +1,7 @@
-"""The style of figures: legible in print, with any colour vision and in greyscale; users may change it."""
+"""The style of figures: legible in print, with any colour vision and in greyscale; saving them to files.
+
+Users may change the style.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,20 @@ import math
 import re
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from io import BytesIO
+from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 from cycler import cycler
 from matplotlib import rcParamsDefault
 
-from swtstudy.vocabulary.files import read_text
+from swtstudy.vocabulary.files import read_text, replacing
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
@@ -132,3 +140,34 @@ def _check_file(path: str | Path) -> None:
 
 def _untouched(name: Any) -> bool:
     return bool(matplotlib.rcParams[name] == rcParamsDefault[name])
+
+
+#: Time stamps, left out so that the same results give the same file.
+_NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+
+FORMATS = (".png", ".pdf", ".svg")
+
+
+def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None = None) -> None:
+    """Write a figure as PNG, PDF or SVG, according to the ending of its name; `style` as for `draw`.
+
+    Raises
+    ------
+    ValueError
+        If the name has another ending.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise ValueError(f"{path}: found {suffix or 'no ending'}; allowed: {', '.join(FORMATS)}")
+    # Drawn in memory first: it takes seconds, and a process killed meanwhile would leave an unfinished file.
+    content = picture(figure, suffix[1:], style)
+    with replacing(path) as temporary:
+        temporary.write_bytes(content)
+
+
+def picture(figure: Figure, ending: str, style: Style | None = None) -> bytes:
+    """The content of a file with a figure: png, pdf or svg; `figure` and `style` as for `save_figure`."""
+    content = BytesIO()
+    with styled(style, getattr(figure, "width", None)):
+        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"))
+    return content.getvalue()

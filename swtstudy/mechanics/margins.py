@@ -14,14 +14,14 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from swtstudy.mechanics.contact.stick_zone import stick_coordinate
+from swtstudy.mechanics.contact.slip_front import stick_coordinate
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import roughness
+from swtstudy.mechanics.load.bimodal import alike, load_of
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.of_points import alike, load_of
-from swtstudy.mechanics.numerics.peaks import parabola
+from swtstudy.mechanics.numerics.roots import parabola
 from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.vocabulary.families import PLAIN, PLAIN_STRIP
+from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP
 
 #: Steps between turning instants at which the largest force ratio is looked for.
 STEPS = 32

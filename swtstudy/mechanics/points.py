@@ -1,19 +1,61 @@
-"""A batch of parameter points and their solution, as plain arrays."""
+"""A batch of parameter points and their solution, as plain arrays; the base of all that consists of rows."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.rows import Rows
-from swtstudy.vocabulary.prescribed import DISPLACEMENTS, Control
+from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-    from swtstudy.mechanics.load.loop import Loop
+    from swtstudy.mechanics.load.load import Loop
+
+
+class Rows:
+    """Arrays, other rows, and both by name, with common leading axes; all else the rows have in common.
+
+    The arguments of the constructor are attributes: the fields of a dataclass; other classes name them in
+    ``__match_args__``.
+    """
+
+    __match_args__: ClassVar[tuple[str, ...]]
+
+    def take(self, index: Any, /) -> Self:
+        """The rows at an index of NumPy's of the leading axes, repetitions allowed."""
+        return self._made(_taken(getattr(self, name), index) for name in self.__match_args__)
+
+    @classmethod
+    def joined(cls, several: Sequence[Self]) -> Self:
+        """The rows of several, one after another; what is no rows is that of the first."""
+        return cls._made(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__)
+
+    @classmethod
+    def _made(cls, values: Any) -> Self:
+        make: Any = cls
+        return make(*values)
+
+
+def _taken(value: Any, index: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value[index]
+    if isinstance(value, dict):
+        return {name: _taken(each, index) for name, each in value.items()}
+    return value.take(index) if isinstance(value, Rows) else value
+
+
+def _joined(several: list[Any]) -> Any:
+    first = several[0]
+    if isinstance(first, dict):
+        return {name: _joined([each[name] for each in several]) for name in first}
+    if isinstance(first, Rows):
+        return first.joined(several)
+    return np.concatenate(several) if isinstance(first, np.ndarray) else first
+
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -43,7 +85,7 @@ class Points(Rows):
     Attributes
     ----------
     profile
-        Name of the profile, a key of `swtstudy.vocabulary.families.FAMILIES`, or the table of one.
+        Name of the profile, a key of `swtstudy.vocabulary.choices.FAMILIES`, or the table of one.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
         Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; the phase in rad. The amplitudes are
         those of forces where `control` says so.
@@ -56,7 +98,7 @@ class Points(Rows):
     path
         The loop that the load runs through; None for the two harmonic oscillations.
     criterion
-        Of which s is the largest value, a key of `swtstudy.mechanics.planes.criteria.CRITERIA`.
+        Of which s is the largest value, a key of `swtstudy.mechanics.planes.criterion.CRITERIA`.
     walker_exponent
         Shape (n,), of SWT; 1/2 unless given.
     normal_sensitivity

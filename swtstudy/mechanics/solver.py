@@ -7,18 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import Cycle, out_of_equilibrium, solve_cycle
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import resolved_shape, roughness
-from swtstudy.mechanics.line.accuracy import Accuracy
+from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.line.surface_maximum import surface_maximum
+from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.of_points import alike, largest_turn_count, shared_load
-from swtstudy.mechanics.planes.swt import SWT_EXPONENT
+from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
 from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene

@@ -1,8 +1,8 @@
-"""Canonical points: one row of numbers for everything that is physically one point.
+"""Canonical points: one row of numbers for everything that is physically one point; names are codes.
 
-Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one
-onto the other, or if they differ only in parameters that do not matter (the shape of another profile, a
-profile whose shape is plain, the phase and the control of a load that stands still).
+Two points of a grid are one if their rounded values agree, if the symmetry of the load protocol maps one onto
+the other, or if they differ only in parameters that do not matter (the shape of another profile, a profile
+whose shape is plain, the phase and the control of a load that stands still).
 """
 
 from __future__ import annotations
@@ -13,14 +13,39 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.codes import Definitions, code_of, control_code, control_of, value_of
-from swtstudy.vocabulary.criteria import SWT
+from swtstudy.vocabulary.choices import FAMILIES, PLAIN_OF, SWT, family_of
 from swtstudy.vocabulary.definition import Definition, cost_of
-from swtstudy.vocabulary.families import FAMILIES, PLAIN_OF, family_of
-from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS
+from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import FloatArray, IntArray, Points
+
+#: The built-in profiles by their code; archives' parts say which ones they count on.
+NAMES = PARAMETERS["profile"].names
+
+#: What a user has defined, by its code.
+Definitions = Mapping[float, Definition]
+
+
+def code_of(value: str | Definition, parameter: str = "profile") -> float:
+    """The number that stands for a value of a parameter that has names."""
+    return value.code if isinstance(value, Definition) else float(PARAMETERS[parameter].names.index(value))
+
+
+def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Definition:
+    """The value that a number stands for."""
+    names = PARAMETERS[parameter].names
+    return names[int(code)] if code < len(names) else definitions[code]
+
+
+def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.bool_]) -> FloatArray:
+    """The numbers that stand for what is prescribed, from whether each component is a force."""
+    return normal_force + 2.0 * tangential_force
+
+
+def control_of(code: float) -> Control:
+    """Control of a number; see `code_of_control`."""
+    return Control(bool(int(code) & 1), bool(int(code) & 2))
 
 
 def _numbers(part: str) -> tuple[str, ...]:
@@ -41,7 +66,7 @@ _OTHERS = (*reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"
 #: Parameters that are a number of every point, whatever its profile.
 NUMBERS = (*_numbers("load"), *_OTHERS)
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
-#: control see `swtstudy.points.codes`.
+#: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 #: A canonical point, in an array: a number for each of these names.
 ROW = np.dtype([(name, np.float64) for name in COLUMNS])
@@ -102,7 +127,7 @@ def _make_profiles_canonical(table: Table) -> None:
 
 def _make_loads_canonical(table: Table) -> NDArray[np.bool_]:
     """Returns where x is mirrored."""
-    from swtstudy.mechanics.load.symmetry import fold_bulk_phase, fold_phase, without_what_stands_still
+    from swtstudy.mechanics.load.bimodal import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = (table[name].astype(np.int64) for name in "pq")
     normal, tangential, phase = (
@@ -178,7 +203,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     definitions
         What the user has defined, by its code.
     """
-    from swtstudy.mechanics.load.loop import Loop
+    from swtstudy.mechanics.load.load import Loop
     from swtstudy.mechanics.points import Points
 
     profile = value_of(table["profile"][0], definitions)

@@ -12,14 +12,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, RATIO_COLUMNS, Table, canonical_number, canonical_points
-from swtstudy.points.codes import code_of, control_code
+from swtstudy.points.canonical import (
+    COLUMNS,
+    RATIO_COLUMNS,
+    Table,
+    canonical_number,
+    canonical_points,
+    code_of,
+    control_code,
+)
 from swtstudy.points.values import Value, read_value
-from swtstudy.vocabulary.axes import AXES
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
-from swtstudy.vocabulary.prescribed import Control, replaced_by
+from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import Request, item_of
 
 if TYPE_CHECKING:

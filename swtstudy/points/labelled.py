@@ -1,4 +1,4 @@
-"""Plain arrays as the Dataset that users see, with names, units and meanings."""
+"""Plain arrays as the Dataset that users see, with names, units, meanings and margins of the model."""
 
 from __future__ import annotations
 
@@ -13,14 +13,16 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.points import requested
+from swtstudy.points.canonical import points_from
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.records import STATES
+from swtstudy.points.unique import UniquePoints, block_ends
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.vocabulary.criteria import BENEATH, MEANING, SWT, WORDS, with_values_of
+from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.prescribed import CONTROLS
+from swtstudy.vocabulary.parameters import CONTROLS
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attributes_of
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -225,3 +227,29 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     if isinstance(values[0], Fraction):
         attributes["fractions"] = " ".join(map(str, values))
     return attributes
+
+
+def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
+    """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
+
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone.
+    """
+    from swtstudy.mechanics.margins import Margins
+
+    names = grid.margins
+    if not names:
+        return {}
+    blocks = np.split(points.table, block_ends(points.table)[:-1])
+    every = [Margins.of(points_from(block, points.definitions)) for block in blocks]
+    radius, width, shift, ratio = (
+        np.concatenate([getattr(each, name) for each in every])[points.index] for name in vars(every[0])
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = {
+            "bulk_shift": np.where(shift <= width, shift, np.nan),
+            "bulk_shift_ratio": shift / width,
+            "prescribed_force_ratio": ratio,
+        }
+    if "radius_ratio" in names:
+        found["radius_ratio"] = radius * grid.curvatures
+    return {name: found[name] for name in names}

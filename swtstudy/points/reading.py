@@ -12,19 +12,31 @@ from types import MappingProxyType
 from typing import Literal
 
 from swtstudy.points.canonical import canonical_number
-from swtstudy.points.criteria import check_criteria
-from swtstudy.points.expression import evaluate
 from swtstudy.points.grid import Grid, complete
-from swtstudy.points.loops import AMPLITUDES, check_amplitudes, check_largest, check_loops, check_sizes
-from swtstudy.points.plane import check_forces
+from swtstudy.points.rules import (
+    AMPLITUDES,
+    check_amplitudes,
+    check_criteria,
+    check_forces,
+    check_largest,
+    check_loops,
+    check_sizes,
+)
 from swtstudy.points.shapes import check_shapes, check_shapes_given
-from swtstudy.points.values import DEGREES, NOTHING, Value, as_number, read_angle, read_exact, read_value
-from swtstudy.vocabulary.axes import QUANTITY_AXES
+from swtstudy.points.values import (
+    DEGREES,
+    NOTHING,
+    Value,
+    as_number,
+    evaluate,
+    read_angle,
+    read_exact,
+    read_value,
+)
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: An angle beyond so many rad is probably meant in degrees.

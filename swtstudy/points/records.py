@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray, Solution
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import FloatArray, IntArray, Rows, Solution
 from swtstudy.points.canonical import ROW, Table, group_rows
 from swtstudy.vocabulary.quantities import columns_of
 

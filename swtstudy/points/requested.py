@@ -10,8 +10,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.vocabulary.axes import DIRECTIONS, QUANTITY_AXES
 from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import DIRECTIONS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import (
     COUNTED,
     COUNTED_SIZES,

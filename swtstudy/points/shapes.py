@@ -10,8 +10,8 @@ import numpy as np
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import as_number, values_taken
+from swtstudy.vocabulary.choices import families_with, family_of
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.families import families_with, family_of
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -99,7 +99,7 @@ def _largest_course(grid: Grid) -> float:
 
 def largest_reach(grid: Grid) -> float:
     """By how many amplitudes the normal load rises at most."""
-    from swtstudy.mechanics.load.loop import Loop
+    from swtstudy.mechanics.load.load import Loop
 
     return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
 

@@ -1,16 +1,21 @@
-"""The distinct canonical points behind a grid."""
+"""The distinct canonical points behind a grid, their cost, the blocks they are solved in, and the way back.
+
+Columns of the quantities that are asked of them are spread to all points of the grid.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import IntArray
-from swtstudy.points.canonical import LOAD_COLUMNS, ROW, Table, group_rows
-from swtstudy.points.codes import Definitions
+from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.points.canonical import LOAD_COLUMNS, ROW, SHARED_COLUMNS, Definitions, Table, group_rows
 from swtstudy.points.grid import Grid
+from swtstudy.vocabulary.definition import CONTENT_BITS
+from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
 LARGEST_GRID = 50_000_000
@@ -65,3 +70,148 @@ def unique_points(grid: Grid) -> UniquePoints:
 def loads(table: Table) -> int:
     """Number of distinct loads, each of which needs one contact solution."""
     return len(group_rows(table[[*LOAD_COLUMNS]])[0])
+
+
+#: Rough cost of a point by its weight, before any has been timed.
+SECONDS_PER_WEIGHT = 4e-3
+#: The same of the nonlocal values of a point, whatever its weight and the number of distances.
+SECONDS_NONLOCAL = 0.2
+#: The same of the largest von Mises stress.
+SECONDS_YIELD = 0.05
+#: How much more counting the strain cycles of a point costs than its s.
+COUNTING = 2.5
+
+
+def weights(table: Table) -> IntArray:
+    """Rough relative cost of points: long cycles cost more."""
+    frequencies = (table["p"] + table["q"]).astype(np.int64)
+    # The cost of a loop is part of its code.
+    return frequencies + table["load"].astype(np.int64) // 2**CONTENT_BITS
+
+
+def rough_seconds(weight: float, points: int, asked: Request) -> float:
+    """Rough computing time of points of this weight together, before any has been timed."""
+    beside = SECONDS_NONLOCAL * bool(asked.distances) + SECONDS_YIELD * (YIELD in asked.names)
+    return float(weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * asked.counts) + points * beside)
+
+
+def duration(seconds: float) -> str:
+    """Seconds as people say them.
+
+    Examples
+    --------
+    >>> duration(0.5), duration(75), duration(7500)
+    ('0.5 s', '1 min 15 s', '2 h 5 min')
+    """
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+#: Points in a block, times their weight: one or two seconds of work. In small blocks each point costs more:
+#: with half of it, and of the solver's batches, a tenth at long cycles.
+_BLOCK_SIZE = 1024
+_SMALLEST_BLOCK = 4
+#: Points that are worth more than one block: then there are as many for one of two workers as for the other.
+_WORTH_SHARING = 64
+
+
+def block_ends(table: Table) -> IntArray:
+    """Ends of the blocks of a table; what is solved in one call does not depend on the run.
+
+    The last bits of a value depend on what it is solved together with. Blocks that depend on the table
+    alone make an interrupted run end with the very values of an undisturbed one.
+
+    A block has one profile and one frequency ratio, and ends between two loads where it can: points with
+    the same load share their contact solution.
+    """
+    load_end = _stretch_ends(table, ("profile", *LOAD_COLUMNS))
+    load_begin = np.append(0, load_end)
+    ends, begin = [], 0
+    for end in _stretch_ends(table, SHARED_COLUMNS).tolist():
+        length = end - begin
+        size = max(_BLOCK_SIZE // int(weights(table[begin:end]).max(initial=1)), _SMALLEST_BLOCK)
+        share = 2 if length >= _WORTH_SHARING else 1
+        count = max(share * -(-length // (share * size)), 1)
+        cuts = begin + length * np.arange(1, count + 1) // count
+        # Where the last load begins; but not at the cost of half a block.
+        between = load_begin[np.searchsorted(load_end, cuts, "right")]
+        ends.append(np.where(cuts - between <= length / count / 2.0, between, cuts))
+        begin = end
+    return np.concatenate(ends)
+
+
+def _stretch_ends(table: Table, names: tuple[str, ...]) -> IntArray:
+    columns = table[[*names]]
+    return np.append(np.flatnonzero(columns[1:] != columns[:-1]) + 1, len(columns))
+
+
+def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], NDArray[np.bool_]]:
+    """Items that are asked of some points, and of which, shape (len(points.table), number of items)."""
+    distances, at = grid.items(asked)
+    of = np.zeros((len(points.table), len(asked.same) + len(distances)), bool)
+    of[:, : len(asked.same)] = True
+    for each in at:
+        of[points.index, len(asked.same) + each] = True
+    return (*asked.same, *distances), of
+
+
+def columns_at(
+    grid: Grid, asked: Request, points: UniquePoints, known: Callable[[str], FloatArray]
+) -> dict[str, FloatArray]:
+    """Spread columns of distinct points to the points of a grid, each of shape (grid.size,).
+
+    ``known`` gives a column of the distinct points by its name. Points that are mirrored have places with the
+    other sign.
+    """
+    found = {name: known(name)[points.index] for name in columns_of(asked.same)}
+    items, at = grid.items(asked)
+    for distance, each in zip(asked.distances, at, strict=True):
+        found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
+        for name, column, rows, is_place in _columns(item_of(distance), items, each):
+            found[name][rows] = _mirrored(known(column)[points.index[rows]], points, rows, is_place)
+    return found
+
+
+def columns_back(
+    grid: Grid, asked: Request, points: UniquePoints, columns: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """The inverse of `columns_at`: what the distinct points have, each of shape (len(points.table),)."""
+    size = len(points.table)
+    found: dict[str, FloatArray] = {}
+
+    def put(name: str, rows: NDArray[np.intp], values: FloatArray) -> None:
+        found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
+
+    every = np.arange(grid.size)
+    for name in columns_of(asked.same):
+        put(name, every, columns[name])
+    items, at = grid.items(asked)
+    for distance, each in zip(asked.distances, at, strict=True):
+        for name, known, rows, is_place in _columns(item_of(distance), items, each):
+            put(known, rows, _mirrored(columns[name][rows], points, rows, is_place))
+    return found
+
+
+def _mirrored(values: FloatArray, points: UniquePoints, rows: NDArray[np.intp], is_place: bool) -> FloatArray:
+    """Values at some points; places of points that are mirrored have the other sign."""
+    return np.where(points.mirrored[rows], -values, values) + 0.0 if is_place else values
+
+
+def _columns(
+    asked: str, items: tuple[str, ...], at: NDArray[np.int64]
+) -> Iterator[tuple[str, str, NDArray[np.intp], bool]]:
+    """The columns of an item as it is asked, of the item that it is at some points, these, and if a place."""
+    for number in np.unique(at).tolist():
+        rows = np.flatnonzero(at == number)
+        for row in NONLOCAL.values():
+            for variable in row.variables:
+                pairs = zip(
+                    columns_in(row, variable, asked), columns_in(row, variable, items[number]), strict=True
+                )
+                yield from ((name, known, rows, row.is_place) for name, known in pairs)

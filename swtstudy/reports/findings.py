@@ -14,13 +14,11 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.grid import SAMPLE
-from swtstudy.reports.symbols import place_html, symbol_of, unit_of, value_text
-from swtstudy.results.extrema import extrema
+from swtstudy.reports.values import place_html, symbol_of, unit_of, value_text
+from swtstudy.results.evaluate import extrema
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.vocabulary.axes import AXES
-from swtstudy.vocabulary.criteria import SWT
-from swtstudy.vocabulary.families import family_of
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.choices import SWT, family_of
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS
 from swtstudy.vocabulary.wording import number_words
 
 #: The parameter whose values have an s of another kind each.
@@ -38,7 +36,7 @@ class Lever:
     name
         The dimension.
     table
-        Its extrema, as of `swtstudy.results.extrema.extrema`, of swt where results have units.
+        Its extrema, as of `swtstudy.results.evaluate.extrema`, of swt where results have units.
     there
         The place along the other dimensions at which the ratio of the extrema is largest.
     """

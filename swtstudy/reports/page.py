@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.archive.describe import facts
 from swtstudy.paper.statements.check import about_archive
 from swtstudy.points.validity import validity_lines
-from swtstudy.reports.data import about, packed, rows_of, table_of
 from swtstudy.reports.findings import CRITERION, sentences, worst_place
-from swtstudy.reports.parts import Section, code, data, figure, section, table, whole
-from swtstudy.reports.pictures import derived, study_figure
+from swtstudy.reports.parts import Section, code, data, derived, figure, section, study_figure, table, whole
 from swtstudy.reports.sections import (
     extrema_section,
     points_section,
@@ -20,7 +18,7 @@ from swtstudy.reports.sections import (
     sureness_section,
     tiles,
 )
-from swtstudy.reports.symbols import symbol_of
+from swtstudy.reports.values import about, packed, rows_of, symbol_of, table_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
 

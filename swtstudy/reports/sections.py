@@ -10,18 +10,17 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_failures
 from swtstudy.archive.describe import accuracy, completeness, regime_counts, relative_errors
-from swtstudy.figures.bars import draw_sensitivity
+from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
 from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
-from swtstudy.reports.parts import Section, figure, section, table
-from swtstudy.reports.pictures import embedded, of_point
-from swtstudy.reports.symbols import place_html, share, symbol_html, symbol_of, unit_of, value_text
+from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
+from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, unit_of, value_text
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.units.reading import read_contact
-from swtstudy.vocabulary.axes import AXES
 from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import number_words
 
 #: Most rows of a table of extrema, failed points and values of an axis that are listed one by one.

@@ -10,12 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
-from swtstudy.archive.error import ArchiveError
-from swtstudy.archive.open import open_results
+from swtstudy.archive.archive import open_results
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.reports.findings import sentences
 from swtstudy.reports.page import page
-from swtstudy.reports.parts import whole
-from swtstudy.reports.pictures import Picture, thumbnail
+from swtstudy.reports.parts import Picture, thumbnail, whole
 from swtstudy.runner.workers import LocalPool
 from swtstudy.study.shipped import in_groups
 from swtstudy.vocabulary.files import check_writable, write_text

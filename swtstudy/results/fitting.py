@@ -15,10 +15,9 @@ from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import study_from, tables_of
-from swtstudy.study.sampling.points_file import read_points
+from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
-from swtstudy.vocabulary.axes import DIRECTIONS
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,
@@ -28,6 +27,7 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
     plain_number,
 )
+from swtstudy.vocabulary.parameters import DIRECTIONS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
@@ -148,7 +148,7 @@ class _Model:
         """Least and greatest logarithms: friction must bear the tangential forces."""
         low, high = [self.distances[0]], [self.distances[-1]]
         if self.with_friction:
-            from swtstudy.points.margins import margins
+            from swtstudy.points.labelled import margins
             from swtstudy.points.unique import unique_points
 
             ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.points.grid import SAMPLE
-from swtstudy.results.quantity import quantity
-from swtstudy.vocabulary.axes import AXES
+from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""One chunk of work: what a worker receives and what it returns."""
+"""Chunks of work: what a worker receives and returns; missing points are cut into them by whole blocks."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, IntArray, Points, Solution
-from swtstudy.points.canonical import Table, points_from
-from swtstudy.points.codes import Definitions
+from swtstudy.points.canonical import Definitions, Table, points_from
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
-from swtstudy.points.unique import UniquePoints
+from swtstudy.points.unique import UniquePoints, block_ends, weights
 from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
 #: Solves a batch of points to a relative accuracy.
@@ -162,3 +162,48 @@ def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
     from swtstudy.mechanics.quantities import quantities_of
 
     return replace(found, quantities=quantities_of(points, asked.quantities, solution))
+
+
+def chunks(
+    points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], float], asked: Asked = ONLY_S
+) -> Iterator[Chunk]:
+    """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
+
+    Parameters
+    ----------
+    points
+        The points of the study.
+    wanted
+        Shape (len(points.table),): the points to be solved.
+    size
+        Called for every chunk, so that later chunks follow the timing of earlier ones.
+    asked
+        What is asked of the points.
+    """
+    weight = weights(points.table)
+    blocks: list[IntArray] = []
+    heaviness = 0
+    for rows in _long_cycles_first(points.table, wanted, weight):
+        for block in np.array_split(rows, -(-len(rows) // (asked.block or len(rows)))):
+            block_weight = int(weight[block].sum())
+            if blocks and heaviness + block_weight > size():
+                yield Chunk.of(points, blocks, asked)
+                blocks, heaviness = [], 0
+            blocks.append(block)
+            heaviness += block_weight
+    if blocks:
+        yield Chunk.of(points, blocks, asked)
+
+
+def _long_cycles_first(table: Table, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
+    """The wanted rows of each block that has some, long cycles first, and of these the largest blocks.
+
+    So the last blocks let no worker wait, nor do the first ones, which are solved beside one another.
+    """
+    begin, found = 0, []
+    for end in block_ends(table).tolist():
+        rows = begin + np.flatnonzero(wanted[begin:end])
+        begin = end
+        if len(rows):
+            found.append(rows)
+    return sorted(found, key=lambda rows: (-int(weight[rows].max()), -len(rows)))

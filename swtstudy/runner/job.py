@@ -10,11 +10,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.points.cost import rough_seconds, weights
 from swtstudy.points.records import Records, Run
-from swtstudy.runner.chunk import Solver
+from swtstudy.points.unique import rough_seconds, weights
+from swtstudy.runner.chunk import Solver, chunks
 from swtstudy.runner.collector import Collector
-from swtstudy.runner.cutting import chunks
 from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
@@ -46,9 +45,8 @@ class Job:
     """
 
     def __init__(self, study: Study, path: Path, retry_failed: bool) -> None:
-        from swtstudy.archive.lock import locked
-        from swtstudy.archive.names import check_archive_path
         from swtstudy.archive.parts import clear_unfinished, parts_folder
+        from swtstudy.archive.paths import check_archive_path, locked
 
         require_study(study)
         check_archive_path(path)
@@ -121,7 +119,7 @@ def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
 
     if work.todo or not path.exists() or len(read_parts(parts_folder(path))):
         return None
-    from swtstudy.archive.read import read_archive
+    from swtstudy.archive.netcdf import read_archive
 
     archive = read_archive(path)
     if archive.attrs["study"] != study.text:
@@ -159,8 +157,8 @@ def _compute(
     work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
 ) -> Records:
     """The records, with the missing points computed."""
+    from swtstudy.archive.attributes import versions
     from swtstudy.archive.parts import PartsWriter, parts_folder
-    from swtstudy.archive.versions import versions
 
     if not work.todo:
         return work.records
@@ -180,7 +178,7 @@ def _compute(
 def _history(what: str, path: Path) -> str:
     """Return the line of this run, followed by the history of the archive that is replaced."""
     from swtstudy.archive.archive import history_line
-    from swtstudy.archive.read import read_archive
+    from swtstudy.archive.netcdf import read_archive
 
     before = [read_archive(path).attrs["history"]] if path.exists() else []
     return "\n".join([history_line(what), *before])
@@ -188,9 +186,8 @@ def _history(what: str, path: Path) -> str:
 
 def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
     """Write the archive, which replaces the parts, and keep the records that are not in it."""
+    from swtstudy.archive.netcdf import read_archive, save
     from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
-    from swtstudy.archive.read import read_archive
-    from swtstudy.archive.write import save
 
     folder, kept = parts_folder(path), kept_folder(path)
     try:

@@ -47,8 +47,8 @@ def run_suite(
     StudyError
         A ValueError with every mistake in every study, before anything is computed.
     """
-    from swtstudy.archive.names import archive_paths
-    from swtstudy.study.several import read_studies
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.study.definition import read_studies
     from swtstudy.study.shipped import shipped_folder
 
     folder = shipped_folder() if folder is None else folder
@@ -91,7 +91,7 @@ def run_and_draw(
     def finished(study: Study, path: Path, dataset: xr.Dataset) -> None:
         if study.figure is not None:
             from swtstudy.figures.draw import draw
-            from swtstudy.figures.save import save_figure
+            from swtstudy.figures.style import save_figure
 
             figure = draw(dataset, width=width)
             for ending in formats:

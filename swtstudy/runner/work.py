@@ -1,19 +1,21 @@
-"""The work that is left of a study: the points it needs, and which of them are known."""
+"""The work that is left of a study: the points it needs, which are known, and how long the rest takes.
+
+That is estimated from the timing of a few of its points.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Table, group_rows
-from swtstudy.points.columns import wanted
+from swtstudy.points.canonical import SHARED_COLUMNS, Table, group_rows
 from swtstudy.points.records import MISSING, Records, look_up, matching
-from swtstudy.points.unique import UniquePoints, unique_points
-from swtstudy.runner.chunk import Asked
+from swtstudy.points.unique import UniquePoints, block_ends, unique_points, wanted, weights
+from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -80,7 +82,7 @@ class Work:
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     """Find the work that is left of a study whose archive is at `path`; this computes no point."""
-    from swtstudy.archive.known import known_records
+    from swtstudy.archive.parts import known_records
 
     points = unique_points(study.grid)
     known = known_records(path)
@@ -125,3 +127,93 @@ def _unusable(table: Table, known: Records, rtol: float) -> tuple[int, int]:
     outdated = look_up(table, known, there & ~versions) >= 0
     coarse = look_up(table, known, there & versions & (tolerance > rtol)) >= 0
     return int(outdated.sum()), int(coarse.sum())
+
+
+#: How many kinds of points (profile and frequency ratio) are timed at most, and seconds that all of it may
+#: take: a plan is quick. A point that takes longer is timed alone.
+_TIMED_KINDS, _BUDGET = 4, 1.5
+#: A loop of more vertices is timed by one with some of its own, no more than so many.
+_VERTICES = 200
+
+
+def estimate(
+    points: UniquePoints,
+    missing: NDArray[np.bool_],
+    rtol: float,
+    solver: Solver,
+    timed: Callable[[Records], None] = lambda found: None,
+    asked: Asked = ONLY_S,
+) -> float:
+    """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
+
+    Parameters
+    ----------
+    points
+        The points of the study.
+    missing
+        Shape (len(points.table),): the points to be solved.
+    rtol, solver
+        As in `run`.
+    timed
+        Called with the records of each block that was timed.
+    asked
+        What is asked of the points.
+    """
+    table, rows = points.table, np.flatnonzero(missing)
+    if not len(rows):
+        return 0.0
+    _, kind = group_rows(table[[*SHARED_COLUMNS]][rows])
+    kinds, sizes = np.unique(kind, return_counts=True)
+    largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
+    ends, weight = block_ends(table), weights(table)
+    lean, growth = _thinned(points)
+    spent, total, work = 0.0, 0.0, 0
+    for index, each in enumerate(largest):
+        middle = rows[kind == each][(kind == each).sum() // 2]
+        block = int(np.searchsorted(ends, middle, "right"))
+        begin = int(ends[block - 1]) if block else 0
+        inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
+        if index == 0:
+            # Warm-up call: the first one imports modules and fills tables.
+            result = solve_chunk(Chunk.of(lean, [inside[:1]], asked), rtol, solver)
+            spent = result.seconds
+        elif spent > _BUDGET:
+            break
+        if index or spent <= _BUDGET:
+            share = (_BUDGET - spent) / (len(largest) - index)
+            result, seconds = _timed(lean, inside, asked, rtol, solver, share)
+            spent += seconds
+        timed(result)
+        total += growth.get(float(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
+        work += int(weight[rows[kind == each]].sum())
+    others = int(weight[rows].sum()) - work
+    return float(total + total / work * others)
+
+
+def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[float, float]]:
+    """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
+    from swtstudy.mechanics.load.load_path import LoadPath
+
+    lean, growth = dict(points.definitions), {}
+    for code, loop in points.definitions.items():
+        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
+            thin = loop.thinned(_VERTICES)
+            lean[code] = thin
+            # As k log k: results/vertices.md.
+            many, few = (len(each.vertices) for each in (loop, thin))
+            growth[code] = many * np.log(many) / (few * np.log(few))
+    return replace(points, definitions=lean), growth
+
+
+def _timed(
+    points: UniquePoints, inside: NDArray[np.intp], asked: Asked, rtol: float, solver: Solver, share: float
+) -> tuple[Records, float]:
+    """The result of as many points of a block as take some share of the time, and the time of all tries."""
+    count, spent = 1, 0.0
+    while True:
+        result = solve_chunk(Chunk.of(points, [inside[:count]], asked), rtol, solver)
+        spent += result.seconds
+        # Four at a time take some twice as long as one.
+        if count >= len(inside) or spent + 2.0 * result.seconds > share:
+            return result, spent
+        count = min(4 * count, len(inside))

@@ -1,8 +1,8 @@
-"""A validated study."""
+"""A validated study, and several of them from files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -10,13 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
-from swtstudy.study.blocks import read_blocks
-from swtstudy.study.contacts import every_name, read_given, rows_of
-from swtstudy.study.figure import FigureLayout
-from swtstudy.study.figure_check import check_figure
+from swtstudy.study.contacts import every_name, read_blocks, read_given, rows_of
+from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
-from swtstudy.study.writing import to_toml
-from swtstudy.vocabulary.axes import AXES
+from swtstudy.study.writing import as_html, in_one_line, to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml, read_text
 from swtstudy.vocabulary.mistakes import (
@@ -29,10 +26,11 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
     storable,
 )
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:
-    from swtstudy.study.sampling.reading import Sample
+    from swtstudy.study.sample import Sample
     from swtstudy.units.blocks import Block
     from swtstudy.vocabulary.parameter import Parameter
 
@@ -86,13 +84,9 @@ class Study:
     sample: Sample | None = None
 
     def __repr__(self) -> str:
-        from swtstudy.study.overview import in_one_line
-
         return in_one_line(self)
 
     def _repr_html_(self) -> str:
-        from swtstudy.study.overview import as_html
-
         return as_html(self)
 
     @classmethod
@@ -163,7 +157,7 @@ def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
 
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
     """The study of the tables of a file; see `Study.from_text`."""
-    from swtstudy.study.structure import read_structure
+    from swtstudy.study.tables import read_structure
 
     places: dict[str, str] = {}
     report = Report(source, lambda name: f"{places.get(name, 'fixed')}.{name}")
@@ -249,7 +243,7 @@ def _sample(
     """The sample, and the names of the parameters that are sampled."""
     if not isinstance(raw.get("sample"), dict):
         return None, []
-    from swtstudy.study.sampling.reading import read_sample
+    from swtstudy.study.sample import read_sample
 
     single = {name: row for name, row in rows.items() if name not in (DISTANCE, "body")}
     return read_sample(raw["sample"], folder, report, known, single)
@@ -262,8 +256,7 @@ def _definitions(raw: Mapping[str, Any], folder: Path, report: Report) -> dict[s
         tables = raw.get(f"{parameter}s", {})
         if not tables or not isinstance(tables, dict):
             continue
-        from swtstudy.study.loops import read_loops
-        from swtstudy.study.profile_tables import read_profiles
+        from swtstudy.study.loops_and_profiles import read_loops, read_profiles
 
         sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
         read = read_loops if parameter == "load" else read_profiles
@@ -301,3 +294,38 @@ def _figure_from(raw: Mapping[str, Any]) -> FigureLayout | None:
         return None  # reported with the structure
     y = (table.y,) if isinstance(table.y, str) else tuple(table.y)
     return FigureLayout(**{**dict(table), "y": y})
+
+
+def read_studies(paths: Iterable[str]) -> dict[str, Study]:
+    """The studies by path, each file once.
+
+    Each path is that of a file or of a folder of files, or the name of a study of the paper, such as
+    "figure3".
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in every file; also if two files would have the same archive.
+    """
+    studies: dict[str, Study] = {}
+    names: dict[str, str] = {}
+    report = Report()
+    for path in dict.fromkeys(_files(paths, report)):
+        with report:
+            studies[path] = Study.from_toml(path)
+        first = names.setdefault(Path(path).stem, path)
+        if first != path:
+            report.append(Mistake("", f"the same name as {first}", "names that differ", path))
+    report.refuse()
+    return studies
+
+
+def _files(paths: Iterable[str], report: Report) -> Iterator[str]:
+    for path in paths:
+        if not Path(path).is_dir():
+            yield str(find_study(path))
+            continue
+        inside = sorted(map(str, Path(path).glob("*.toml")))
+        if not inside:
+            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
+        yield from inside

@@ -1,16 +1,18 @@
-"""The layout of a study's figure: which dimension goes where, and which quantity is drawn."""
+"""The layout of a study's figure: which dimension goes where, which quantity is drawn; checks of it."""
 
 from __future__ import annotations
 
 import json
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass
 
-from swtstudy.points.values import Value, read_exact, read_value
-from swtstudy.vocabulary.axes import AXES
-from swtstudy.vocabulary.parameters import LETTERS
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.values import Value, index_of, read_exact, read_value
+from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
+from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -118,3 +120,174 @@ def reference(y: str) -> tuple[str, Value] | None:
     if AXES[name].scale or AXES[name].part == "contact":
         return name, float(read_exact(raw.strip()))  # whose range depends on its unit
     return name, read_value(AXES[name], raw.strip())
+
+
+def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of everything that is wrong with a layout for any results."""
+    used: dict[str, str] = {}
+    for role, name in layout.roles():
+        if name in used:
+            yield f"figure.{role}", f"{literal(name)}, also used for {used[name]}", "each axis once"
+        used.setdefault(name, role)
+    if layout.kind not in KINDS:
+        yield "figure.kind", literal(layout.kind), nearest(layout.kind, KINDS)
+    else:
+        yield from _wrong_roles(layout)
+    if not layout.y:
+        yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
+    problem = wrong_formula(layout.title or "")
+    if problem:
+        yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
+
+
+def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+    """Find mistakes in what is combined with the kind of figure."""
+    kind = f'kind = "{layout.kind}"'
+    surface = layout.kind in ("contour", "heatmap")
+    if surface and layout.vertical is None:
+        yield "figure.vertical", "nothing", f"the name of an axis ({kind} needs it)"
+    elif not surface and layout.vertical is not None:
+        yield "figure.vertical", literal(layout.vertical), f"none for {kind}, whose vertical axis is y"
+    if surface and layout.hue is not None:
+        yield "figure.hue", literal(layout.hue), f"none for {kind}"
+    for role, name in layout.roles():
+        named = name in AXES and AXES[name].kind == "name"
+        if role in ("x", "vertical") and named and layout.kind != "heatmap":
+            yield f"figure.{role}", literal(name), "an axis of numbers"
+        if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
+            yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
+    if layout.kind in ("heatmap", "life") and layout.regimes:
+        yield "figure.regimes", "True", f"False for {kind}"
+    if layout.kind not in SAMPLE_KINDS:
+        return
+    if layout.x != SAMPLE:
+        yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {kind}'
+    if layout.kind == "scatter" and layout.panels is not None:
+        yield "figure.panels", literal(layout.panels), f"none for {kind}: every sampled parameter has its own"
+    if layout.regimes:
+        yield "figure.regimes", "True", f"False for {kind}"
+    if layout.validity and layout.kind == "histogram":
+        yield "figure.validity", "True", f"False for {kind}"
+
+
+def wrong_axes(
+    layout: FigureLayout, sizes: Mapping[str, int | None], of: str
+) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of everything in a layout that does not fit the given axes.
+
+    Parameters
+    ----------
+    layout
+        The figure.
+    sizes
+        Number of values of each axis; None if not known.
+    of
+        What has these axes, in words, for messages.
+    """
+    for role, name in layout.roles():
+        if name not in sizes:
+            yield f"figure.{role}", f"{literal(name)}, not an axis of {of}", nearest(name, sizes)
+        elif layout.kind == "contour" and role in ("x", "vertical") and sizes[name] == 1:
+            yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
+    roles = dict(layout.roles())
+    for name in sizes:
+        if name not in roles.values() and name in (*AXES, SAMPLE):
+            allowed = "every axis as x, hue, vertical or panels, or with a single value"
+            yield "figure", f"no place for the axis {name}", allowed
+
+
+def check_figure(
+    layout: FigureLayout,
+    dims: list[str],
+    grid: Grid | None,
+    asked: Request,
+    report: Report,
+    unsure: Collection[str] = (),
+) -> None:
+    """Report everything in a figure that does not fit its study.
+
+    Parameters
+    ----------
+    layout
+        The figure.
+    dims
+        Names of the axes of the study.
+    grid
+        The grid, to look up the places used for normalisation; None if it has mistakes itself.
+    asked
+        What the study asks for beside s.
+    report
+        Called with key, found and allowed of each mistake.
+    unsure
+        Names of what the study may have but for other mistakes, which are reported.
+    """
+    of = "{} in this study" if asked.distances else "this study"
+    found = [*wrong_layout(layout)]
+    for y in [y for y in layout.y if y.strip() not in unsure] or ("s",) * (not layout.y):
+        found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
+    if layout.regimes and layout.x in QUANTITY_AXES:
+        found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
+    for mistake in dict.fromkeys(found):
+        report(*mistake)
+    for y in layout.y:
+        if y.strip() in unsure:
+            continue
+        _check_quantity(y, dims, grid, asked, report)
+
+
+def _sizes(
+    y: str, layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request
+) -> dict[str, int | None]:
+    """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
+    lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
+    made = {} if grid is None else grid.made(asked)
+    if y.strip() in made:
+        return {name: {**lengths_of, **lengths}[name] for name in made[y.strip()]}
+    sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
+    known = y.strip() in VARIABLES or not y.strip().isidentifier()
+    used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
+    return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
+
+
+def wrong_formula(text: str) -> str | None:
+    """Reason why matplotlib cannot draw the formulae in a text, if there is one."""
+    if "$" not in text:
+        return None
+    # Imported only if there is a formula: the import takes longer than the rest of the check.
+    from matplotlib.cbook import is_math_text
+    from matplotlib.mathtext import MathTextParser
+
+    if not is_math_text(text):
+        return None
+    try:
+        MathTextParser("path").parse(text)
+    except ValueError as error:
+        # Without the name of the parser's error.
+        return str(error).strip().splitlines()[-1].partition(": ")[2]
+    return None
+
+
+def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
+    known = (*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked)))
+    try:
+        place = reference(y)
+    except ValueError as error:
+        report("figure.y", f"{literal(y)} ({error})", f"{', '.join(known)}, or {QUANTITY}")
+        return
+    if place is None:
+        name = y.strip()
+        if name in COUNTED:
+            found = f"{literal(y)}, which has several values at a point"
+            report("figure.y", found, "cycles, which is made of it")
+        elif name in every_variable() and name not in known:
+            found = f"{literal(y)}, which this study does not ask for"
+            report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
+        elif name not in known:
+            report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
+        return
+    name, value = place
+    if name not in dims:
+        report("figure.y", f"{literal(y)}: {name} is not an axis of this study", nearest(name, dims))
+    elif grid is not None and index_of(value, grid.values(name)) is None:
+        report("figure.y", f"{literal(y)}: {value} is not on that axis", f"a value of the axis {name}")

@@ -8,16 +8,15 @@ from typing import Any
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import NUMERIC
-from swtstudy.study.sampling.distribution import KINDS
+from swtstudy.study.design import DISTRIBUTIONS
 from swtstudy.study.tables import StudyTable
-from swtstudy.units.labels import KINDS as UNITS
 from swtstudy.units.labels import KNOWN
+from swtstudy.units.labels import UNIT_KINDS as UNITS
 from swtstudy.units.material import KEYS
 from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
-from swtstudy.vocabulary.axes import AXES, CONTACT_AXES, QUANTITY_AXES
-from swtstudy.vocabulary.families import families_with
+from swtstudy.vocabulary.choices import families_with
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 #: Name of the schema's file beside studies; their first line points to it.
@@ -181,11 +180,11 @@ def _range(parameter: Parameter) -> dict[str, Any]:
     description = ends.pop("description")
     ends["items"]["type"] = ["number", "string"]
     number = {"type": ["number", "string"]}
-    numbers = {name: number for names in KINDS.values() for name in names}
+    numbers = {name: number for names in DISTRIBUTIONS.values() for name in names}
     distribution = {
         "type": "object",
         "properties": {
-            "distribution": {"enum": list(KINDS)},
+            "distribution": {"enum": list(DISTRIBUTIONS)},
             "low": ends["items"],
             "high": ends["items"],
             **numbers,

@@ -1,4 +1,4 @@
-"""Measured signals: the loads that a rig has recorded over some cycles, and the loops that they are."""
+"""Measured signals: the loads that a rig has recorded over some cycles, their means, and their loops."""
 
 from __future__ import annotations
 
@@ -10,13 +10,93 @@ from pathlib import Path
 
 import numpy as np
 
+from swtstudy.mechanics.load.load import Loop, checked_mean, checked_name
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.mechanics.load.loop import Loop, checked_mean, checked_name
-from swtstudy.mechanics.load.smooth_path import HIGHEST_ORDER
+from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.study import recorded
 from swtstudy.study.columns import check_form, form_of, read_columns
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal, plain_number
+
+#: By what share of a step a record may be shorter than a whole number of periods.
+ROUNDING = 1e-6
+
+
+def period_of(time: FloatArray, recorded_cycles: int) -> float:
+    """Period of a record that holds a number of cycles, each sample once: the first is not the last again."""
+    return float((time[-1] - time[0]) * len(time) / (len(time) - 1) / recorded_cycles)
+
+
+def whole_cycles(time: FloatArray, period: float) -> int:
+    """Number of whole cycles in a record."""
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    return int((time[-1] - time[0] + step * (1.0 + ROUNDING)) / period)
+
+
+def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
+    """The first whole cycles of a record at even phases, as many as it has samples in a cycle.
+
+    Parameters
+    ----------
+    time
+        Shape (k,), ascending.
+    values
+        Shape (k, d).
+    period, count
+        Length of a cycle, and how many.
+
+    Returns
+    -------
+    array
+        Shape (count, m, d); straight lines between the samples.
+    """
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    phases = max(2, round(period / step))
+    at = time[0] + period * (np.arange(count)[:, None] + np.arange(phases) / phases)
+    return np.stack([np.interp(at, time, column) for column in values.T], axis=-1)
+
+
+def scatter(cycles: FloatArray) -> FloatArray:
+    """Standard deviation of cycles (c, m, d) from their mean, root mean square over phases, shape (d,)."""
+    count = len(cycles)
+    if count < 2:
+        return np.full(cycles.shape[-1], np.nan)
+    variance = cycles.var(axis=0, ddof=1)
+    return np.asarray(np.sqrt(variance.mean(axis=0)))
+
+
+def mean_over(time: FloatArray, values: FloatArray, period: float) -> float:
+    """Mean of one closed cycle over the time, by straight lines; the samples need not be even."""
+    at, closed = np.append(time, time[0] + period), np.append(values, values[0])
+    return float(np.sum(np.diff(at) * 0.5 * (closed[1:] + closed[:-1])) / period)
+
+
+def harmonics(phase: FloatArray, values: FloatArray, highest: int) -> tuple[FloatArray, FloatArray]:
+    """The harmonics that fit a column best, in the sense of least squares, and the fit.
+
+    Parameters
+    ----------
+    phase
+        Shape (k,): φ of each sample, rad.
+    values
+        Shape (k,).
+    highest
+        The highest order.
+
+    Returns
+    -------
+    rows
+        Shape (highest + 1, 3): order, amplitude and phase of amplitude · sin(order · φ + phase).
+    fit
+        Shape (k,).
+    """
+    order = np.arange(1, highest + 1)
+    waves = np.outer(phase, order)
+    base = np.concatenate([np.ones((len(phase), 1)), np.sin(waves), np.cos(waves)], axis=1)
+    found = np.linalg.lstsq(base, values, rcond=None)[0]
+    sine, cosine = found[1 : highest + 1], found[highest + 1 :]
+    rows = np.stack([order, np.hypot(sine, cosine), np.arctan2(cosine, sine)], axis=1)
+    return np.concatenate([[[0.0, found[0], 0.5 * np.pi]], rows]), base @ found
+
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -62,7 +142,7 @@ class Signal:
         """The whole cycles at even phases, shape (count, m, d); a single one at its own samples."""
         if self.count == 1 and self._used == len(self.time):
             return self.values[None]
-        return recorded.folded(self.time, self.values, self.period, self.count)
+        return folded(self.time, self.values, self.period, self.count)
 
     @property
     def mean_cycle(self) -> FloatArray:
@@ -72,7 +152,7 @@ class Signal:
     @property
     def scatter(self) -> FloatArray:
         """Standard deviation of the cycles from their mean, by column; NaN for a single one."""
-        return recorded.scatter(self.cycles)
+        return scatter(self.cycles)
 
     @cached_property
     def mean_normal(self) -> float | None:
@@ -82,7 +162,7 @@ class Signal:
         if self.highest:
             mean = float(self._fits[0][0][0, 1])
         elif self.count == 1 and self._used == len(self.time):
-            mean = recorded.mean_over(self.time, self.values[:, 0], self.period)
+            mean = mean_over(self.time, self.values[:, 0], self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
         return checked_mean(mean, self.name)
@@ -123,7 +203,7 @@ class Signal:
     def _used(self) -> int:
         """Samples within the whole cycles."""
         end = self.time[0] + self.count * self.period
-        return int(np.searchsorted(self.time, end - recorded.ROUNDING * self.period))
+        return int(np.searchsorted(self.time, end - ROUNDING * self.period))
 
     @property
     def _whole(self) -> FloatArray:
@@ -133,7 +213,7 @@ class Signal:
     @cached_property
     def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
         phase = 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
-        return [recorded.harmonics(phase, column, self.highest) for column in self._whole]
+        return [harmonics(phase, column, self.highest) for column in self._whole]
 
     @property
     def _harmonic(self) -> Loop:
@@ -265,10 +345,10 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least")])
     if given.get("period") is not None:
         period = plain_number(given["period"])
-        count = recorded.whole_cycles(time, period)
+        count = whole_cycles(time, period)
     else:
         count = int(given.get("recorded_cycles") or 1)  # type: ignore[call-overload]
-        period = recorded.period_of(time, count)
+        period = period_of(time, count)
     samples = period * (len(time) - 1) / (time[-1] - time[0])
     highest = int(given.get("harmonics") or 0)  # type: ignore[call-overload]
     key = "period" if given.get("period") is not None else "recorded_cycles"

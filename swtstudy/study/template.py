@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from swtstudy.study.sampling.design import DESIGNS
+from swtstudy.study.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import rows
-from swtstudy.vocabulary.accuracy import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.vocabulary.axes import QUANTITY_AXES
-from swtstudy.vocabulary.families import FAMILIES, PLANE
+from swtstudy.vocabulary.choices import FAMILIES, PLANE
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 _USED = ("normal_amplitude", "phase")

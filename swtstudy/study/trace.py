@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
-from swtstudy.vocabulary.families import AXISYMMETRIC
+from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError
 
 #: The columns of a trace.

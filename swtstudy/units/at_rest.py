@@ -1,19 +1,78 @@
-"""A real contact at rest, and the scales of all else (eqs. 1, 2, 19–21)."""
+"""A real contact at rest, and the scales of all else (eqs. 1, 2, 19–21).
+
+It is made of the moduli of two bodies and of its depth, which may follow from a normal force.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import numpy as np
 
-from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile
+from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile, too_small
+from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.points.canonical import canonical_number, rounded
-from swtstudy.units.moduli import Moduli
-from swtstudy.units.scales import number_of
-from swtstudy.vocabulary.families import is_plane
+from swtstudy.units.rows import least_depths, length_of, number_of
+from swtstudy.vocabulary.choices import is_plane
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.parameters import PARAMETERS
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """Young's moduli and Poisson ratios of the two bodies, E in any unit of stress."""
+
+    young: tuple[float, float]
+    poisson: tuple[float, float]
+
+    @property
+    def alike(self) -> bool:
+        """True if the two bodies are elastically the same."""
+        return self.young[0] == self.young[1] and self.poisson[0] == self.poisson[1]
+
+    @property
+    def shear(self) -> tuple[float, float]:
+        """Shear moduli G = E/(2 + 2ν)."""
+        one, two = (e / (2.0 + 2.0 * nu) for e, nu in zip(self.young, self.poisson, strict=True))
+        return one, two
+
+    @property
+    def normal(self) -> float:
+        """The modulus E* (eq. 2)."""
+        return 1.0 / sum((1.0 - nu) / (2.0 * g) for g, nu in zip(self.shear, self.poisson, strict=True))
+
+    @property
+    def tangential(self) -> float:
+        """The modulus G* with 2 − ν; eq. 2 is printed with 1 − 2ν, with which eq. 21 would not hold."""
+        return 1.0 / sum((2.0 - nu) / (4.0 * g) for g, nu in zip(self.shear, self.poisson, strict=True))
+
+    @property
+    def mismatch(self) -> float:
+        """Dundurs' β, 0 for bodies that are similar after eq. 1.
+
+        β = ½ [(1 − 2ν1)/G1 − (1 − 2ν2)/G2] / [(1 − ν1)/G1 + (1 − ν2)/G2]. Pressure p then drags tangential
+        tractions of the order β p along, which the uncoupled solution leaves out; friction bears μ p.
+
+        Examples
+        --------
+        >>> Moduli((210e3, 210e3), (0.3, 0.3)).mismatch
+        0.0
+        >>> round(Moduli((210e3, 70e3), (0.3, 0.33)).mismatch, 3)
+        -0.117
+        """
+        unlike = [(1.0 - 2.0 * nu) / g for g, nu in zip(self.shear, self.poisson, strict=True)]
+        return (unlike[0] - unlike[1]) * self.normal / 4.0
+
+    def swt_share(self, body: int) -> float:
+        """SWT of a body over that of the half-space with E*, under the same stress: (1 − ν²) E*/E.
+
+        The solver's half-space has E = (1 − ν²) E*; of two equal bodies each has half of its SWT.
+        """
+        return (1.0 - self.poisson[body] ** 2) * self.normal / self.young[body]
+
 
 #: Radii at which the largest pressure is looked for, and its digits.
 _RADII, _DIGITS = 4001, 9.0
@@ -148,3 +207,57 @@ class Contact:
     def shape_parameters(self) -> dict[str, float]:
         """The non-dimensional parameters of its profile."""
         return {name: number_of(name, value, self) for name, value in self.shape.items()}
+
+
+def depth_at(contact: Contact, force: float) -> float:
+    """Indentation depth at a normal force, which rises with it."""
+    from scipy.optimize import brentq
+
+    if contact.plane:
+        return force / (contact.contact_length or 1.0) / (MEAN_LOAD * contact.moduli.normal)
+    if isinstance(contact.profile, TabulatedProfile):
+        profile = make_profile(contact.profile, {}, np.ones(1))
+        half = np.array([[0.5 * force / contact.moduli.normal]])
+        return float(profile.depth(profile.radius_of_half_load(half))[0, 0])
+    _refuse_at_any_depth(contact)
+    assert contact.radius is not None
+    (coefficient, power), log_radius = length_law(contact.profile, contact.shape), math.log(contact.radius)
+
+    def excess(logarithm: float) -> float:
+        # In logarithms: a force out of the range of numbers is too large or too small like others.
+        factor = replace(contact, depth=math.exp(logarithm)).force_factor
+        length = log_radius + power * (logarithm - math.log(coefficient) - log_radius)
+        return math.log(factor) + math.log(contact.moduli.normal) + logarithm + length - math.log(force)
+
+    name, least = max(least_depths(contact).items(), key=lambda item: item[1], default=("", 0.0))
+    if least > 0.0 and excess(math.log(least)) > 0.0:
+        row = PARAMETERS[name]
+        allowed = f"a length of at most {row.upper:g} {row.scale} at this force"
+        raise StudyError([Mistake(name, f"{contact.shape[name]!r} at normal_force {force!r}", allowed)])
+    # Hertz's depth, and from there outwards.
+    hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
+    low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
+    while excess(low) > 0.0:
+        low -= 1.0
+    while excess(high) < 0.0:
+        high += 1.0
+    return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
+
+
+def refuse_beyond(table: TabulatedProfile, depth: float) -> None:
+    """Raise if the contact of a table in lengths is no full disc up to a depth, or larger than the table."""
+    wrong = table.refused_at(depth)
+    if wrong is not None:
+        raise StudyError([Mistake("profile", str(table), wrong)])
+
+
+def _refuse_at_any_depth(contact: Contact) -> None:
+    """Raise if the contact is not compact however small its depth."""
+    limit = too_small(contact.profile, contact.shape_parameters, 0.0)
+    if limit is None:
+        return
+    name, number = limit
+    others = ", ".join(f"{other} {value!r}" for other, value in contact.shape.items() if other != name)
+    found = f"{contact.shape[name]!r}{' at ' * bool(others)}{others}"
+    least = f"at least {length_of(name, number, contact):.4g}"
+    raise StudyError([Mistake(name, found, f"{least}: with less no contact is compact, at whatever depth")])

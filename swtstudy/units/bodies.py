@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, not_negative
-from swtstudy.units.moduli import Moduli
-from swtstudy.units.shear_life import ShearConstants
-from swtstudy.units.sizes import wrong_size
+from swtstudy.units.at_rest import Moduli
+from swtstudy.units.labels import wrong_size
+from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants, not_negative
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
 from swtstudy.vocabulary.quantities import COUNTED
 

@@ -11,21 +11,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, SHAPE_COLUMNS, rounded
-from swtstudy.points.codes import code_of
+from swtstudy.points.canonical import COLUMNS, SHAPE_COLUMNS, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.units.blocks import Block
 from swtstudy.units.contacts_at_rest import ContactsAtRest, contacts_at_rest
 from swtstudy.units.labels import Units
-from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import ends_of_bulk, mean_of_bulk, mean_of_loads
+from swtstudy.units.life import FatigueConstants, ShearConstants
+from swtstudy.units.loads import ends_of_bulk, labels_of, mean_of_bulk, mean_of_loads
 from swtstudy.units.rows import SIMILAR, rows
-from swtstudy.units.shear_life import ShearConstants
-from swtstudy.units.strips import labels_of
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import Request, item_of

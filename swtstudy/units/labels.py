@@ -1,4 +1,4 @@
-"""The units of a study: labels of any consistent set."""
+"""The units of a study: labels of any consistent set, and bounds on the size of numbers with one."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number
 
 #: What has a unit of its own.
-KINDS = ("length", "force", "stress")
+UNIT_KINDS = ("length", "force", "stress")
 
 #: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
 KNOWN: dict[str, dict[str, float]] = {
@@ -50,10 +50,10 @@ class Units:
 def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     """The units that a study says; every mistake is reported."""
     sound = True
-    for name in raw.keys() - {*KINDS}:
-        report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), KINDS))
+    for name in raw.keys() - {*UNIT_KINDS}:
+        report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), UNIT_KINDS))
         sound = False
-    for kind in KINDS:
+    for kind in UNIT_KINDS:
         label = raw.get(kind)
         named = isinstance(label, str) and label.strip() not in ("", "1", "rad")
         if not named or not str(label).isprintable():
@@ -62,13 +62,29 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             sound = False
     if not sound:
         return None
-    labels = {kind: str(raw[kind]).strip() for kind in KINDS}
+    labels = {kind: str(raw[kind]).strip() for kind in UNIT_KINDS}
     if not all(label in KNOWN[kind] for kind, label in labels.items()):
         return Units(**labels)
-    length, force, stress = (KNOWN[kind][labels[kind]] for kind in KINDS)
+    length, force, stress = (KNOWN[kind][labels[kind]] for kind in UNIT_KINDS)
     if math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
         return Units(**labels)
     number = f"{force / length**2 / stress:.3g}"
     found = f"{labels['force']} over {labels['length']}², which is {number} {labels['stress']}"
     report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {labels['stress']}")
     return None
+
+
+#: No unit makes a quantity smaller or larger; the product of three of them, and a square, is still a number.
+SMALLEST, LARGEST = 1e-100, 1e100
+
+
+def wrong_size(
+    name: str, value: object, allowed: str, sign: float = 1.0, zero: bool = False
+) -> list[Mistake]:
+    """The mistake of a value that is no number of this sign, or of no size that can be computed with."""
+    number = sign * plain_number(value)
+    if SMALLEST <= number <= LARGEST or (zero and number == 0.0):
+        return []
+    if number > 0.0:
+        allowed += f", in magnitude from {SMALLEST:g} to {LARGEST:g}"
+    return [Mistake(name, literal(value), allowed)]

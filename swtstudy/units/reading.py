@@ -8,31 +8,25 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from swtstudy.mechanics.load.loop import Loop
-from swtstudy.points.criteria import check_criteria
-from swtstudy.points.loops import check_amplitudes, check_loops
-from swtstudy.points.plane import check_forces
+from swtstudy.mechanics.load.load import Loop
 from swtstudy.points.reading import NOTHING_KNOWN, Known, Range, read_values
+from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
 from swtstudy.points.shapes import check_shapes_given
 from swtstudy.points.values import Value, as_number, read_value, values_taken
-from swtstudy.units.admissible import check_contacts
+from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS
+from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
-from swtstudy.units.labels import KINDS, Units
-from swtstudy.units.life import FatigueConstants
-from swtstudy.units.loads import ANY, mean_of_loads, measured_amplitudes
-from swtstudy.units.moduli import Moduli
+from swtstudy.units.labels import UNIT_KINDS, Units
+from swtstudy.units.life import FatigueConstants, ShearConstants
+from swtstudy.units.loads import ANY, check_lengths, labels_of, mean_of_loads, measured_amplitudes, still_load
 from swtstudy.units.rows import MEAN_LOADS, NAMES_KEY, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
-from swtstudy.units.shear_life import ShearConstants
-from swtstudy.units.strips import check_lengths, labels_of, still_load
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.families import is_plane
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
-from swtstudy.vocabulary.prescribed import PAIRS, replaced_by
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -260,7 +254,7 @@ def read_contact(text: object) -> ContactDetails:
         raise ValueError("nested too deeply") from None
     try:
         given = ContactDetails(
-            Units(**{kind: str(raw["units"][kind]) for kind in KINDS}),
+            Units(**{kind: str(raw["units"][kind]) for kind in UNIT_KINDS}),
             {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()},
             tuple(FatigueConstants(**each) for each in raw["materials"]),
             float(raw["similar"]),

@@ -13,9 +13,8 @@ from swtstudy.points.values import as_number
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
-from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants
-from swtstudy.units.shear_life import ShearConstants
-from swtstudy.vocabulary.criteria import FATEMI_SOCIE, FINDLEY, SWT, WORDS
+from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, WORDS
 from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
 
 if TYPE_CHECKING:

@@ -1,4 +1,8 @@
-"""Base of the definitions with names that users give, such as a loop of loads; the content counts."""
+"""Base of the definitions with names that users give, such as a loop of loads; reading numbers in them.
+
+Of a definition the content counts, not the name. Of numbers, masked values become NaN, and anything that is
+no number is a mistake.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +13,56 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar
 
-from swtstudy.vocabulary.mistakes import STORABLE, Mistake, literal, storable
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.vocabulary.mistakes import (
+    STORABLE,
+    Mistake,
+    StudyError,
+    is_number,
+    literal,
+    plain_number,
+    storable,
+)
 from swtstudy.vocabulary.parameters import PARAMETERS
+
+
+def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
+    """Numbers of any shape as floats.
+
+    Parameters
+    ----------
+    key, allowed
+        Name of the values, and what is allowed for them, for messages.
+    values
+        A number, also a Fraction, or nested sequences or an array of them.
+
+    Returns
+    -------
+    array
+        NaN where a value is masked.
+
+    Raises
+    ------
+    StudyError
+        If there is anything but real numbers, such as text, truth values, complex numbers, times or ragged
+        sequences.
+    """
+    mistake = StudyError([Mistake(key, literal(values), allowed)])
+    try:
+        array: np.ma.MaskedArray = np.ma.asarray(values)
+    except (TypeError, ValueError):
+        raise mistake from None
+    if array.dtype.kind == "O":
+        known = np.ma.filled(array, np.nan)
+        if not all(map(is_number, known.flat)):
+            raise mistake
+        return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
+    if array.dtype.kind not in "iuf":
+        raise mistake
+    return np.asarray(np.ma.filled(array.astype(float), np.nan))
+
 
 #: Bits of a code for the content; above them is the cost, so that the whole is an exact double.
 CONTENT_BITS = 40

@@ -1,4 +1,4 @@
-"""Mistakes in what a user gave, collected so that all of them are reported at once."""
+"""Mistakes in what a user gave, collected so that all of them are reported at once; the rtol allowed."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from decimal import Decimal
 from numbers import Real
 from typing import TypeGuard
 
-from swtstudy.vocabulary.axes import SYMBOLS
 from swtstudy.vocabulary.parameter import spelled
+from swtstudy.vocabulary.parameters import SYMBOLS
 
 
 @dataclass(frozen=True)
@@ -177,3 +177,19 @@ def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]
         return named
     close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
     return close[0] if close else None
+
+
+DEFAULT_RTOL = 1e-4
+#: Closer, rounding would be most of the error.
+SMALLEST_RTOL = 1e-7
+LARGEST_RTOL = 0.1
+#: Archives of earlier versions may have been asked for as much.
+SMALLEST_STORED_RTOL = 1e-8
+
+#: The allowed range in words, for messages.
+ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
+
+
+def is_rtol(raw: object, smallest: float = SMALLEST_RTOL) -> bool:
+    """Return whether a value is allowed as relative accuracy."""
+    return smallest <= plain_number(raw) <= LARGEST_RTOL

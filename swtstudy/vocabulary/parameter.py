@@ -39,7 +39,7 @@ class Parameter:
         CF units: "1", or "rad" for the phase.
     scale
         What it is measured in where it is a length, a force or a stress, a key of
-        `swtstudy.units.scales.SCALES`; else empty.
+        `swtstudy.units.rows.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
     note

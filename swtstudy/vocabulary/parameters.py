@@ -1,14 +1,20 @@
-"""The table of the study's non-dimensional parameters (eq. 20, Table 1 of the paper).
+"""The table of the study's non-dimensional parameters (eq. 20, Table 1), which are prescribed, and axes.
 
-Validation, coordinate attributes, axis labels, the command line's help and the documentation all read
-it; none of them repeats a name, a symbol, a default or a range.
+Validation, coordinate attributes, axis labels, the command line's help and the documentation all read it;
+none of them repeats a name, a symbol, a default or a range. In each direction a displacement or a force is
+prescribed: the names of the parameters say which. An axis, everything that a dimension of results may be, is
+a parameter, or what only some results range over.
 """
 
 from __future__ import annotations
 
-from swtstudy.vocabulary.criteria import NAMES, SWT
-from swtstudy.vocabulary.families import FAMILIES
-from swtstudy.vocabulary.parameter import Parameter
+from collections import ChainMap
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import inf
+
+from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, SWT
+from swtstudy.vocabulary.parameter import Parameter, spelled
 
 #: The load of the paper.
 HARMONIC = "harmonic"
@@ -182,7 +188,7 @@ PARAMETERS: dict[str, Parameter] = {
             "criterion of which s is the largest value",
             SWT,
             kind="name",
-            names=NAMES,
+            names=CRITERIA,
             part="criterion",
             optional=True,
         ),
@@ -215,3 +221,121 @@ PARAMETERS: dict[str, Parameter] = {
 
 #: Names by letter, the first one of those that share it.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
+
+
+#: Parameters of which one of two is given, by the one that takes the other's place.
+PAIRS: dict[str, str] = {
+    name: parameter.instead_of for name, parameter in PARAMETERS.items() if parameter.instead_of
+}
+
+
+def replaced_by(names: Iterable[str]) -> set[str]:
+    """The parameters whose places are taken by some of these."""
+    return {PAIRS[name] for name in names if name in PAIRS}
+
+
+@dataclass(frozen=True)
+class Control:
+    """The quantities prescribed in the two directions, each a displacement or a force.
+
+    A normal force is in units of that at the depth δ0, a tangential one in μ times that.
+
+    Attributes
+    ----------
+    normal_force, tangential_force
+        Whether it is a force.
+    """
+
+    normal_force: bool = False
+    tangential_force: bool = False
+
+    @classmethod
+    def given(cls, names: Iterable[str]) -> Control:
+        """From the names of the parameters that are given."""
+        found = set(names)
+        return cls("normal_force_amplitude" in found, "tangential_force_amplitude" in found)
+
+    @property
+    def mixed(self) -> bool:
+        """True if one direction has a force and the other a displacement."""
+        return self.normal_force != self.tangential_force
+
+    @property
+    def name(self) -> str:
+        """Value of the coordinate ``control``."""
+        return CONTROLS[self]
+
+    def given_for(self, name: str) -> str:
+        """The parameter that is given in the place of one; that one itself where no force is."""
+        forces = {"normal_amplitude": self.normal_force, "tangential_amplitude": self.tangential_force}
+        return next(force for force, other in PAIRS.items() if other == name) if forces.get(name) else name
+
+
+#: What the paper prescribes.
+DISPLACEMENTS = Control()
+
+#: The names of what is prescribed.
+CONTROLS: dict[Control, str] = {
+    DISPLACEMENTS: "displacements",
+    Control(True, True): "forces",
+    Control(True, False): "normal_force+tangential_displacement",
+    Control(False, True): "normal_displacement+tangential_force",
+}
+
+
+#: Into the body from the critical point: straight down, or along the critical plane.
+DIRECTIONS = ("depth", "critical_plane")
+
+#: What quantities beside s range over, while the points do not.
+QUANTITY_AXES: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter(
+            "critical_distance",
+            r"\ell/a_H",
+            "ℓ",
+            "critical distance of the nonlocal values",
+            None,
+            0.0,
+            10.0,
+            open_lower=True,
+            part="quantity",
+            scale="a_H",
+        ),
+        Parameter(
+            "direction",
+            "",
+            "",
+            "direction from the critical point",
+            kind="name",
+            names=DIRECTIONS,
+            part="quantity",
+        ),
+    )
+}
+
+#: What a real contact has besides; in which units the study says, see `swtstudy.units.rows`.
+CONTACT_AXES: dict[str, Parameter] = {
+    p.name: p
+    for p in (
+        Parameter(name, symbol, letter, meaning, upper=inf, open_lower=True, part="contact")
+        for name, symbol, letter, meaning in (
+            ("young_modulus", "E", "E", "Young modulus"),
+            ("radius", "R", "R", "radius of the relative curvature, 1/R = 1/R1 + 1/R2"),
+            ("depth", r"\delta_0", "δ0", "mean indentation depth"),
+            ("normal_force", "F_0", "F0", "normal force at the mean depth"),
+            ("contact_length", "L", "L", "length of a plane contact, across its section"),
+            ("bulk_stress_ratio", r"R_\sigma", "Rσ", "least over largest bulk stress"),
+            ("body", r"\mathrm{body}", "body", "body, 1 or 2"),
+        )
+    )
+}
+
+AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)
+
+#: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
+SYMBOLS: dict[str, tuple[str, str]] = {
+    spelled(symbol): (row.name, row.letter)
+    for row in (*CONTACT_AXES.values(), *reversed(PARAMETERS.values()))
+    for symbol in (row.letter, row.symbol, row.symbol.split("/")[0])
+}

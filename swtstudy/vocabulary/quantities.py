@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from swtstudy.vocabulary.axes import DIRECTIONS
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
@@ -40,15 +40,15 @@ class Quantity:
     function
         Name of the function in `swtstudy.mechanics.stress.work` or `swtstudy.mechanics.body.von_mises`, or of
         the attribute of `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or
-        `swtstudy.mechanics.line.few_cycles.FewCycles`, that has it.
+        `swtstudy.mechanics.line.counted.FewCycles`, that has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     units
         CF units.
     dims
-        Dimensions of its own beside those of the points: of `swtstudy.vocabulary.axes.QUANTITY_AXES`, with
-        `DISTANCE` among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`, if with
-        fatigue constants; none, if by its name.
+        Dimensions of its own beside those of the points: of `swtstudy.vocabulary.parameters.QUANTITY_AXES`,
+        with `DISTANCE` among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`,
+        if with fatigue constants; none, if by its name.
     is_place
         Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
     """

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from swtstudy.vocabulary.axes import AXES
+from swtstudy.vocabulary.parameters import AXES
 
 #: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
 _TOLERANCE = 1e-9

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 import swtstudy
 from swtstudy import Study, open_results, run
-from swtstudy.archive.lock import LockedError
+from swtstudy.archive.paths import LockedError
 from swtstudy.cli import main
 from swtstudy.mechanics.points import Points, Solution
 from swtstudy.vocabulary.files import check_writable, replacing

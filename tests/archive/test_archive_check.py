@@ -8,8 +8,8 @@ import stand_in
 from click.testing import CliRunner
 
 from swtstudy import open_results, run
-from swtstudy.archive.error import ArchiveError
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 from swtstudy.points.records import FAILED, MISSING
 

@@ -17,10 +17,9 @@ from click.testing import CliRunner
 from folders import DATA
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.check_sums import has_its_own, write_check_sums
-from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.merge import merge
-from swtstudy.archive.read import load_file
+from swtstudy.archive.netcdf import has_its_own, load_file, write_check_sums
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 
 NAMED = (

@@ -7,8 +7,8 @@ import xarray as xr
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.merge import ConflictError, GapsError, merge
+from swtstudy.archive.netcdf import save
 from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.archive.write import save
 from swtstudy.points import records
 
 FIGURE = '[figure]\nx = "phase"\nhue = "friction"\n'

@@ -18,12 +18,12 @@ from folders import STUDIES
 
 import swtstudy
 from swtstudy import Study, run
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
 from swtstudy.points.records import MISSING
 from swtstudy.study.schema import study_schema
 from swtstudy.study.template import template, template_with_units
-from swtstudy.vocabulary.families import FAMILIES, is_plane
+from swtstudy.vocabulary.choices import FAMILIES, is_plane
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 STUDY_FILES = sorted(STUDIES.glob("*.toml"))
@@ -90,7 +90,9 @@ def merged(tmp_path_factory):
 )
 def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, options, monkeypatch):
     drawn = []
-    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    monkeypatch.setattr(
+        "swtstudy.figures.style.save_figure", lambda figure, path, style: drawn.append(figure)
+    )
     result = call("plot", merged, *options)
     assert result.exit_code == 0, result.output
     own: dict = {"y": []}
@@ -108,7 +110,9 @@ def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, optio
 
 def test_options_change_the_figure_of_an_archive(finished, monkeypatch):
     drawn = []
-    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path, style: drawn.append(figure))
+    monkeypatch.setattr(
+        "swtstudy.figures.style.save_figure", lambda figure, path, style: drawn.append(figure)
+    )
     assert call("plot", finished / "small.nc", "--y", "critical_x", "--title", "Where").exit_code == 0
     (figure,) = drawn
     dataset = swtstudy.open_results(finished / "small.nc")

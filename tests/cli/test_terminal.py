@@ -13,10 +13,10 @@ from folders import RESULTS
 
 import swtstudy
 from swtstudy.cli import _SECTIONS, main
-from swtstudy.cli.list import cut
-from swtstudy.cli.solve import WHY, aligned
+from swtstudy.cli.points import WHY, aligned
+from swtstudy.cli.studies import cut
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S
-from swtstudy.runner.progress import ProgressBar, line
+from swtstudy.runner.collector import ProgressBar, line
 from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
 from swtstudy.vocabulary.mistakes import StudyError
@@ -45,7 +45,7 @@ def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch
     arguments = ["solve", "--friction", "0.1,0.2", "--rtol", "1e-2"]
     piped = CliRunner().invoke(main, arguments).stdout
     assert piped.splitlines()[0].startswith("friction\ts\t")
-    monkeypatch.setattr(import_module("swtstudy.cli.solve"), "on_terminal", lambda: True)
+    monkeypatch.setattr(import_module("swtstudy.cli.points"), "on_terminal", lambda: True)
     shown = CliRunner().invoke(main, arguments)
     assert "\t" not in shown.stdout
 

@@ -16,10 +16,10 @@ from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
+from swtstudy.units.at_rest import Moduli
+from swtstudy.units.labels import wrong_size
 from swtstudy.units.life import UNCOUNTED
-from swtstudy.units.moduli import Moduli
-from swtstudy.units.scales import SCALES
-from swtstudy.units.sizes import wrong_size
+from swtstudy.units.rows import SCALES
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})

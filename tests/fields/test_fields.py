@@ -13,13 +13,13 @@ from scenes import points as batch
 from scipy.integrate import simpson
 
 import swtstudy
-from swtstudy.fields import swt as swt_module
+from swtstudy.fields import stress
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body import body
 from swtstudy.mechanics.body.body import nodes_at
 from swtstudy.mechanics.body.body_maximum import _cartesian, _folded, _off_ring, _Search, body_maximum
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
@@ -394,7 +394,7 @@ def swt_at(x, y, z, parameters):
 @pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
 def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
     """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
-    monkeypatch.setattr(swt_module, "_STEPS", 10)
+    monkeypatch.setattr(stress, "_STEPS_OF_SWT", 10)
     distance = 0.15
     found = swtstudy.solve(critical_distance=distance, **parameters)
     angle = np.radians(float(found.critical_angle))

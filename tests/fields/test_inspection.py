@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy.fields.cycle_curves import marked_instants
+from swtstudy.fields.cycle_curves import marked_instants, spring_forces
 from swtstudy.fields.one_point import read_scene
-from swtstudy.fields.springs import spring_forces
 from swtstudy.mechanics.body.body import nodes_at
-from swtstudy.paper.reference.textbook import march_springs
+from swtstudy.paper.reference import march_springs
 
 SCENES = {
     "Table 1": {},

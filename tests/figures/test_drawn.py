@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures.draw import draw
+from swtstudy.figures.lines import hue_scale, in_equal_ratios, mark_regimes
 from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
-from swtstudy.figures.regimes import in_equal_ratios, mark_regimes
-from swtstudy.figures.scale import hue_scale
 from swtstudy.figures.style import STYLE
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES

@@ -8,9 +8,8 @@ from made_up import PANELS
 
 from swtstudy import Study, run
 from swtstudy.figures.draw import draw
-from swtstudy.figures.save import save_figure
-from swtstudy.figures.style import STYLE
-from swtstudy.results.quantity import quantity
+from swtstudy.figures.style import STYLE, save_figure
+from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.wording import value_words
 

@@ -10,8 +10,8 @@ import stand_in
 from matplotlib.figure import Figure
 
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
-from swtstudy.figures.bars import draw_sensitivity
 from swtstudy.figures.draw import draw
+from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.results.sensitivity import sensitivity
 
 R = np.linspace(0.0, 3.0, 9).tolist()

@@ -11,10 +11,9 @@ import xarray as xr
 from made_up import made_up
 
 from swtstudy.figures.draw import draw
-from swtstudy.figures.figure import Figure
 from swtstudy.figures.lines import may_jump, place_jumps
+from swtstudy.figures.sheet import Figure, wrap_texts
 from swtstudy.figures.ticks import tick_in_ratios
-from swtstudy.figures.wrap import wrap_texts
 from swtstudy.study.figure import FigureLayout
 
 X = np.linspace(0.0, 2.0 * np.pi, 49)

@@ -12,9 +12,9 @@ from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
 
 from swtstudy.figures.legend import add_legend
-from swtstudy.figures.scale import hue_scale
+from swtstudy.figures.lines import hue_scale
 from swtstudy.figures.style import MARKERS
-from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.choices import FAMILIES
 from swtstudy.vocabulary.wording import place_words
 
 PHASE = np.linspace(0, 2, 5)

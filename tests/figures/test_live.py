@@ -5,7 +5,7 @@ import pytest
 from folders import ROOT, STUDIES
 
 import swtstudy
-from swtstudy.fields.load_and_springs import load_and_springs
+from swtstudy.fields.inspection import load_and_springs
 from swtstudy.figures.live import LiveFigure, phases
 
 NOTEBOOK = STUDIES / "explore_live.ipynb"
@@ -89,7 +89,7 @@ def test_the_curve_has_each_period_of_s_alike():
 
 def test_a_slider_redraws():
     pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live_controls import SLIDERS, Explorer
+    from swtstudy.figures.live import SLIDERS, Explorer
 
     live = Explorer()
     before = live.picture.value
@@ -109,7 +109,7 @@ def test_a_slider_redraws():
 
 def test_forces_without_equilibrium_are_said_and_leave_the_picture():
     pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live_controls import Explorer
+    from swtstudy.figures.live import Explorer
 
     live = Explorer()
     before = live.picture.value
@@ -126,9 +126,8 @@ def test_forces_without_equilibrium_are_said_and_leave_the_picture():
 
 def test_every_slider_is_within_what_is_allowed():
     pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live_controls import SLIDERS
-    from swtstudy.vocabulary.parameters import PARAMETERS
-    from swtstudy.vocabulary.prescribed import PAIRS
+    from swtstudy.figures.live import SLIDERS
+    from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 
     numbers = {n for n, each in PARAMETERS.items() if each.kind == "number" and n not in PAIRS}
     # It has none with the criterion of the sliders.
@@ -177,7 +176,7 @@ def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
     pytest.importorskip("ipywidgets")
     from PIL import Image
 
-    from swtstudy.figures.live_controls import Explorer
+    from swtstudy.figures.live import Explorer
 
     explorer = Explorer()
     explorer.save(tmp_path / "point.svg")
@@ -193,12 +192,12 @@ def test_the_curve_is_fine_once_nothing_moves(monkeypatch):
     pytest.importorskip("ipywidgets")
     import asyncio
 
-    from swtstudy.figures import live_controls
+    from swtstudy.figures import live
 
-    monkeypatch.setattr(live_controls, "_IDLE", 0.01)
+    monkeypatch.setattr(live, "_IDLE", 0.01)
 
     async def moved() -> list[int]:
-        explorer = live_controls.Explorer()
+        explorer = live.Explorer()
         counts = []
         for friction in (0.4, 0.5):
             explorer.controls["friction"].value = friction

@@ -12,7 +12,7 @@ from matplotlib.transforms import Bbox
 import swtstudy
 from swtstudy import Study
 from swtstudy.figures.sheet import Sheet
-from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.choices import FAMILIES
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
@@ -143,7 +143,7 @@ def test_letters_of_print_unless_the_user_wants_others():
 
 
 def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
-    from swtstudy.figures.save import save_figure
+    from swtstudy.figures.style import save_figure
 
     for width, dots in (("column", 8.5 / CM * 300), (None, 4.0 * 150)):
         save_figure(drawn("lines", width), tmp_path / "figure.png")

@@ -7,7 +7,7 @@ from made_up import made_up
 from matplotlib.colors import to_rgba
 
 from swtstudy.points.labelled import ATTRIBUTES
-from swtstudy.results.quantity import quantity
+from swtstudy.results.evaluate import quantity
 
 PHASE = np.linspace(0, np.pi, 13)
 FRICTION = np.array([0.1, 0.2, 0.4])

@@ -12,7 +12,7 @@ def test_nothing_is_left_of_a_figure_whose_drawing_is_ended(tmp_path):
     (tmp_path / "figure.png").write_bytes(b"the last one")
     code = f"""
 import os, signal
-from swtstudy.figures.save import save_figure
+from swtstudy.figures.style import save_figure
 class Ended:
     def savefig(self, *_, **__):
         os.kill(os.getpid(), signal.SIGTERM)

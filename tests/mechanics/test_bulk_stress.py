@@ -20,7 +20,7 @@ from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.reference.textbook import textbook_s
+from swtstudy.paper.reference import textbook_s
 from swtstudy.points.reading import read_grid
 
 Array = NDArray[np.float64]

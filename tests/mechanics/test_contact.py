@@ -9,7 +9,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 from oracles.springs import bimodal, spring_forces
 
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 
 Array = NDArray[np.float64]

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 

@@ -16,8 +16,8 @@ from scenes import points, random_points, take
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
 from swtstudy.archive.describe import describe
-from swtstudy.archive.write import save
-from swtstudy.mechanics.line.few_cycles import FewCycles, few
+from swtstudy.archive.netcdf import save
+from swtstudy.mechanics.line.counted import FewCycles, few
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.solver import scenes, solve_points

@@ -20,10 +20,9 @@ from swtstudy.figures.draw import draw
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_of_history
-from swtstudy.mechanics.planes.crossland import smallest_sphere
-from swtstudy.mechanics.planes.shear import FatemiSocie, Findley
+from swtstudy.mechanics.numerics.arrays import hemisphere
+from swtstudy.mechanics.planes.all_planes import smallest_sphere, swt_of_history
+from swtstudy.mechanics.planes.criterion import FatemiSocie, Findley
 from swtstudy.mechanics.planes.swing import SHEAR_STRESS
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution

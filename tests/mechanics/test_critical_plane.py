@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.planes.swt import SWT
+from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.planes.through_y import PlaneHistory, best_angle, coarse_swt
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine

@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import swtstudy
-from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 

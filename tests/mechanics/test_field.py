@@ -6,8 +6,8 @@ from ContactMechanics.ReferenceSolutions import Hertz
 from oracles.point_loads import sum_of_point_loads
 from oracles.punch import punch_functions
 
-from swtstudy.mechanics.stress.field import SlopeCells, graded_radii, slope_cells, stress_history
-from swtstudy.mechanics.stress.field.punch import PunchFunctions, normal_components, tangential_components
+from swtstudy.mechanics.stress.punch import PunchFunctions, normal_components, tangential_components
+from swtstudy.mechanics.stress.superposition import SlopeCells, graded_radii, slope_cells, stress_history
 
 POISSON = 0.3
 P0 = 2 / np.pi  # of the paraboloid with a = 1, in E* √(δ0/R)

@@ -13,9 +13,9 @@ from oracles import profiles as oracle
 from oracles.force_march import ForceMarch, second_round
 from scipy.special import struve
 
-from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
-from swtstudy.mechanics.control.force import ForceCoordinate, profile_up_to_force, unit_half_load
-from swtstudy.mechanics.line.accuracy import Accuracy
+from swtstudy.mechanics.contact.cycle import out_of_equilibrium
+from swtstudy.mechanics.control.coordinate import ForceCoordinate, profile_up_to_force, unit_half_load
+from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import _seen_from_edge, at_edge, may_be_largest, not_finite
 from swtstudy.mechanics.load.bimodal import BimodalLoad
@@ -28,7 +28,7 @@ from swtstudy.mechanics.stress.work import (
     largest_force_ratio,
     permanent_stick_radius,
 )
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 INDENTERS = {

@@ -15,9 +15,9 @@ from oracles.memory_diagram import MemoryDiagram
 from oracles.springs import bimodal, polygon, spring_forces
 from scipy.integrate import trapezoid
 
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress.line import SurfaceLine
 

@@ -7,8 +7,7 @@ import pytest
 from scenes import points
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.load.symmetry import fold_phase
+from swtstudy.mechanics.load.bimodal import BimodalLoad, fold_phase
 
 FREQUENCIES = [(1, 1), (1, 2), (2, 1), (3, 2), (2, 3), (1, 4), (5, 2), (4, 5)]
 every_frequency = pytest.mark.parametrize(("p", "q"), FREQUENCIES)

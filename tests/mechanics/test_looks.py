@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 from scenes import random_points
 
-from swtstudy.mechanics.events.nodes import _places
-from swtstudy.mechanics.events.stretches import meet
+from swtstudy.mechanics.events.stretches import _places, meet
 from swtstudy.mechanics.line import first_look
+from swtstudy.mechanics.line.climb import of_extremes
 from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
 from swtstudy.mechanics.line.look import Look, _falling
 from swtstudy.mechanics.line.positions import Pieces
-from swtstudy.mechanics.line.samples import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
 

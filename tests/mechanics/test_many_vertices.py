@@ -9,9 +9,9 @@ import pytest
 
 import swtstudy
 from swtstudy import LoadPath
-from swtstudy.mechanics.contact import march
-from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.line import first_look, many_cusps
+from swtstudy.mechanics.contact import cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.line import first_look
 from swtstudy.mechanics.load.polygon import PolygonLoad
 
 FORCES = {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0, "friction": 0.5}
@@ -35,7 +35,7 @@ def test_runs_of_pieces_that_are_joined_hide_no_maximum(noise: float, bulk: bool
         {"bulk_stress_amplitude": 0.1} if bulk else {}
     )
     found = swtstudy.solve(**parameters)
-    with mock.patch.object(many_cusps, "MANY", 10**9):
+    with mock.patch.object(first_look, "MANY", 10**9):
         every = swtstudy.solve(**parameters)
     assert abs(found.s - every.s).item() <= (found.s_error + every.s_error).item()
     assert found.critical_x.item() == pytest.approx(every.critical_x.item(), rel=1e-3)
@@ -65,7 +65,7 @@ def test_strain_cycles_are_counted_where_they_would_be_without_a_choice() -> Non
     )  # fmt: skip
     aluminium = swtstudy.FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
     found = contact.solve(constants=aluminium, rtol=1e-3)
-    with mock.patch.object(many_cusps, "MANY", 10**9):
+    with mock.patch.object(first_look, "MANY", 10**9):
         every = contact.solve(constants=aluminium, rtol=1e-3)
     assert found.counted_number.sum() > 3.0
     np.testing.assert_allclose(found.cycles, every.cycles, rtol=0.01)
@@ -84,11 +84,11 @@ def test_a_stack_has_room_for_as_many_pieces_as_there_are() -> None:
     size = 0.8 * 0.93 ** np.arange(60)
     stroke = np.stack([0.0 * size, size * (-1.0) ** np.arange(60)], axis=1)
     load = PolygonLoad.of([stroke + np.array([1.0, 0.0])])
-    with mock.patch.object(march, "DEPTH", 1000):
+    with mock.patch.object(cycle, "DEPTH", 1000):
         whole = solve_cycle(load).memory
     assert np.isfinite(whole.start).sum(axis=-1).max() > 45
     for depth in (4, 32):
-        with mock.patch.object(march, "DEPTH", depth):
+        with mock.patch.object(cycle, "DEPTH", depth):
             found = solve_cycle(load).memory
         for name, values in vars(found).items():
             np.testing.assert_array_equal(values, getattr(whole, name))

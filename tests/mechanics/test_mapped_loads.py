@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from swtstudy.mechanics.contact.equilibrium import out_of_equilibrium
-from swtstudy.mechanics.control.diagram import diagram, largest_depth
-from swtstudy.mechanics.control.mapped import MappedLoad
+from swtstudy.mechanics.contact.cycle import out_of_equilibrium
+from swtstudy.mechanics.control.diagram import MappedLoad, diagram, largest_depth
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 SHAPES = {
     "paraboloid": {},

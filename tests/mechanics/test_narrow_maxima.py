@@ -15,8 +15,8 @@ from scenes import points
 
 from swtstudy import TabulatedProfile
 from swtstudy.mechanics import solve_points
-from swtstudy.paper.reference.textbook import textbook_s
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.paper.reference import textbook_s
+from swtstudy.vocabulary.parameters import Control
 
 # Profile, then ν, μ, δA/δ0, amplitude, ψ, p, q, the profile's lengths, and s.
 CASES = [

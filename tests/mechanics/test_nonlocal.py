@@ -8,16 +8,13 @@ from scenes import PROFILE_NAMES, points, random_points, take
 from scipy.integrate import simpson
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body import around
-from swtstudy.mechanics.body import nonlocal_swt as means
+from swtstudy.mechanics.body import nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
-from swtstudy.mechanics.body.histories import Histories
-from swtstudy.mechanics.body.quick_planes import CoarsePlanes, rival_planes
-from swtstudy.mechanics.body.spring_cells import SpringCells
-from swtstudy.mechanics.body.time_peaks import Peaks
+from swtstudy.mechanics.body.histories import Histories, SpringCells
+from swtstudy.mechanics.body.quick_planes import CoarsePlanes, Peaks, rival_planes
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mechanics.planes.swt import SWT
+from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.stress.scene import scene_of
 
 
@@ -90,7 +87,7 @@ DISTANCE = 0.15
 def nonlocal_of(batch, distance, rtol=1e-3):
     """s, critical x, and the means of a batch."""
     solution = solve_points(batch, 1e-6)
-    found = means.nonlocal_swt(
+    found = nonlocal_swt.nonlocal_swt(
         scene_of(batch), solution.critical_x, solution.critical_angle, np.atleast_1d(distance), rtol
     )
     return solution, found
@@ -173,8 +170,12 @@ def test_errors_are_within_what_is_claimed(monkeypatch):
     distance = np.array([0.05, 0.12])
     batches = [random_points(9, 1, name, largest_term=1) for name in PROFILE_NAMES]
     quick = [nonlocal_of(batch, distance)[1] for batch in batches]
-    monkeypatch.setattr(around, "SEVERAL", around.SEVERAL._replace(distances=19, inclinations=31, on_line=47))
-    monkeypatch.setattr(around, "FINENESS", around.FINENESS._replace(steps=6, cells=60, settled=1e-5))
+    monkeypatch.setattr(
+        nonlocal_swt, "SEVERAL", nonlocal_swt.SEVERAL._replace(distances=19, inclinations=31, on_line=47)
+    )
+    monkeypatch.setattr(
+        nonlocal_swt, "FINENESS", nonlocal_swt.FINENESS._replace(steps=6, cells=60, settled=1e-5)
+    )
     for batch, found in zip(batches, quick, strict=True):
         _, fine = nonlocal_of(batch, distance)
         for mean in ("volume", "point", "line"):
@@ -319,7 +320,7 @@ def test_rivals_show_which_gaps_between_instants_matter_nearby():
     )
     batch, distance = replace(batch, profile=worn()), 0.059
     x = float(solve_points(batch, 1e-6).critical_x[0])
-    own = around.Around(scene_of(batch), x, np.array([[0.0, 1.0]]), np.array([distance]))
+    own = nonlocal_swt.Around(scene_of(batch), x, np.array([[0.0, 1.0]]), np.array([distance]))
     places = own._of_lines(distance * np.array([0.1, 0.2, 0.3]))
     found, _, _ = own.local.swt(places, np.zeros(3, dtype=bool))
     np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-4)
@@ -355,7 +356,7 @@ def test_what_peaks_may_hide():
 
 def test_kinks_on_lines_are_seen():
     """They make the mean no more wrong than is said, and more places where that is too much."""
-    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), np.array([0.1]))
+    own = nonlocal_swt.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), np.array([0.1]))
     share = nested(len(own.lines)) ** own.layout.line_power
     own.points[..., 0], own.points[..., 1] = 1.0, 0.0
     own.lines[:, 0, 0], own.lines[:, 0, 1] = 1.0 + np.abs(share - 0.3), 0.0
@@ -371,7 +372,7 @@ def test_kinks_on_lines_are_seen():
 def test_what_arcs_add_asks_for_no_places_elsewhere():
     """More distances and inclinations leave it; where these are what is too much, there are more."""
     distance = np.array([0.1, 0.05])
-    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
+    own = nonlocal_swt.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
     share = nested(own.layout.distances)[:, None, None]
     own.grid[..., 0], own.grid[..., 1], own.side[:] = 1.0 + 1e-3 * np.abs(share - 0.3), 0.0, 0.0
     own.side[::2, 0] = 1.0
@@ -384,7 +385,7 @@ def test_what_arcs_add_asks_for_no_places_elsewhere():
 def test_means_over_lines_are_those_of_the_interpolation():
     """Also of one that changes its sign at every place."""
     distance = np.array([0.1, 0.06])
-    own = around.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
+    own = nonlocal_swt.Around(scene_of(SCENES["paraboloid"]), 0.9, np.array([[0.0, 1.0]]), distance)
     count, power = 79, own.layout.line_power
     wave = np.polynomial.Chebyshev([0.0] * (count - 1) + [1.0], domain=[0.0, 1.0])
     node, weight = np.polynomial.legendre.leggauss(400)

@@ -10,23 +10,23 @@ from swtstudy.mechanics.numerics.arrays import (
     RowTable,
     align,
     as_rows,
+    between,
     count_below,
     distinct,
     filled_rows,
     gather,
+    hemisphere,
     packed,
     pick,
 )
-from swtstudy.mechanics.numerics.cosine import between
-from swtstudy.mechanics.numerics.hemisphere import hemisphere
-from swtstudy.mechanics.numerics.peaks import (
+from swtstudy.mechanics.numerics.roots import (
     near_maximum,
     parabola,
     parabola_maximum,
     polynomial_maximum,
+    sign_changes,
     vertex_near,
 )
-from swtstudy.mechanics.numerics.roots import sign_changes
 
 RNG = np.random.default_rng(7)
 

@@ -1,6 +1,6 @@
 """Maxima that a search along the line once overlooked: small motions make narrow rings.
 
-The values are those of `swtstudy.paper.audit.dense`: plain loops over 400 positions of each piece and 64
+The values are those of `swtstudy.paper.audit.point`: plain loops over 400 positions of each piece and 64
 planes; two of the last ones are up to 2e-5 higher, by both ways through the solver, with and without a bulk
 stress.
 """
@@ -16,7 +16,7 @@ from scenes import points
 import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics import solve_points
-from swtstudy.paper.audit.dense import dense_look
+from swtstudy.paper.audit.point import dense_look
 
 CASES = [
     (

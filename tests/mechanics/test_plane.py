@@ -14,7 +14,7 @@ from scipy.interpolate import PPoly
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
 from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
 from swtstudy.mechanics.load.polygon import PolygonLoad
@@ -23,8 +23,8 @@ from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, prescribed_scene, scene_of
-from swtstudy.vocabulary.families import FAMILIES, PLANE
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.choices import FAMILIES, PLANE
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 FORCES = Control(True, True)

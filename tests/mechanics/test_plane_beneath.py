@@ -11,14 +11,13 @@ from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from swtstudy.mechanics.body.body import Body, closer_nodes, nodes_at, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.solver import solve_points
-from swtstudy.mechanics.stress.field import slope_cells, stress_history
-from swtstudy.mechanics.stress.field.kernels import STRIP
-from swtstudy.mechanics.stress.field.strip import normal_components, strip_functions, tangential_components
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mechanics.stress.strip import normal_components, strip_functions, tangential_components
+from swtstudy.mechanics.stress.superposition import STRIP, slope_cells, stress_history
 
 Array = NDArray[np.float64]
 NU = 0.3

@@ -10,13 +10,12 @@ from scenes import PLANE_NAMES, plane_points, random_plane_points
 
 import swtstudy
 from swtstudy.figures.profile import _height
-from swtstudy.mechanics.control.force import unit_half_load
-from swtstudy.mechanics.control.strip import StripDisplacement
+from swtstudy.mechanics.control.coordinate import StripDisplacement, unit_half_load
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress import work
-from swtstudy.mechanics.stress.conjugate import Conjugate
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.mechanics.stress.work import Conjugate
+from swtstudy.vocabulary.choices import FAMILIES
 
 Array = NDArray[np.float64]
 

@@ -8,17 +8,16 @@ from memory import tangential_force
 from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 
-from swtstudy.mechanics.contact.growth_times import GrowthTimes
-from swtstudy.mechanics.contact.march import solve_cycle
-from swtstudy.mechanics.contact.memory import Memory
+from swtstudy.mechanics.contact.cycle import solve_cycle
+from swtstudy.mechanics.contact.memory import GrowthTimes, Memory
 from swtstudy.mechanics.contact.slip_front import slip_states
-from swtstudy.mechanics.line.accuracy import Accuracy
+from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
 from swtstudy.mechanics.stress.scene import prescribed_scene
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 DISPLACEMENTS, FORCES = Control(), Control(True, True)

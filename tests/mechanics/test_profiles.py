@@ -19,10 +19,10 @@ from swtstudy.mechanics.indenter import (
     compact_shapes,
     make_profile,
     too_small,
-    wavy_paraboloid,
+    wavy,
 )
 from swtstudy.mechanics.indenter.struve import struve_expansions, struve_functions, struve_integrals
-from swtstudy.vocabulary.families import AXISYMMETRIC, FAMILIES, PLAIN, PLAIN_STRIP, PLANE, Family
+from swtstudy.vocabulary.choices import AXISYMMETRIC, FAMILIES, PLAIN, PLAIN_STRIP, PLANE, Family
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 Array = NDArray[np.float64]
@@ -361,7 +361,7 @@ def test_a_grid_of_shapes_is_checked_without_solving_each_anew(monkeypatch: pyte
         calls.append(z.size)
         return struve_functions(z)
 
-    monkeypatch.setattr(wavy_paraboloid, "struve_functions", counted)
+    monkeypatch.setattr(wavy, "struve_functions", counted)
     for h in np.linspace(0.01, 1.0, 10).tolist():
         for wavelength in np.linspace(3.0, 6.0, 10).tolist():
             check_shape("wavy_paraboloid", {"waviness_amplitude": h, "wavelength": wavelength}, 1.75)

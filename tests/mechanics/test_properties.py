@@ -13,7 +13,7 @@ from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, take
 from soundness import RTOL, close, sound
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.vocabulary.families import FAMILIES
+from swtstudy.vocabulary.choices import FAMILIES
 
 Array = NDArray[np.float64]
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.points import Solution
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import Rows, Solution
 
 
 @dataclass(frozen=True)

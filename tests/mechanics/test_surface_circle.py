@@ -6,14 +6,14 @@ import pytest
 import swtstudy
 from swtstudy.fields.one_point import read_scene
 from swtstudy.mechanics.body.body import Body, time_nodes
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.line import surface_maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.stress.circle import circle_stress
-from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.contact_states import contact_states
+from swtstudy.mechanics.stress.history import circle_stress
 from swtstudy.mechanics.stress.line import SurfaceLine
 
 

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.hamilton import hamilton
 
-from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import Profile, make_profile
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine

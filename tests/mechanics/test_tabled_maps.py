@@ -7,15 +7,13 @@ import pytest
 from numpy.typing import NDArray
 
 from swtstudy import TabulatedProfile
-from swtstudy.mechanics.control.diagram import diagram
-from swtstudy.mechanics.control.force import ForceCoordinate, unit_half_load
-from swtstudy.mechanics.control.mapped import MappedLoad
-from swtstudy.mechanics.control.normal_map import ByRadius, DepthOfForce, ForceOfDepth
-from swtstudy.mechanics.control.tabled_map import TabledMap
+from swtstudy.mechanics.control.coordinate import ForceCoordinate, unit_half_load
+from swtstudy.mechanics.control.diagram import MappedLoad, diagram
+from swtstudy.mechanics.control.normal_map import ByRadius, DepthOfForce, ForceOfDepth, TabledMap
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.numerics.even_table import EvenTable
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.mechanics.numerics.chebyshev import EvenTable
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from scipy.integrate import cumulative_trapezoid, quad
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.contact.memory import Growths
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
+from swtstudy.mechanics.line.climb import refine
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.line.value import refine
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.line import SurfaceLine

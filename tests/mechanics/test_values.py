@@ -9,7 +9,7 @@ import pytest
 from scenes import PROFILE_NAMES, points, random_points, take
 
 from swtstudy.mechanics import solve_points
-from swtstudy.paper.reference.textbook import textbook_s
+from swtstudy.paper.reference import textbook_s
 
 #: Parameters off Table 1, the known s, and how well it is known, absolutely: to its last digit unless said.
 KNOWN: dict[str, tuple[dict[str, Any], float, float]] = {

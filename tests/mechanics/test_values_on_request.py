@@ -12,9 +12,9 @@ import swtstudy
 from swtstudy.mechanics import quantities
 from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.of_points import load_of
+from swtstudy.mechanics.load.bimodal import load_of
 from swtstudy.mechanics.points import Solution
-from swtstudy.mechanics.stress import conjugate, work
+from swtstudy.mechanics.stress import work
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, QUANTITIES, attributes_of
 
 
@@ -151,7 +151,7 @@ def test_the_work_of_a_long_growth_is_refined_and_its_error_told(monkeypatch: py
 def test_they_do_not_depend_on_what_is_computed_together(monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(43, 30, "rounded_punch")
     whole = computed(points, EVERY)
-    monkeypatch.setattr(conjugate, "LARGEST_SIZE", 5_000)
+    monkeypatch.setattr(work, "LARGEST_SIZE", 5_000)
     for part in (np.arange(7), np.array([29, 3])):
         for name, values in computed(points.take(part), EVERY).items():
             np.testing.assert_allclose(values, whole[name][part], rtol=1e-9, atol=1e-14)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from swtstudy.mechanics.events.zoom import OFFSETS, STEPS, TimeBrackets
-from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values, vertex_near
+from swtstudy.mechanics.numerics.roots import parabola, polynomial_maximum, powers_from_values, vertex_near
 
 
 def test_vertex_of_a_parabola_is_exact() -> None:

@@ -16,13 +16,12 @@ from test_values import ALIGNED
 import swtstudy
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.numerics.hemisphere import hemisphere
+from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
-from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.planes.swt import Swt
+from swtstudy.mechanics.planes.criterion import Criterion, Swt
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.reference.textbook import textbook_s
+from swtstudy.paper.reference import textbook_s
 
 Array = NDArray[np.float64]
 SEVERAL = np.array([0.1, 0.3, 0.5, 0.7, 0.85])

@@ -12,14 +12,14 @@ from numpy.testing import assert_allclose
 from scenes import points
 
 import swtstudy
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.line.candidates import candidates
+from swtstudy.mechanics.line.climb import refine
 from swtstudy.mechanics.line.look import Look, Resolution
-from swtstudy.mechanics.line.value import refine
+from swtstudy.mechanics.line.maximum import candidates
 from swtstudy.mechanics.planes.through_y import coarse_swt
+from swtstudy.mechanics.quantities import worst_means
 from swtstudy.mechanics.solver import scenes, solve_points
-from swtstudy.mechanics.worst_means import worst_means
 from swtstudy.runner.work import assess
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.stress.field.punch import PunchFunctions
+from swtstudy.mechanics.stress.punch import PunchFunctions
 
 Array = NDArray[np.float64]
 

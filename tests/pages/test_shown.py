@@ -18,7 +18,7 @@ from folders import RESULTS, ROOT
 
 import swtstudy
 from swtstudy import Study, open_results
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.work import assess
 
@@ -215,7 +215,9 @@ def test_every_version_of_python_that_is_claimed_is_tested():
 def test_blocks_that_show_files_show_files_that_are_there():
     for page in shown.PAGES:
         text = page.read_text(encoding="utf-8")
-        for file in re.findall(r"^```\{(?:literal)?include\} (?!(?:../)?generated/)(\S+)", text, re.MULTILINE):
+        for file in re.findall(
+            r"^```\{(?:literal)?include\} (?!(?:../)?generated/)(\S+)", text, re.MULTILINE
+        ):
             assert (page.parent / file).is_file(), f"{page}: {file}"
 
 

@@ -6,15 +6,14 @@ from click.testing import CliRunner
 from folders import STUDIES
 from made_up import made_up_audit, made_up_point
 
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
 from swtstudy.paper.audit.audit import audit_study
 from swtstudy.paper.audit.point import VERDICTS
-from swtstudy.paper.audit.report import report
-from swtstudy.paper.audit.table import audit_dataset, audited_points, canonical_rows, open_audit
+from swtstudy.paper.audit.report import audit_dataset, audited_points, canonical_rows, open_audit, report
 from swtstudy.points.canonical import ROW
 from swtstudy.study.definition import Study
-from swtstudy.study.sampling.drawn import drawn_rows
+from swtstudy.study.sample import drawn_rows
 
 PARAMETER_BOX = STUDIES / "audit" / "parameter_box.toml"
 STUDY = """

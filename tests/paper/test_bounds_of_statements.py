@@ -7,17 +7,8 @@ import pytest
 import xarray as xr
 from made_up import PHASES, made_up, made_up_audit
 
-from swtstudy.paper.statements import (
-    critical_point,
-    figure3,
-    figure4,
-    figure5,
-    figure6,
-    figure7,
-    figure8,
-    parameters,
-)
-from swtstudy.paper.statements.oscillations import Oscillation, as_a_rule, larger_swings, longer_periods
+from swtstudy.paper.statements import critical_point, face, parameters, phase, waviness
+from swtstudy.paper.statements.waviness import Oscillation, as_a_rule, larger_swings, longer_periods
 
 CLOSE = 1e-3
 
@@ -34,11 +25,11 @@ def ratio_over(dim, ratios, **others):
 
 @pytest.mark.parametrize("apart", [-CLOSE, CLOSE])
 def test_how_much_the_phase_matters(apart):
-    assert figure3.small_amplitude_is_flat(ratio_over("phase", {0.1: 1.1 + apart, 0.5: 9.0})).holds == (
+    assert phase.small_amplitude_is_flat(ratio_over("phase", {0.1: 1.1 + apart, 0.5: 9.0})).holds == (
         apart < 0
     )
     for bound, sense in ((1.5, 1), (2.0, -1)):
-        finding = figure3.almost_a_factor_of_two(ratio_over("phase", {8 / 9: bound + apart}))
+        finding = phase.almost_a_factor_of_two(ratio_over("phase", {8 / 9: bound + apart}))
         assert finding.holds == (sense * apart > 0)
 
 
@@ -54,7 +45,7 @@ def test_markedly_is_ten_percent_either_way(apart, low, high):
         normal_amplitude=[0.0],
         tangential_amplitude=[0.8, 0.9],
     )
-    finding = figure3.oscillation_raises_and_lowers(both, both, without)
+    finding = phase.oscillation_raises_and_lowers(both, both, without)
     assert finding.holds == (apart > 0)
     assert finding.measured.startswith("s = 1.0000 without; with: ")
     assert f"{moved[1] - 1:+.0%} to {moved[0] - 1:+.0%} at one frequency" in finding.measured
@@ -67,19 +58,19 @@ def test_markedly_is_ten_percent_either_way(apart, low, high):
         waviness_amplitude=[0.01, 0.02],
     )
     wavy["s"] = wavy.s.copy(data=np.array([moved, (0.5, 1.5)]))
-    assert figure7.waviness_raises_and_lowers(smooth, wavy).holds == (apart > 0)
+    assert waviness.waviness_raises_and_lowers(smooth, wavy).holds == (apart > 0)
 
 
 @pytest.mark.parametrize("apart", [-CLOSE, CLOSE])
 def test_waviness_matters_from_twenty_percent_on_every_curve(apart):
     results = ratio_over("waviness_amplitude", {0.25: 1.2 + apart, 0.75: 3.0}, wavelength=[5.0, 6.0])
-    assert figure7.waviness_matters(results).holds == (apart > 0)
+    assert waviness.waviness_matters(results).holds == (apart > 0)
 
 
 @pytest.mark.parametrize(("larger", "holds"), [(1.249, True), (1.251, False), (0.751, True), (0.749, False)])
 def test_effects_are_alike_up_to_a_quarter(larger, holds):
     ratios = {0.25: math.exp(0.4), 0.75: math.exp(0.4 * larger)}
-    finding = figure7.effects_are_alike(ratio_over("waviness_amplitude", ratios, wavelength=[5.0, 6.0]))
+    finding = waviness.effects_are_alike(ratio_over("waviness_amplitude", ratios, wavelength=[5.0, 6.0]))
     assert finding.holds == holds
     assert (
         f"0.40 at the smaller, {0.4 * larger:.2f} at the larger δA/δ0 ({larger - 1:+.0%};" in finding.measured
@@ -97,7 +88,7 @@ def test_curves_are_alike_up_to_half_of_the_effect(shift, holds):
     )
     curves = [1 + 0.1 * np.cos(2 * np.pi * x + angle) for angle in (0.0, shift)]
     results["s"] = results.s.copy(data=np.array([curves[0], 3.0 * curves[1]]))
-    assert figure7.curves_are_alike(results).holds == holds
+    assert waviness.curves_are_alike(results).holds == holds
 
 
 @pytest.mark.parametrize("apart", [-CLOSE, CLOSE])
@@ -128,8 +119,8 @@ def test_coupling_as_a_share_of_the_variance(bound, test, apart):
         phase=[-1.0, 1.0],
     )
     coupled = {
-        "rounded_punch": figure5.rounded_punch_uncoupled,
-        "truncated_paraboloid": figure5.truncated_paraboloid_weakly_coupled,
+        "rounded_punch": face.rounded_punch_uncoupled,
+        "truncated_paraboloid": face.truncated_paraboloid_weakly_coupled,
     }[test](results)
     assert coupled.holds == (apart < 0)
     assert coupled.measured.startswith(f"{share:.1%} of the variance")
@@ -145,7 +136,7 @@ def test_curves_that_cannot_be_told_apart(apart, holds):
         frequency_ratio=[1.0, 2.0],
         flat_radius=[0.0, 0.25, 0.5],
     )
-    finding = figure6.curves_are_alike(results)
+    finding = face.curves_are_alike(results)
     assert finding.holds == holds
     assert finding.measured.endswith("all: 2%")
 
@@ -216,7 +207,7 @@ def test_on_the_bound_itself_a_statement_holds():
     results = of_points(20, critical_angle=(1, 90.0))
     assert critical_point.normal_along_x(results).holds
     exact = ratio_over("phase", {0.1: 1.1, 0.5: 9.0})
-    assert figure3.small_amplitude_is_flat(exact.assign(s=exact.s.round(3) * 10)).holds
+    assert phase.small_amplitude_is_flat(exact.assign(s=exact.s.round(3) * 10)).holds
 
 
 def test_periods_and_swings_are_those_of_the_turning_points():
@@ -245,7 +236,7 @@ def test_phases_that_fall_where_they_should_rise_are_counted():
         phase=PHASES[:4],
     )
     results.s[0, 2, 1] = 1.9
-    finding = figure5.truncated_paraboloid_rises(results)
+    finding = face.truncated_paraboloid_rises(results)
     assert not finding.holds
     degrees = math.degrees(PHASES[1])
     assert finding.measured == (
@@ -263,11 +254,11 @@ def test_how_curves_that_fall_are_described():
         phase=[0.0, 1.0],
         frequency_ratio=[0.5, 1.0],
     )
-    finding = figure6.all_curves_fall(results)
+    finding = face.all_curves_fall(results)
     assert finding.holds
     assert finding.measured == "s rises nowhere; at b/a_H = 1 it is 0.50 to 0.60 of s at 0"
     results.s[1, 0, 0] = 1.0
-    finding = figure6.all_curves_fall(results)
+    finding = face.all_curves_fall(results)
     assert not finding.holds
     assert finding.measured.startswith("s rises by up to 5.0e-01 from one b to the next;")
 
@@ -283,12 +274,12 @@ def test_how_the_phases_of_figure_4_and_8_are_described():
     )
     results.s[0, :, 1] = [1.9, 0.5, 1.0]
     results.s[1, :, 1] = [9.0, 1.0, 1.0]
-    finding = figure4.half_differs_most(results)
+    finding = phase.half_differs_most(results)
     assert finding.holds
     assert finding.measured == "s(π)/s(0) at ω2/ω1 = 1/4: 1.90, 1/2: 0.50, 1: 1.00"
     results.s[0, 0, 1] = 2.1
-    assert not figure4.half_differs_most(results).holds
-    finding = figure4.amplitude_amplifies(results)
+    assert not phase.half_differs_most(results).holds
+    finding = phase.amplitude_amplifies(results)
     assert finding.measured == (
         "max/min over ψ; δA/δ0 = 0.75: ω2/ω1 = 1/4: 2.10, 1/2: 2.00, 1: 1.00; "
         "δA/δ0 = 0.25: ω2/ω1 = 1/4: 9.00, 1/2: 1.00, 1: 1.00"
@@ -301,14 +292,14 @@ def test_how_the_phases_of_figure_4_and_8_are_described():
     )
     wavy.s[0, 1] = [math.e, 1.0]
     wavy.s[1, 1] = [math.exp(-1.1), 1.0]
-    finding = figure8.half_differs_most(wavy)
+    finding = waviness.half_differs_most(wavy)
     assert finding.holds
     assert finding.measured == "mean over h of |ln s(π)/s(0)| at ω2/ω1 = 1/4: 0.50, 1/2: 0.55, 1: 0.00"
 
 
 def test_how_waviness_is_described():
     results = ratio_over("waviness_amplitude", {0.25: 1.5, 0.75: 3.0}, wavelength=[5.0, math.sqrt(20)])
-    finding = figure7.waviness_matters(results)
+    finding = waviness.waviness_matters(results)
     assert finding.measured == (
         "max/min over h/δ0: λ/√(hR) = 5: 1.50/3.00, √20: 1.50/3.00 (δA/δ0 = 0.25/0.75)"
     )

@@ -9,10 +9,17 @@ from click.testing import CliRunner
 from made_up import made_up_audit
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
-from swtstudy.paper.statements.check import STATEMENTS, STUDIES, about_archive, check
-from swtstudy.paper.statements.report import markdown, summary, terminal_table
+from swtstudy.paper.statements.check import (
+    STATEMENTS,
+    STUDIES,
+    about_archive,
+    check,
+    markdown,
+    summary,
+    terminal_table,
+)
 
 AUDIT = "audit_parameter_box"
 

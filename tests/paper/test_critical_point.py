@@ -8,7 +8,7 @@ import xarray as xr
 from made_up import made_up, made_up_audit
 
 from swtstudy.paper.statements import critical_point
-from swtstudy.paper.statements.stick_zone import stick_radius
+from swtstudy.paper.statements.critical_point import stick_radius
 from swtstudy.points.labelled import ATTRIBUTES
 
 

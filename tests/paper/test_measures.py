@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 from made_up import PHASES, made_up
 
-from swtstudy.paper.statements.measures import coupling, largest_fall, largest_rise, period, turning_points
-from swtstudy.paper.statements.select import NotInArchiveError, even
+from swtstudy.paper.statements.statement import (
+    NotInArchiveError,
+    coupling,
+    even,
+    largest_fall,
+    largest_rise,
+    period,
+    turning_points,
+)
 
 
 def test_measures():

@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from made_up import PHASES, made_up
 
-from swtstudy.paper.statements import figure3, figure4, figure5, figure6, figure7, figure8, parameters
-from swtstudy.paper.statements.select import NotInArchiveError, at
+from swtstudy.paper.statements import face, parameters, phase, waviness
+from swtstudy.paper.statements.statement import NotInArchiveError, at
 
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
 H = np.geomspace(0.002, 0.05, 201)
@@ -25,17 +25,17 @@ def of_amplitude(depth: float) -> xr.Dataset:
 
 @pytest.mark.parametrize(("depth", "holds"), [(0.35, True), (0.2, False), (0.5, False)])
 def test_almost_a_factor_of_two(depth, holds):
-    finding = figure3.almost_a_factor_of_two(of_amplitude(depth))
+    finding = phase.almost_a_factor_of_two(of_amplitude(depth))
     assert finding.holds == holds
     reached = (1 + depth * (8 / 9) ** 2) / (1 - depth * (8 / 9) ** 2)
     assert finding.measured.endswith(f"{reached:.2f}")
 
 
 def test_the_phase_matters_little_at_small_amplitudes():
-    assert figure3.small_amplitude_is_flat(of_amplitude(0.3)).holds
-    assert not figure3.small_amplitude_is_flat(of_amplitude(0.9).isel(normal_amplitude=[1, 2])).holds
-    assert figure3.phase_matters_more_with_amplitude(of_amplitude(0.3)).holds
-    assert not figure3.phase_matters_more_with_amplitude(of_amplitude(0.0)).holds
+    assert phase.small_amplitude_is_flat(of_amplitude(0.3)).holds
+    assert not phase.small_amplitude_is_flat(of_amplitude(0.9).isel(normal_amplitude=[1, 2])).holds
+    assert phase.phase_matters_more_with_amplitude(of_amplitude(0.3)).holds
+    assert not phase.phase_matters_more_with_amplitude(of_amplitude(0.0)).holds
 
 
 @pytest.mark.parametrize(("low", "high", "holds"), [(0.8, 1.3, True), (0.95, 1.3, False), (0.8, 1.05, False)])
@@ -47,7 +47,7 @@ def test_a_normal_oscillation_raises_and_lowers(low, high, holds):
         normal_amplitude=[0.0],
         tangential_amplitude=[0.8, 0.9],
     )
-    assert figure3.oscillation_raises_and_lowers(both, both, without).holds == holds
+    assert phase.oscillation_raises_and_lowers(both, both, without).holds == holds
 
 
 def of_ratio(depths: dict[float, float], orders: dict[float, int]) -> xr.Dataset:
@@ -66,38 +66,38 @@ ORDERS = {0.25: 1, 0.5: 1, 1.0: 2, 1.5: 3, 2.0: 4}
 
 def test_prominent_ratios():
     deep_one = of_ratio({0.25: 0.3, 0.5: 0.5, 1.0: 0.4, 1.5: 0.3, 2.0: 0.1}, ORDERS)
-    assert not figure4.prominent_among_all(deep_one).holds
-    assert figure4.prominent_among_different(deep_one).holds
+    assert not phase.prominent_among_all(deep_one).holds
+    assert phase.prominent_among_different(deep_one).holds
     deep_two = of_ratio({0.25: 0.3, 0.5: 0.5, 1.0: 0.1, 1.5: 0.3, 2.0: 0.4}, ORDERS)
-    assert not figure4.prominent_among_different(deep_two).holds
+    assert not phase.prominent_among_different(deep_two).holds
     others = of_ratio({2 / 3: 0.1, 0.75: 0.2}, {2 / 3: 4, 0.75: 3})
-    assert figure4.others_matter_little(deep_one, others).holds
+    assert phase.others_matter_little(deep_one, others).holds
     others = of_ratio({2 / 3: 0.1, 0.75: 0.35}, {2 / 3: 4, 0.75: 3})
-    assert not figure4.others_matter_little(deep_one, others).holds
+    assert not phase.others_matter_little(deep_one, others).holds
 
 
 def test_periods():
     depths = dict.fromkeys(RATIOS, 0.3)
     shrinking = of_ratio(depths, ORDERS)
-    finding = figure4.period_shrinks(shrinking)
+    finding = phase.period_shrinks(shrinking)
     assert finding.holds
     assert finding.measured.endswith("1/4: 2π, 1/2: 2π, 1: π, 3/2: 2π/3, 2: π/2")
-    assert not figure4.period_shrinks(of_ratio(depths, {**ORDERS, 2.0: 2})).holds
+    assert not phase.period_shrinks(of_ratio(depths, {**ORDERS, 2.0: 2})).holds
     others = of_ratio({2 / 3: 0.1}, {2 / 3: 4})
-    assert not figure4.period_shrinks_everywhere(shrinking, others).holds
+    assert not phase.period_shrinks_everywhere(shrinking, others).holds
 
 
 def test_a_larger_normal_oscillation_amplifies():
     results = of_ratio(dict.fromkeys(RATIOS, 0.3), ORDERS)
-    assert figure4.amplitude_amplifies(results).holds
-    assert figure4.amplitude_amplifies(results.isel(normal_amplitude=[1, 0])).holds
+    assert phase.amplitude_amplifies(results).holds
+    assert phase.amplitude_amplifies(results.isel(normal_amplitude=[1, 0])).holds
     swapped = results.assign_coords(normal_amplitude=[0.75, 0.25])
-    assert not figure4.amplitude_amplifies(swapped).holds
+    assert not phase.amplitude_amplifies(swapped).holds
 
 
 def test_the_phases_differ_most_at_one_half():
-    assert figure4.half_differs_most(of_ratio({0.25: 0.2, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
-    assert not figure4.half_differs_most(of_ratio({0.25: 0.6, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
+    assert phase.half_differs_most(of_ratio({0.25: 0.2, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
+    assert not phase.half_differs_most(of_ratio({0.25: 0.6, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
 
 
 def of_face(rounded: float, truncated: float, coupled: float = 0.0) -> xr.Dataset:
@@ -111,19 +111,19 @@ def of_face(rounded: float, truncated: float, coupled: float = 0.0) -> xr.Datase
 
 def test_the_face_of_the_punch():
     good, bad = of_face(-0.3, 0.3), of_face(0.01, -0.01)
-    for statement in figure5.STATEMENTS:
+    for statement in face.OF_FACE:
         assert statement.test(good).holds, statement.sentence
-    for statement in figure5.STATEMENTS[:2]:
+    for statement in face.OF_FACE[:2]:
         assert not statement.test(bad).holds, statement.sentence
-    for statement in figure5.STATEMENTS[2:]:
+    for statement in face.OF_FACE[2:]:
         assert not statement.test(of_face(-0.3, 0.3, coupled=0.5)).holds, statement.sentence
 
 
 def test_a_fall_within_the_error_is_none():
     results = of_face(-0.3, -1e-9)
-    assert figure5.truncated_paraboloid_rises(results).holds
+    assert face.truncated_paraboloid_rises(results).holds
     results["s_error"] = 0 * results.s_error
-    finding = figure5.truncated_paraboloid_rises(results)
+    finding = face.truncated_paraboloid_rises(results)
     assert not finding.holds
     assert "49 of 49 phases" in finding.measured
 
@@ -138,11 +138,11 @@ def test_normalised_curves_are_alike(coupled, holds):
         frequency_ratio=RATIOS,
         flat_radius=np.linspace(0, 2, 21),
     )
-    assert figure6.curves_are_alike(results).holds == holds
-    assert figure6.all_curves_fall(results).holds
-    assert figure6.loads_do_not_couple(results).holds
+    assert face.curves_are_alike(results).holds == holds
+    assert face.all_curves_fall(results).holds
+    assert face.loads_do_not_couple(results).holds
     rising = results.assign_coords(flat_radius=2 - results.flat_radius)
-    assert not figure6.all_curves_fall(rising).holds
+    assert not face.all_curves_fall(rising).holds
 
 
 def wave(h: xr.DataArray, power: float, shift: float = 0.0) -> xr.DataArray:
@@ -162,18 +162,18 @@ def of_waviness(power: float, shift: float) -> xr.Dataset:
 
 def test_waviness():
     good = of_waviness(0.5, 0.0)
-    for test in (figure7.waviness_matters, figure7.effects_are_alike, figure7.curves_are_alike):
+    for test in (waviness.waviness_matters, waviness.effects_are_alike, waviness.curves_are_alike):
         assert test(good).holds
-    assert figure7.oscillations_shrink(good).holds
-    assert not figure7.oscillations_shrink(of_waviness(-0.5, 0.0)).holds
-    assert not figure7.curves_are_alike(of_waviness(0.5, 4.0)).holds
+    assert waviness.oscillations_shrink(good).holds
+    assert not waviness.oscillations_shrink(of_waviness(-0.5, 0.0)).holds
+    assert not waviness.curves_are_alike(of_waviness(0.5, 4.0)).holds
     flat = made_up(
         lambda normal_amplitude, wavelength, waviness_amplitude: 0.15 + waviness_amplitude * normal_amplitude,
         normal_amplitude=[0.25, 0.75],
         wavelength=[4.5, 5.5],
         waviness_amplitude=H,
     )
-    for test in (figure7.waviness_matters, figure7.effects_are_alike, figure7.oscillations_shrink):
+    for test in (waviness.waviness_matters, waviness.effects_are_alike, waviness.oscillations_shrink):
         assert not test(flat).holds
 
 
@@ -182,7 +182,7 @@ def test_waviness_raises_and_lowers(smooth, holds):
     paraboloid = made_up(
         lambda normal_amplitude, phase: smooth + 0 * phase, normal_amplitude=[0.25, 0.75], phase=[0.0]
     )
-    assert figure7.waviness_raises_and_lowers(paraboloid, of_waviness(0.5, 0.0)).holds == holds
+    assert waviness.waviness_raises_and_lowers(paraboloid, of_waviness(0.5, 0.0)).holds == holds
 
 
 def test_waviness_and_frequency_ratio():
@@ -194,7 +194,7 @@ def test_waviness_and_frequency_ratio():
 
     axes = {"phase": [0.0, math.pi], "frequency_ratio": RATIOS, "waviness_amplitude": H}
     good = made_up(s, **axes)
-    for statement in figure8.STATEMENTS:
+    for statement in waviness.OF_WAVINESS_AND_FREQUENCY:
         assert statement.test(good).holds, statement.sentence
     coupled = made_up(
         lambda phase, frequency_ratio, waviness_amplitude: wave(
@@ -202,7 +202,7 @@ def test_waviness_and_frequency_ratio():
         ),
         **axes,
     )
-    for statement in figure8.STATEMENTS:
+    for statement in waviness.OF_WAVINESS_AND_FREQUENCY:
         assert not statement.test(coupled).holds, statement.sentence
 
 
@@ -224,7 +224,7 @@ def test_what_an_archive_lacks_is_named():
     with pytest.raises(NotInArchiveError, match="no normal_amplitude = 8/9"):
         at(of_amplitude(0.3).isel(normal_amplitude=[0, 1]), normal_amplitude=8 / 9)
     with pytest.raises(NotInArchiveError, match="no axis phase"):
-        figure3.small_amplitude_is_flat(of_amplitude(0.3).isel(phase=0))
+        phase.small_amplitude_is_flat(of_amplitude(0.3).isel(phase=0))
 
 
 def test_values_in_an_archive_are_found_as_in_a_slice():

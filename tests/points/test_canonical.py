@@ -8,26 +8,25 @@ from numpy.lib.recfunctions import unstructured_to_structured
 from oracles.profiles import INDENTERS
 
 from swtstudy.mechanics.points import Points
-from swtstudy.points.blocks import block_ends
 from swtstudy.points.canonical import (
     COLUMNS,
     LOAD_COLUMNS,
+    NAMES,
     NUMBERS,
     RATIO_COLUMNS,
     ROW,
     SHARED_COLUMNS,
+    code_of,
     describe_point,
     group_rows,
     points_from,
+    value_of,
 )
-from swtstudy.points.codes import NAMES, code_of, value_of
-from swtstudy.points.cost import weights
 from swtstudy.points.reading import read_grid
-from swtstudy.points.unique import loads, unique_points
-from swtstudy.runner.cutting import chunks
-from swtstudy.vocabulary.families import FAMILIES, Family
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.points.unique import block_ends, loads, unique_points, weights
+from swtstudy.runner.chunk import chunks
+from swtstudy.vocabulary.choices import FAMILIES, Family
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 
 
 def grid_of(fixed=None, **axes):
@@ -197,7 +196,7 @@ def test_chunks_cover_the_wanted_points_once_in_whole_blocks(size, bits):
 
 
 def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monkeypatch):
-    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 256)
+    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 256)
     phases = [i / 10 for i in range(5)]
     axes = {"phase": phases, "friction": [i / 25 for i in range(1, 26)], "frequency_ratio": [1, "1/4"]}
     table = unique_points(grid_of(**axes)).table
@@ -210,7 +209,7 @@ def test_blocks_have_one_profile_and_frequency_ratio_and_end_between_loads(monke
 
 def test_blocks_of_long_cycles_are_cut_first_and_of_these_the_largest(monkeypatch):
     # 1/4, then 2, the first block of which lacks ten points, then 1: the table has 1, 1/4, 2.
-    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 256)
+    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 256)
     points = unique_points(grid_of(friction=[i / 200 for i in range(1, 101)], frequency_ratio=[1, "1/4", 2]))
     wanted = np.ones(len(points.table), dtype=bool)
     wanted[np.flatnonzero(weights(points.table) == 3)[:10]] = False
@@ -219,7 +218,7 @@ def test_blocks_of_long_cycles_are_cut_first_and_of_these_the_largest(monkeypatc
 
 
 def test_a_load_that_is_larger_than_a_block_is_cut(monkeypatch):
-    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 512)
     table = unique_points(grid_of(friction=[i / 100 for i in range(1, 601)])).table
     assert np.diff(block_ends(table), prepend=0).tolist() == [150, 150, 150, 150]
 

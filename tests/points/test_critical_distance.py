@@ -15,17 +15,16 @@ from real import ALLOY
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.error import ArchiveError
 from swtstudy.archive.merge import merge
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
-from swtstudy.mechanics.body.around import Estimate
-from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, NonlocalSwt
+from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, Estimate, NonlocalSwt
 from swtstudy.points.unique import unique_points
 from swtstudy.runner import chunk
-from swtstudy.runner.cutting import chunks
-from swtstudy.runner.estimate import estimate
+from swtstudy.runner.chunk import chunks
+from swtstudy.runner.work import estimate
 from swtstudy.units.variables import variables
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swtstudy.points.expression import evaluate
+from swtstudy.points.values import evaluate
 
 
 @pytest.mark.parametrize(

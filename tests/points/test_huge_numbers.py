@@ -13,8 +13,8 @@ import stand_in
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
-from swtstudy.archive.error import ArchiveError
-from swtstudy.points.nearest import index_of
+from swtstudy.archive.paths import ArchiveError
+from swtstudy.points.values import index_of
 
 HUGE = 10**400
 R = np.linspace(0.0, 3.0, 9)

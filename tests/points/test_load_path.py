@@ -16,7 +16,7 @@ from swtstudy.archive.merge import merge
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
 from swtstudy.points.reading import read_grid
 from swtstudy.points.unique import unique_points
-from swtstudy.vocabulary.prescribed import CONTROLS, Control
+from swtstudy.vocabulary.parameters import CONTROLS, Control
 
 PLAIN = ("normal_amplitude", "tangential_amplitude")
 FORCED = ("normal_force_amplitude", "tangential_force_amplitude")
@@ -363,8 +363,8 @@ def test_too_many_vertices_are_refused_but_not_those_that_do_not_matter() -> Non
 
 @pytest.mark.parametrize("definitions", ["[3]", '[{"parameter": "load", "name": "mine"}]', "{"])
 def test_a_mangled_definition_is_refused(tmp_path: Path, definitions: str) -> None:
-    from swtstudy.archive.error import ArchiveError
-    from swtstudy.archive.write import save
+    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.paths import ArchiveError
 
     path = tmp_path / "loops.nc"
     run(Study.from_text(STUDY + f"vertices = {SQUARE}"), path, workers=1)

@@ -23,14 +23,13 @@ from folders import RESULTS
 
 import swtstudy
 from swtstudy.cli import main
-from swtstudy.figures.save import picture
+from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
-from swtstudy.reports.parts import section
-from swtstudy.reports.pictures import embedded
+from swtstudy.reports.parts import embedded, section
 from swtstudy.reports.sections import tiles
 from swtstudy.reports.site import write_reports
-from swtstudy.reports.symbols import symbol_html
+from swtstudy.reports.values import symbol_html
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
@@ -221,7 +220,7 @@ def test_every_symbol_is_html(row: object) -> None:
 
 @pytest.mark.slow
 def test_a_large_table_is_left_out(small: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("swtstudy.reports.data.LARGEST_TABLE", 100)
+    monkeypatch.setattr("swtstudy.reports.values.LARGEST_TABLE", 100)
     text = page(small, "small")
     assert 'id="table"' not in text
     assert "too many for a page" in checked(text).text

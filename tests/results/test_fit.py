@@ -11,7 +11,7 @@ from real import ALLOY, ALUMINIUM
 import swtstudy
 from swtstudy import Study, StudyError, physical
 from swtstudy.cli import main
-from swtstudy.figures.fitted import draw_fit, fit_lines
+from swtstudy.figures.evaluated import draw_fit, fit_lines
 from swtstudy.results import fitting
 
 STUDY = f"""

@@ -7,9 +7,8 @@ import stand_in
 import swtstudy
 from swtstudy import StudyError, optimise
 from swtstudy.points.values import NUMERIC
-from swtstudy.results.optimum.least import least
-from swtstudy.results.optimum.objective import Objective
-from swtstudy.results.optimum.planes import planes_from, probes
+from swtstudy.results.least import least, planes_from, probes
+from swtstudy.results.objective import Objective
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}

@@ -9,11 +9,9 @@ from xarray.plot.utils import label_from_attrs
 
 import swtstudy
 from swtstudy.points.labelled import ATTRIBUTES
-from swtstudy.results.select import slice_at
-from swtstudy.results.table import to_table
+from swtstudy.results.evaluate import slice_at, to_table
 from swtstudy.study.figure import VARIABLES
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.prescribed import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 
 PHASE = np.linspace(0, np.pi, 37)
 

@@ -8,9 +8,9 @@ from click.testing import CliRunner
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
-from swtstudy.figures.bars import draw_sensitivity
+from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.paper.statements.influence import SAYS, table
+from swtstudy.paper.statements.parameters import SAYS, table
 
 STUDY = """
 title = "Ishigami"
@@ -212,7 +212,7 @@ normal_force_amplitude = [0, 20]
 def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
     drawn = []
     (tmp_path / "mine.toml").write_text(RIG)
-    monkeypatch.setattr("swtstudy.figures.save.save_figure", lambda figure, path: drawn.append(figure))
+    monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, path: drawn.append(figure))
     command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
     result = CliRunner().invoke(main, [*command, "--y", "SWT"])
     assert result.exit_code == 0, result.output

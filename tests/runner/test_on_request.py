@@ -21,8 +21,8 @@ from folders import DATA
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.merge import GapsError, merge
+from swtstudy.archive.netcdf import save
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
-from swtstudy.archive.write import save
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
 from swtstudy.points import records
@@ -90,7 +90,7 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
 def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
     path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
     # Long cycles and small blocks of some thirty points.
-    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 512)
     long = '[fixed]\nfrequency_ratio = "1/15"\n'
     # Points of two runs, so that two more are told.
     run(study(long, axes.replace(", 0.3", "")), path, workers=1, solver=stand_in.smooth)
@@ -205,7 +205,7 @@ def test_figures_show_them_with_their_errors(tmp_path: Path) -> None:
     text = study(quantities=("dissipation",)).text + figure
     found = run(Study.from_text(text), tmp_path / "a.nc", workers=1)
     assert r"W/(\mu F_0" in found.swt.figure().axes[1].get_ylabel()
-    from swtstudy.results.quantity import quantity_error
+    from swtstudy.results.evaluate import quantity_error
 
     xr.testing.assert_equal(quantity_error(found, "dissipation"), found.dissipation_error)
     assert quantity_error(found, "critical_x") is None

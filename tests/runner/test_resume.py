@@ -18,8 +18,8 @@ from folders import TESTS
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive import parts as archive_parts
-from swtstudy.archive.lock import LockedError, locked
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
+from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
 from swtstudy.points import records
 from swtstudy.runner import collector, work
@@ -221,7 +221,7 @@ def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
 def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monkeypatch):
     path = tmp_path / "line.nc"
     # One block a chunk: the pace is taken for very slow.
-    monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)
+    monkeypatch.setattr("swtstudy.runner.collector.Pace.chunk_weight", lambda self: 0.0)
     for _ in range(2):
         with pytest.raises(Stopped):
             run(line, path, solver=stand_in.Interrupting(96), workers=1)
@@ -243,10 +243,10 @@ def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monke
 
 def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
     monkeypatch.setattr("swtstudy.archive.parts._JOINED", 3)
-    monkeypatch.setattr("swtstudy.points.blocks._BLOCK_SIZE", 512)
+    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 512)
     path = tmp_path / "line.nc"
     # One block a chunk: the pace is taken for very slow.
-    monkeypatch.setattr("swtstudy.runner.pace.Pace.chunk_weight", lambda self: 0.0)
+    monkeypatch.setattr("swtstudy.runner.collector.Pace.chunk_weight", lambda self: 0.0)
     with pytest.raises(Stopped):
         run(line, path, solver=stand_in.Interrupting(280), workers=1)
     # Ten of fourteen blocks: eight have 29 points, and are solved first, the others 28.
@@ -397,7 +397,7 @@ def test_one_run_at_a_time(line, tmp_path):
     path = tmp_path / "line.nc"
     # The kernel's lock is per open file: another process, as a second run is, must be refused.
     code = (
-        "import sys, time, pathlib\nfrom swtstudy.archive.lock import locked\n"
+        "import sys, time, pathlib\nfrom swtstudy.archive.paths import locked\n"
         "with locked(pathlib.Path(sys.argv[1])):\n    print('held', flush=True)\n    time.sleep(60)\n"
     )
     with subprocess.Popen(

@@ -17,18 +17,16 @@ from folders import TESTS
 
 import swtstudy
 from swtstudy import Study, StudyError, run
-from swtstudy.archive.error import ArchiveError
-from swtstudy.points.cost import SECONDS_PER_WEIGHT, duration, weights
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.points.grid import Grid
 from swtstudy.points.records import FAILED, Records, Run
-from swtstudy.points.unique import unique_points
+from swtstudy.points.unique import SECONDS_PER_WEIGHT, duration, unique_points, weights
 from swtstudy.runner import engine
 from swtstudy.runner.chunk import Chunk
+from swtstudy.runner.collector import CHUNK_SECONDS, Pace, ProgressBar
 from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
-from swtstudy.runner.estimate import estimate
-from swtstudy.runner.pace import CHUNK_SECONDS, Pace
-from swtstudy.runner.progress import ProgressBar
 from swtstudy.runner.run import run_several
+from swtstudy.runner.work import estimate
 from swtstudy.runner.workers import LocalPool, _clean_start
 
 WIDE = """
@@ -206,7 +204,7 @@ def closed() -> io.StringIO:
 def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, stream):
     monkeypatch.setattr("sys.stderr", stream)
     monkeypatch.setattr("sys.stdout", stream)
-    monkeypatch.setattr("swtstudy.runner.progress._BAR_SECONDS", 0.0)
+    monkeypatch.setattr("swtstudy.runner.collector._BAR_SECONDS", 0.0)
     dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     assert np.isfinite(dataset.s).all()
 
@@ -287,7 +285,7 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
     table, timed = points.table, []
     slow = partial(timed_by_ratio, timed)
     missing = np.ones(len(table), bool)
-    patched = mock.patch.multiple("swtstudy.runner.estimate", solve_chunk=slow, _BUDGET=100.0)
+    patched = mock.patch.multiple("swtstudy.runner.work", solve_chunk=slow, _BUDGET=100.0)
     with patched:
         assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
@@ -304,7 +302,7 @@ def test_a_plan_times_no_more_points_than_its_budget_allows():
     )
     points, timed, told = unique_points(Study.from_text(text).grid), [], []
     every = np.ones(len(points.table), bool)
-    with mock.patch("swtstudy.runner.estimate.solve_chunk", partial(timed_by_ratio, timed)):
+    with mock.patch("swtstudy.runner.work.solve_chunk", partial(timed_by_ratio, timed)):
         seconds = estimate(points, every, 1e-3, None, lambda result: told.append(len(result)))
     assert sum(told) <= 2
     weight = weights(points.table)
@@ -325,7 +323,7 @@ def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
         seconds = float(len(chunk) * 1e-4 * k * np.log(k))
         return that_took(seconds, chunk.table)
 
-    with mock.patch("swtstudy.runner.estimate.solve_chunk", solve):
+    with mock.patch("swtstudy.runner.work.solve_chunk", solve):
         seconds = estimate(points, np.ones(2, bool), 1e-3, None)
     assert 100 < max(counts) <= 200
     assert seconds == pytest.approx(2 * 1e-4 * 1600 * np.log(1600))
@@ -438,7 +436,7 @@ def test_workers_start_before_this_process_has_imported_what_archives_need(tmp_p
 
 def test_writing_an_archive_imports_no_cluster(tmp_path):
     found = printed(
-        "import sys; from pathlib import Path; import xarray as xr; from swtstudy.archive.write import save",
+        "import sys; from pathlib import Path; import xarray as xr; from swtstudy.archive.netcdf import save",
         f"save(xr.Dataset({{'a': ('x', [0.5])}}), Path({str(tmp_path / 'a.nc')!r}))",
         "print('distributed' in sys.modules)",
     )

@@ -18,8 +18,7 @@ from hypothesis import strategies as st
 from mutated import mutated
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.known import known_records
-from swtstudy.archive.parts import PartsWriter, parts_folder, read_parts
+from swtstudy.archive.parts import PartsWriter, known_records, parts_folder, read_parts
 from swtstudy.cli import main
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import study_from

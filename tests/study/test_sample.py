@@ -14,10 +14,9 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import draw
 from swtstudy.points.unique import unique_points
 from swtstudy.runner.run import Stopped
+from swtstudy.study.design import DESIGNS, Design, Distribution
 from swtstudy.study.figure import FigureLayout
-from swtstudy.study.sampling.design import DESIGNS, Design
-from swtstudy.study.sampling.distribution import Distribution
-from swtstudy.study.sampling.drawn import drawn_rows
+from swtstudy.study.sample import drawn_rows
 from swtstudy.study.template import template
 from swtstudy.study.writing import to_toml
 

@@ -8,8 +8,7 @@ from folders import STUDIES
 
 from swtstudy import Study, StudyError
 from swtstudy.study.schema import SCHEMA_FILE, SCHEMA_LINE, schema_text, study_schema
-from swtstudy.vocabulary.axes import CONTACT_AXES
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
 
 jsonschema = pytest.importorskip("jsonschema")
 

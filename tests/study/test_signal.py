@@ -11,7 +11,7 @@ from real import UNITS
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
-from swtstudy.study.recorded import harmonics, mean_over, scatter
+from swtstudy.study.signal import harmonics, mean_over, scatter
 
 RIG = f"""
 title = "A rig"

@@ -10,7 +10,7 @@ from swtstudy import Study, StudyError
 from swtstudy.points.grid import Grid
 from swtstudy.points.unique import unique_points
 from swtstudy.study.figure import VARIABLES, FigureLayout
-from swtstudy.study.sampling.drawn import drawn_rows
+from swtstudy.study.sample import drawn_rows
 from swtstudy.study.writing import to_toml
 
 MINIMAL = 'title = "t"\n'

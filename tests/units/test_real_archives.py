@@ -13,7 +13,7 @@ from real import STUDY, plain
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.merge import merge
-from swtstudy.archive.write import save
+from swtstudy.archive.netcdf import save
 from swtstudy.runner.run import Stopped
 
 #: Without what takes time beside s.

@@ -16,7 +16,7 @@ from swtstudy.cli import main
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.canonical import COLUMNS, canonical_points, describe_point
 from swtstudy.points.reading import read_grid
-from swtstudy.vocabulary.prescribed import CONTROLS, Control
+from swtstudy.vocabulary.parameters import CONTROLS, Control
 
 FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
 SHAPES = {
@@ -36,7 +36,7 @@ def canonical(**parameters: object):
 @pytest.mark.parametrize("profile", SHAPES)
 def test_a_constant_normal_load_gives_the_same_s_for_a_force_and_its_displacement(profile: str) -> None:
     """Cattaneo and Mindlin: Q_A/(μF_0) = 1 − N(c), g(c) = 1 − U, here with U from the closed form of N."""
-    from swtstudy.mechanics.control.force import unit_half_load
+    from swtstudy.mechanics.control.coordinate import unit_half_load
     from swtstudy.mechanics.indenter import make_profile
 
     own = {"profile": profile, **SHAPES[profile], "normal_amplitude": 0.0}
@@ -157,8 +157,8 @@ def test_archives_that_prescribe_different_things_are_not_merged(tmp_path) -> No
 
 
 def test_an_archive_whose_control_contradicts_its_parameters_is_refused(tmp_path) -> None:
-    from swtstudy.archive.error import ArchiveError
-    from swtstudy.archive.write import save
+    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.paths import ArchiveError
 
     path = tmp_path / "forces.nc"
     run(Study.from_text(STUDY.format(normal=0.4)), path, solver=stand_in.smooth, workers=1)

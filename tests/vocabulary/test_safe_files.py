@@ -10,8 +10,7 @@ import stand_in
 from click.testing import CliRunner
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.known import known_records
-from swtstudy.archive.parts import PartsWriter, kept_folder, parts_folder
+from swtstudy.archive.parts import PartsWriter, kept_folder, known_records, parts_folder
 from swtstudy.cli import main
 from swtstudy.vocabulary.files import replacing, write_text
 

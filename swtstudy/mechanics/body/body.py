@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.events.nodes import cosine_nodes
-from swtstudy.mechanics.events.stretches import stretches
+from swtstudy.mechanics.events.stretches import cosine_nodes, stretches
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, swt_of_history
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.field import contact_states
+from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Parts into which a gap between instants is divided beside an extreme over the cycle. Three: 5e-4 in 16

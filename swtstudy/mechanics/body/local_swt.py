@@ -14,21 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import time_nodes
-from swtstudy.mechanics.body.histories import PLACES, Histories
+from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
 from swtstudy.mechanics.body.quick_planes import (
+    SAME_INSTANT,
     CoarsePlanes,
+    Peaks,
     climb_from,
     highest_coarse_planes,
     on_planes,
     planes_like,
     rival_planes,
 )
-from swtstudy.mechanics.body.spring_cells import SpringCells
-from swtstudy.mechanics.body.time_peaks import SAME_INSTANT, Peaks
-from swtstudy.mechanics.events.passages import front_passes
+from swtstudy.mechanics.events.stretches import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
-from swtstudy.mechanics.numerics.peaks import near_maximum
+from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 

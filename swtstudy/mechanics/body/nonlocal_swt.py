@@ -3,7 +3,8 @@
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
 about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
 (point method), or as the mean over the depths 0 … 2ℓ, straight down or along the critical plane. These are
-means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and line methods are.
+means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and line methods are. They
+are made of values at nested places about the point: as many as their accuracy asks for.
 
 With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
 that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
@@ -13,14 +14,235 @@ paraboloid: beside that the pressure is infinite like a logarithm, and so slow i
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.body.around import Around
+from swtstudy.mechanics.body.half_sphere import (
+    HalfDiscs,
+    HalfSpheres,
+    from_every_other,
+    gauss,
+    interpolation,
+    nested,
+)
+from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.vocabulary.axes import DIRECTIONS
+from swtstudy.vocabulary.parameters import DIRECTIONS
+
+#: Places in the half spheres at most, and on a line.
+MOST, LINE_MOST = 1000, 80
+#: The error claimed of a mean over a half sphere, over its changes without every other place and over what
+#: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells). Of
+#: 1,080 random means 3 are off more than is claimed.
+OF_CHANGE, OF_OFF, OF_LINES, OF_VALUE = 0.15, 0.025, 0.12, 1e-4
+#: How much of what another place on the arcs adds is an error.
+OF_ADDED = 0.06
+#: The least error claimed, over it, of a mean over a smaller sphere than the largest, which has fewer places.
+OF_SMALLER = 2e-4
+#: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
+#: many planes are alike.
+OF_LARGEST = 2e-5
+#: A value below this is none.
+TINY = 1e-300
+#: Every so many distances from the circle, and inclinations, of the first places, the outermost among them,
+#: show which part of the cycle matters; and places on lines, over the largest distance, its single ones too.
+SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
+#: How finely swt is searched for.
+FINENESS = Fineness(4, 40)
+#: No places.
+NOWHERE = Places(*np.empty((3, 0)))
+#: Abscissae of the integrals of the interpolation along a line, at least; fewer than its nodes: 3e-3.
+ABSCISSAE = 32
+
+
+class Layout(NamedTuple):
+    """Places to begin with.
+
+    Attributes
+    ----------
+    distances, inclinations, power
+        As in `HalfSpheres`.
+    on_line, line_power
+        Places on a line, whose distances from the critical point are this power of the abscissa.
+    """
+
+    distances: int
+    inclinations: int
+    power: float
+    on_line: int
+    line_power: int
+
+
+#: For one distance, and for several: small spheres and short lines need their places, too.
+ONE, SEVERAL = Layout(7, 15, 1.5, 19, 2), Layout(9, 15, 2.0, 23, 2)
+
+
+class Estimate(NamedTuple):
+    """Values, their errors for want of places, and their errors; all of one shape."""
+
+    value: FloatArray
+    of_places: FloatArray
+    error: FloatArray
+
+    @classmethod
+    def of(cls, value: FloatArray, of_places: FloatArray, missing: FloatArray) -> Estimate:
+        """From what instants may be missing in the values."""
+        return cls(value, of_places, of_places + np.abs(missing) + OF_VALUE * np.abs(value))
+
+    @property
+    def not_negative(self) -> Estimate:
+        """The same of means of swt, which is never below 0: where interpolation is, that is in the error."""
+        below = np.maximum(-self.value, 0.0)
+        return Estimate(self.value + below, self.of_places, self.error + below)
+
+    def allowed(self, rtol: float) -> FloatArray:
+        """The error that places may make: half of all, or more if instants make less."""
+        size = np.maximum((rtol - OF_VALUE) * np.abs(self.value), TINY)
+        of_instants = self.error - self.of_places - OF_VALUE * np.abs(self.value)
+        return np.maximum(size - of_instants, 0.5 * size)
+
+
+class Around:
+    """swt around one critical point.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    x
+        Signed position of the critical point.
+    into
+        Shape (d, 2): unit vectors into the body (right, down).
+    distance
+        Shape (k,).
+    """
+
+    def __init__(self, scene: Scene, x: float, into: FloatArray, distance: FloatArray) -> None:
+        self.scene, self.x, self.into, self.distance = scene, x, into, distance
+        self.largest = float(distance.max())
+        self.layout = layout = ONE if distance.size == 1 else SEVERAL
+        parts = HalfDiscs if scene.profile.plane else HalfSpheres
+        self.spheres = parts(abs(x), self.largest, layout.power, layout.distances, layout.inclinations)
+        grid, (nth, mth) = self._turned(*self.spheres.grid(1)), SHOWN
+        some = (values.reshape(self.spheres.shape[:2])[::-nth, ::-mth].ravel() for values in grid)
+        lines = self._of_lines(self.largest * np.array(SHOWN_ON_LINES))
+        shown = Places(*(np.concatenate(parts) for parts in zip(some, lines, strict=True)))
+        self.local = LocalSwt(scene, abs(x), shown, FINENESS)
+        #: swt, and what is missing of it, at the places; NaN where it is not known yet.
+        self.grid = np.full((*self.spheres.shape, 2), np.nan)
+        # The arcs' rule is exact for what another place would add to the largest sphere.
+        places = self._turned(*self.spheres.side_places()) if distance.size > 1 else NOWHERE
+        self.side_places, self.side = places, np.full((places.radius.size, 2), np.nan)
+        self.points = np.full((distance.size, len(into), 2), np.nan)
+        self.lines = np.full((layout.on_line, len(into), 2), np.nan)
+
+    def means(self, rtol: float) -> tuple[Estimate, Estimate]:
+        """`in_spheres` and `on_lines`, with as many places as an accuracy asks for."""
+        while True:
+            self._look()
+            spheres, of_axes = self.in_spheres()
+            lines = self.on_lines()
+            finer = self._refine_spheres(spheres, of_axes, rtol)
+            if not (self._refine_lines(lines, rtol) | finer):
+                return spheres.not_negative, lines.not_negative
+
+    def in_spheres(self) -> tuple[Estimate, FloatArray]:
+        """Means over half spheres, and what distances and inclinations have in their errors, (2, k)."""
+        inner, values = self.spheres.weights(self.distance), self.grid.reshape(-1, 2)
+        change, off = self.spheres.changes(inner, values[:, 0])
+        of_axes = OF_CHANGE * change + OF_OFF * off
+        added = np.zeros((2, self.distance.size))
+        if self.side.size:
+            added = (self.spheres.side_weights(self.distance) @ self.side).T
+        value, missing = (inner @ values).T + added
+        of_places = of_axes.sum(axis=0) + OF_ADDED * np.abs(added[0])
+        of_places += OF_SMALLER * np.abs(value) * (self.distance < self.largest)
+        return Estimate.of(value, of_places, missing), of_axes
+
+    def on_lines(self) -> Estimate:
+        """Values at ℓ/2, and means over 0 … 2ℓ, along the vectors, shape (2, k, d)."""
+        weights = self._line_weights(len(self.lines))
+        line, missing = np.moveaxis(self.lines, -1, 0)
+        off = np.abs(line - from_every_other(len(line)) @ line[1::2])
+        of_places = np.stack([np.zeros_like(self.points[..., 0]), OF_LINES * np.abs(weights) @ off])
+        of_places += OF_LARGEST * max(self.lines[..., 0].max(), self.points[..., 0].max())
+        value, missing = (np.stack([self.points[..., k], weights @ self.lines[..., k]]) for k in range(2))
+        return Estimate.of(value, of_places, missing)
+
+    def _refine_spheres(self, found: Estimate, of_axes: FloatArray, rtol: float) -> bool:
+        """Refine the places in the spheres; return whether there are more of them now."""
+        allowed, both = found.allowed(rtol), of_axes.sum(axis=0)
+        # More places leave what other places on the arcs add.
+        allowed = np.maximum(allowed - (found.of_places - both), 0.5 * allowed)
+        blame = (of_axes / allowed)[:, both > allowed].max(axis=1, initial=0.0)
+        before = self.spheres
+        worse = int(blame.argmax())
+        # The other one only if it alone would be too much.
+        for axis in (worse, 1 - worse):
+            finer = self.spheres.finer(axis)
+            wanted = blame[axis] > (0.0 if axis == worse else 1.0)
+            if wanted and finer.distances * finer.inclinations <= MOST:
+                self.spheres, self.grid = finer, _spread(self.grid, axis)
+        return self.spheres is not before
+
+    def _refine_lines(self, found: Estimate, rtol: float) -> bool:
+        """Refine the places on the lines; return whether there are more of them now."""
+        if np.all(found.of_places <= found.allowed(rtol)) or 2 * len(self.lines) > LINE_MOST:
+            return False
+        self.lines = _spread(self.lines, 0)
+        return True
+
+    def _look(self) -> None:
+        """swt where it is not known yet."""
+        away = 2.0 * self.largest * nested(len(self.lines)) ** self.layout.line_power
+        on_lines = self._of_lines(np.concatenate([0.5 * self.distance, away]))
+        lines = np.concatenate([self.points, self.lines])
+        kinds = (
+            (self.grid, self._turned(*self.spheres.grid())),
+            (self.side, self.side_places),
+            (lines, on_lines),
+        )
+        unknown = [np.isnan(values[..., 0].ravel()) for values, _ in kinds]
+        places = (places.at(which) for which, (_, places) in zip(unknown, kinds, strict=True))
+        wanted = Places(*(np.concatenate(parts) for parts in zip(*places, strict=True)))
+        ends = np.cumsum([which.sum() for which in unknown])
+        single = np.zeros(ends[-1], dtype=bool)
+        single[ends[1] : ends[1] + np.isnan(self.points[..., 0]).sum()] = True
+        found = np.stack(self.local.swt(wanted, single)[:2], axis=-1)
+        for which, (values, _), new in zip(unknown, kinds, np.split(found, ends[:-1]), strict=True):
+            values.reshape(-1, 2)[which] = new
+        self.points, self.lines = np.split(lines, [len(self.points)])
+
+    def _turned(self, radius: FloatArray, depth: FloatArray, angle: FloatArray) -> Places:
+        """Places at angles from the critical point."""
+        return Places(radius, depth, angle if self.x >= 0.0 else np.pi - angle)
+
+    def _of_lines(self, away: FloatArray) -> Places:
+        """Places at distances from the critical point, along one vector after the other at each."""
+        right = (self.x + away[:, None] * self.into[:, 0]).ravel()
+        depth = (away[:, None] * self.into[:, 1]).ravel()
+        return Places(np.abs(right), depth, np.where(right < 0.0, np.pi, 0.0))
+
+    def _line_weights(self, count: int) -> FloatArray:
+        """Weights of values at so many abscissae in the means over 0 … 2ℓ, shape (k, count)."""
+        node, weight = gauss(max(ABSCISSAE, count))
+        power = self.layout.line_power
+        weight = power * node ** (power - 1) * weight
+        scaled = (self.distance[:, None] / self.largest) ** (1.0 / power) * node
+        return np.asarray(weight @ interpolation(count, scaled))
+
+
+def _spread(values: FloatArray, axis: int) -> FloatArray:
+    """The values with NaN beside each of them along an axis."""
+    shape = list(values.shape)
+    shape[axis] = 2 * shape[axis] + 1
+    spread = np.full(shape, np.nan)
+    np.moveaxis(spread, axis, 0)[1::2] = np.moveaxis(values, axis, 0)
+    return spread
+
 
 #: Largest over smallest distance that share their places.
 SPAN = 12.0

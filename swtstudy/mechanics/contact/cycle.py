@@ -1,4 +1,8 @@
-"""The stationary cycle of the contact: its intervals, and the state of the springs at any instant."""
+"""The stationary cycle of the contact: its intervals, the springs at any instant, and how it is found.
+
+The memory diagram marches through two periods, of which the second one is stationary. Prescribed forces must
+besides be in equilibrium: where that is lost, the body slides away or falls apart.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.growth_times import GrowthTimes
-from swtstudy.mechanics.contact.memory import Memory
-from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states
+from swtstudy.mechanics.contact.memory import GROWTH, GrowthTimes, Memory
+from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states, stick_coordinate
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import packed
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import FloatArray, IntArray, Rows
+from swtstudy.vocabulary.parameters import Control
 
 #: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative. 0: stick is called
 #: slip at 79 of 4,000 points, 1e-15: at 8; 1e-11 and 1e-9: no change.
@@ -97,3 +100,164 @@ class Cycle(Rows):
             self.gross_slip[index],
             self.lift_off[index],
         )
+
+
+#: Growth of the contact's coordinate below which there is none: turning instants come in pairs that differ
+#: by rounding. 1e-14 or 1e-10: no change at 128 points. A coordinate below this is 0: next to a tip the
+#: ground within what rounding leaves of it would count.
+NO_GROWTH = 1e-12
+#: Room for pieces with which a march begins. Few stacks need more, however many intervals there are.
+DEPTH = 32
+
+
+@dataclass(frozen=True)
+class _Course:
+    """The load between its turning instants.
+
+    Attributes
+    ----------
+    instant, edge, tangential
+        Shape (n, i + 1): the ends of the intervals, and there the edge's coordinate and the tangential load.
+    forward, backward, grows
+        Shape (n, i): whether springs may slip forward or backward, and whether ground is gained in stick.
+    branch
+        Shape (n, i): the load's branch in which the interval lies.
+    growth
+        Shape (n, i): slope of what grows in stick: `GROWTH`, or that of a line.
+    times
+        When that is.
+    """
+
+    instant: FloatArray
+    edge: FloatArray
+    tangential: FloatArray
+    forward: NDArray[np.bool_]
+    backward: NDArray[np.bool_]
+    grows: NDArray[np.bool_]
+    branch: IntArray
+    growth: FloatArray
+    times: GrowthTimes
+
+
+def solve_cycle(load: Load) -> Cycle:
+    """March the memory diagram through the first period and record the second one.
+
+    Parameters
+    ----------
+    load
+        n loads, each started at φ = 0 from its normal load there and no tangential load.
+    """
+    course = _course(load)
+    n, intervals = course.grows.shape
+    most = 2 * intervals + 3
+    depth = min(most, DEPTH)
+    stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
+    stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
+    slips = np.any(course.forward | course.backward, axis=0)
+    for period in range(2):
+        for i in range(intervals):
+            # An interval pushes two pieces at most.
+            if depth < most and np.isfinite(stack.start[:, 0, depth - 2]).any():
+                depth *= 2
+                stack, record = stack.deeper(depth), record.deeper(depth)
+            _grow(stack, course, i)
+            if period == 1:
+                record.write((slice(None), i), stack.take((slice(None), 0)))
+            _lose_contact(stack, course, i)
+            if slips[i]:
+                _slip(load, stack, course, i)
+    deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
+    memory = record.take((slice(None), slice(None), slice(deepest)))
+    return Cycle(
+        load,
+        course.instant[:, :-1],
+        course.instant[:, 1:],
+        memory,
+        course.times,
+        course.forward,
+        course.backward,
+        gross_slip=stick_coordinate(load) < 0.0,
+        lift_off=load.least_normal < 0.0,
+    )
+
+
+def _course(load: Load) -> _Course:
+    first, last = np.zeros((len(load), 1)), np.full((len(load), 1), PERIOD)
+    instant = np.concatenate([first, load.turning_instants(), last], axis=1)
+    middle = 0.5 * (instant[:, 1:] + instant[:, :-1])
+    tangential_rate, normal_rate = load.tangential_rate(middle), load.normal_rate(middle)
+    forward, backward = tangential_rate > normal_rate, tangential_rate < -normal_rate
+    edge = _or_none(load.normal(instant))
+    grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > NO_GROWTH)
+    growth = np.full(grows.shape, GROWTH)
+    if load.grows_in_lines:
+        np.divide(tangential_rate, normal_rate, out=growth, where=grows)
+    tangential, branch = load.tangential(instant), load.branch(middle)
+    times = GrowthTimes.of(load, edge, branch, grows & (growth == GROWTH))
+    return _Course(instant, edge, tangential, forward, backward, grows, branch, growth, times)
+
+
+def _or_none(coordinate: FloatArray) -> FloatArray:
+    return np.where(coordinate > NO_GROWTH, coordinate, 0.0)
+
+
+def _grow(stack: Memory, course: _Course, i: int) -> None:
+    """Push a piece that remembers the tangential load at touch-down, where springs are gained in stick."""
+    before, now, number = course.edge[:, i], course.edge[:, i + 1], np.full(len(course.grows), i)
+    piece = Memory(before, course.tangential[:, i], course.growth[:, i], now, course.branch[:, i], number)
+    _push(stack, course.grows[:, i], piece)
+
+
+def _lose_contact(stack: Memory, course: _Course, i: int) -> None:
+    stack.start[stack.start >= course.edge[:, i + 1, None, None]] = np.inf
+
+
+def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
+    """Push a piece along a slip line, where springs have slipped."""
+    row = np.zeros((len(load), 1), dtype=np.intp)
+    senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
+    states = slip_states(load, stack, senses, course.times, row, course.instant[:, i + 1 : i + 2])
+    edge, tangential, front, sign = (
+        values[:, 0] for values in (states.edge, states.tangential, states.front, states.sign)
+    )
+    none = np.zeros(len(load)), row[:, 0], row[:, 0]
+    front = _or_none(front)
+    _push(stack, front < edge, Memory(front, tangential + sign * (front - edge), sign, *none))
+
+
+def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
+    """Pop what begins at or outside of the piece's start, then push the piece, in the rows ``where``."""
+    row = np.flatnonzero(where)
+    keep = stack.start[row, 0] < piece.start[row, None]
+    stack.start[row, 0] = np.where(keep, stack.start[row, 0], np.inf)
+    stack.write((row, 0, keep.sum(axis=1)), piece.take((row,)))
+
+
+#: Excess that is rounding, in the largest normal load: 2e-16 at most for 20,000 sines that just reach T = N.
+ROUNDING = 1e-12
+
+
+def out_of_equilibrium(load: Load, control: Control) -> NDArray[np.bool_]:
+    """True where there is no equilibrium at some instant, so that there is no stationary cycle.
+
+    A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.
+
+    Parameters
+    ----------
+    load
+        n loads in the coordinate of the memory diagram.
+    control
+        What of them is prescribed as a force.
+
+    Returns
+    -------
+    Shape (n,).
+    """
+    least = -ROUNDING * load.largest_normal
+    lost = load.least_normal < least if control.normal_force else np.zeros(len(load), dtype=bool)
+    if control.tangential_force:
+        instants = load.turning_instants()
+        # The normal force has none where the bodies are apart.
+        normal, tangential = np.maximum(load.normal(instants), 0.0), np.abs(load.tangential(instants))
+        lost = lost | ((normal - tangential).min(axis=1) < least)
+    return np.asarray(lost)

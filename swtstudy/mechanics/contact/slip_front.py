@@ -1,4 +1,7 @@
-"""The slip front: where the stuck part of the memory meets the line of slip."""
+"""The slip front: where the stuck part of the memory meets the line of slip, and what it never reaches.
+
+The permanent stick zone follows from the extremes of the slip lines alone.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.growth_times import GrowthTimes
-from swtstudy.mechanics.contact.memory import GROWTH, Memory
+from swtstudy.mechanics.contact.memory import GROWTH, GrowthTimes, Memory
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import count_below
 from swtstudy.mechanics.points import FloatArray
@@ -120,3 +122,18 @@ def _front_in_piece(
         # The front is where the edge was when the slip line had this value.
         front[grown] = several.normal(several.slip_line_instant(sense, slip_line[grown], brackets))
     return np.where(piece < 0, -np.inf, front)
+
+
+def stick_coordinate(load: Load) -> FloatArray:
+    """Coordinate G = (min(T + N) − max(T − N))/2 up to which springs stick all through the stationary cycle.
+
+    A spring at G can keep one offset if that fits into all of its bounds [T − N + G, T + N − G]. Negative
+    if the whole contact slides, or is lost, once a cycle.
+
+    Returns
+    -------
+    Shape (n,).
+    """
+    instants = load.turning_instants()
+    normal, tangential = load.normal(instants), load.tangential(instants)
+    return 0.5 * ((tangential + normal).min(axis=1) - (tangential - normal).max(axis=1))

@@ -15,13 +15,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.events.nodes import Nodes
-from swtstudy.mechanics.events.stretches import PER_INTERVAL, Stretches, meet
-from swtstudy.mechanics.numerics.arrays import gather, pick
-from swtstudy.mechanics.numerics.cosine import between
-from swtstudy.mechanics.numerics.peaks import parabola, polynomial_maximum, powers_from_values
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.events.stretches import PER_INTERVAL, Nodes, Stretches, meet
+from swtstudy.mechanics.numerics.arrays import between, gather, pick
+from swtstudy.mechanics.numerics.roots import parabola, polynomial_maximum, powers_from_values
+from swtstudy.mechanics.points import FloatArray, Rows
 
 T = TypeVar("T", bound=np.generic)
 
@@ -76,7 +73,7 @@ class TimeBrackets(Rows):
         place: NDArray[np.intp],
         falling: NDArray[np.bool_] | None = None,
     ) -> TimeBrackets:
-        """Brackets around nodes of `swtstudy.mechanics.events.nodes.cosine_nodes`.
+        """Brackets around nodes of `swtstudy.mechanics.events.stretches.cosine_nodes`.
 
         Parameters
         ----------
@@ -85,7 +82,7 @@ class TimeBrackets(Rows):
         count
             Number of steps of each stretch.
         stretch, place
-            Shape (n, X, e): see `swtstudy.mechanics.events.nodes.Placed`.
+            Shape (n, X, e): see `swtstudy.mechanics.events.stretches.Placed`.
         falling
             Shape (n, X, e, 2): on which sides the nodes show no maximum, so that the samples may be graded.
         """

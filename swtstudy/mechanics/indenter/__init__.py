@@ -1,4 +1,4 @@
-"""The registry of profiles: a family is a file here, a line below and a row of `families.FAMILIES`."""
+"""The registry of profiles: a family is a class here, a line below and a row of `choices.FAMILIES`."""
 
 from __future__ import annotations
 
@@ -9,17 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
-from swtstudy.mechanics.indenter.flat_faced import RoundedPunch, TruncatedParaboloid
-from swtstudy.mechanics.indenter.paraboloid import Paraboloid
-from swtstudy.mechanics.indenter.plane import Cylinder
-from swtstudy.mechanics.indenter.plane_table import TabulatedPlane
-from swtstudy.mechanics.indenter.power_law import PowerLaw
-from swtstudy.mechanics.indenter.power_law_cylinder import PowerLawCylinder
+from swtstudy.mechanics.indenter.paraboloid import Paraboloid, RoundedPunch, TruncatedParaboloid
+from swtstudy.mechanics.indenter.plane import Cylinder, RoundedFlat
+from swtstudy.mechanics.indenter.power_law import PowerLaw, PowerLawCylinder
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-from swtstudy.mechanics.indenter.rounded_flat import RoundedFlat
-from swtstudy.mechanics.indenter.tabulated import Tabulated
-from swtstudy.mechanics.indenter.wavy_cylinder import WavyCylinder
-from swtstudy.mechanics.indenter.wavy_paraboloid import WavyParaboloid
+from swtstudy.mechanics.indenter.tabulated import Tabulated, TabulatedPlane
+from swtstudy.mechanics.indenter.wavy import WavyCylinder, WavyParaboloid
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 PROFILES: dict[str, type[Profile]] = {

@@ -1,4 +1,7 @@
-"""The power law f ∝ rⁿ, with g = ξⁿ in the contact radius at δ0 and δ0."""
+"""The power laws: f ∝ rⁿ, with g = ξⁿ in the contact radius at δ0 and δ0, and f ∝ |x|ⁿ in the plane.
+
+In the plane N/N_0 = ξⁿ in the half-width at the mean load.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
+from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray
@@ -200,3 +204,45 @@ class _FarSeries:
         difference = np.divide(-rise, offset, out=-logarithm, where=offset != 0.0)
         together = self.at_pole[row] * difference + self.rest[row] * (1.0 + rise)
         return np.asarray(np.exp(self.even[row] * logarithm) * together)
+
+
+class PowerLawCylinder(PlaneProfile, PowerLaw):
+    """n profiles N/N_0 = ξⁿ: the disc's g, so that its tables serve both."""
+
+    @classmethod
+    def length_law(cls, **shape: float) -> tuple[float, float]:
+        # f = |x|ⁿ/(n Rⁿ⁻¹), as the disc's: N = E* ξⁿ/Rⁿ⁻¹ ∫ sⁿ/√(1 − s²) ds, and N = (π/4) E* δ0 at a_H.
+        from scipy.special import beta  # as long to import as all else, and few need it
+
+        n = shape["exponent"]
+        return 0.5 * float(beta(0.5 * (n + 1.0), 0.5)) / MEAN_LOAD, 1.0 / n
+
+    def weighted_slope(self, radius: FloatArray) -> FloatArray:
+        return MEAN_LOAD * super().weighted_slope(radius)
+
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        depth = self.depth(radius)
+        return depth, MEAN_LOAD * align(self.exponent, radius) * depth
+
+    def depth_over_radius(self, radius: FloatArray) -> FloatArray:
+        return self.depth(radius) / align(self.exponent, radius)
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return PowerStripPrimitives(self.exponent, position, digits)
+
+
+class PowerStripPrimitives(PlanePrimitives):
+    """The disc's integral over the outer springs, and over the inner ones that of the exponent n − 1."""
+
+    def __init__(self, exponent: FloatArray, position: FloatArray, digits: float) -> None:
+        self.exponent, self.position = exponent, position
+        self._of_disc = PowerPrimitives(exponent, position, digits)
+        self._inner = inner_series(exponent - 1.0, digits)
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        r, n, scale = (align(v, radius) for v in (self.position, self.exponent, self._of_disc.power))
+        sine = np.minimum(radius / r, 1.0)
+        return (2.0 * MEAN_LOAD * n * scale * sine**n * evaluate_inner(self._inner, sine))[None]
+
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        return MEAN_LOAD * self._of_disc.pressure(radius)

@@ -12,10 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.vocabulary.definition import Definition, wrong_name
-from swtstudy.vocabulary.families import AXISYMMETRIC, GEOMETRIES, PLANE
+from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
+from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
-from swtstudy.vocabulary.numbers import read_numbers
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly

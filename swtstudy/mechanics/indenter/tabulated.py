@@ -1,14 +1,145 @@
-"""A profile that is known as a table of f(r)."""
+"""Profiles that are known as tables of f(r), or of f(x) in a plane contact.
+
+Their slope g′ is made of pieces of polynomials. With w = √(ξ² − b²) and ρ² = r² − b² the integrals are of
+powers of w over √(ρ² − w²) inside r, and over √(w² − ρ²) outside: in closed form, piece by piece. Up to a
+radius they are the antiderivative of its own piece less that of all the jumps between pieces, each taken at
+its knot: the sums over the knots are made once for each position.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile, Tables
-from swtstudy.mechanics.indenter.piece_primitives import PiecePrimitives
+from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.indenter.slope_fit import SlopePieces
+from swtstudy.mechanics.numerics.arrays import align, gather
 from swtstudy.mechanics.points import FloatArray
+
+#: Gives the coefficient of a power, the same for all or one for each of what is integrated over.
+Coefficient = Callable[[int], FloatArray]
+
+
+class PiecePrimitives(Primitives):
+    """n profiles of one table, at positions (n, X)."""
+
+    def __init__(self, pieces: SlopePieces, position: FloatArray) -> None:
+        self.pieces, self.position = pieces, position
+        b = pieces.flat_radius
+        #: ρ², which is negative under a face.
+        self.gap = (position - b) * (position + b)
+        self.low = np.sqrt(np.maximum(self.gap, 0.0))
+        self._slope, self._over_radius = (
+            _in_powers_of_w(c, pieces.start) for c in (self.inner_coefficients(pieces), pieces.over_radius)
+        )
+        self._half_load = self._half_loads(np.maximum(position, b))
+        knots = np.broadcast_to(pieces.start, (*position.shape, pieces.start.size))
+        jumps = np.diff(self._slope, axis=1, prepend=0.0)
+        self._inner_offset = np.cumsum(self._inside(knots, lambda k: jumps[k]), axis=-1)
+        self._outer_offset = self._offset_outside(knots)
+
+    @staticmethod
+    def inner_coefficients(pieces: SlopePieces) -> FloatArray:
+        """Coefficients of what is integrated over the springs inside r."""
+        return pieces.slope
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        first, third = self.within(radius)
+        r, b = align(self.position, radius), self.pieces.flat_radius
+        return np.stack([2.0 / r * first, 2.0 / r**3 * (b * b * first + third)])
+
+    def within(self, radius: FloatArray) -> FloatArray:
+        """Integrals of it times w and w³ over √(ρ² − w²) up to ``radius``, shape (2, n, X, …)."""
+        w = np.minimum(self._w(radius), align(self.low, radius))
+        piece = self.pieces.piece(w)
+        first, third = self._inside(w, lambda k: self._slope[k].take(piece))
+        first -= self._offset(self._inner_offset[0], piece)
+        third -= self._offset(self._inner_offset[1], piece)
+        return np.where(align(self.gap, radius) > 0.0, np.stack([first, third]), 0.0)
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        w = np.maximum(self._w(radius), align(self.low, radius))
+        piece = self.pieces.piece(w)
+        first, second = self._outside(w, lambda k: self._over_radius[k].take(piece))
+        first -= self._offset(self._outer_offset[0], piece)
+        second -= self._offset(self._outer_offset[1], piece)
+        r = align(self.position, radius)
+        load = self.pieces.value(self.pieces.half_load, w, piece) - align(self._half_load, radius)
+        return np.stack([first, (load - second) / (r * r)])
+
+    def _w(self, radius: FloatArray) -> FloatArray:
+        b = self.pieces.flat_radius
+        return np.sqrt(np.maximum((radius - b) * (radius + b), 0.0)) if b > 0.0 else radius
+
+    def _half_loads(self, radius: FloatArray) -> FloatArray:
+        w = self._w(radius)
+        return self.pieces.value(self.pieces.half_load, w, self.pieces.piece(w))
+
+    def _offset(self, offset: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+        """Offsets (n, X, m) of the pieces of (n, X or 1, …)."""
+        shape = np.broadcast_shapes(piece.shape, (*offset.shape[:2], *(1,) * (piece.ndim - 2)))
+        flat = np.broadcast_to(piece, shape).reshape(*shape[:2], -1)
+        return gather(offset, flat).reshape(shape)
+
+    def _inside(self, w: FloatArray, slope: Coefficient) -> tuple[FloatArray, FloatArray]:
+        """Antiderivatives of Σ a_k wᵏ⁺¹ and Σ a_k wᵏ⁺³ over √(ρ² − w²), k to the degree of g′."""
+        rho = align(self.low, w)
+        sine = np.minimum(w / np.maximum(rho, 1e-300), 1.0)
+        cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
+        # ∫ sinᵏ: each from the one before the last.
+        power, integrals = cosine, [np.arcsin(sine), -cosine]
+        top = len(self._slope)
+        for k in range(2, top + 3):
+            power = power * sine
+            integrals.append((integrals[k - 2] * (k - 1) - power) * (1.0 / k))
+        first, third = np.zeros(()), np.zeros(())
+        for k in range(top - 1, -1, -1):
+            a = slope(k)
+            first, third = first * rho + a * integrals[k + 1], third * rho + a * integrals[k + 3]
+        return np.asarray(first * rho), np.asarray(third * rho**3)
+
+    def _outside(self, w: FloatArray, over_radius: Coefficient) -> tuple[FloatArray, FloatArray]:
+        """Antiderivatives of Σ b_k wᵏ⁺¹ over √(w² − ρ²), and times it, k to the degree of g′/ξ."""
+        gap = align(self.gap, w)
+        root = np.sqrt(np.maximum(w * w - gap, 0.0))
+        # ∫ wᵏ/√(w² − ρ²): each from the one before the last.
+        power, integrals = root, [np.log(np.maximum(w + root, 1e-300)), root]
+        top = len(self._over_radius)
+        for k in range(2, top + 3):
+            power = power * w
+            integrals.append((power + (k - 1) * gap * integrals[k - 2]) * (1.0 / k))
+        first, second = np.zeros(()), np.zeros(())
+        for k in range(top):
+            b = over_radius(k)
+            first = first + b * integrals[k + 1]
+            second = second + b * (integrals[k + 3] - gap * integrals[k + 1])
+        return np.asarray(first), np.asarray(second)
+
+    def _offset_outside(self, knots: FloatArray) -> FloatArray:
+        """Offsets of the outer antiderivatives of each piece, where the integral begins at r."""
+        start = self.pieces.piece(self.low)
+        at_start = np.stack(
+            self._outside(self.low[..., None], lambda k: self._over_radius[k].take(start)[..., None])
+        )
+        jumps = np.diff(self._over_radius, axis=1, prepend=0.0)
+        at_knots = np.stack(self._outside(knots, lambda k: jumps[k]))
+        counts = np.arange(self.pieces.start.size) > start[..., None]
+        return at_start + np.cumsum(np.where(counts, at_knots, 0.0), axis=-1)
+
+
+def _in_powers_of_w(coefficients: FloatArray, start: FloatArray) -> FloatArray:
+    """Coefficients in powers of w from those in powers of w − start."""
+    from scipy.special import binom  # as long to import as all else, and few need it
+
+    degree = len(coefficients)
+    i, k = np.arange(degree)[:, None], np.arange(degree)
+    shifts = (-start) ** np.maximum(i - k, 0)[..., None]
+    return np.asarray((coefficients[:, None] * binom(i, k)[..., None] * shifts).sum(axis=0))
+
 
 #: Newton's steps for the contact radius, from a guess that is off by 1e-3.
 NEWTON_STEPS = 3
@@ -101,3 +232,58 @@ class Tabulated(Profile):
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
         return PiecePrimitives(self._pieces, position)
+
+
+#: Gauss nodes for N/ξ on a piece: exact to rounding but next to a face.
+NODES = 8
+
+
+class TabulatedPlane(PlaneProfile, Tabulated):
+    """n times the profile of one table: the pieces of its N′ stand in the place of those of g′."""
+
+    def depth(self, radius: FloatArray) -> FloatArray:
+        return super().depth(radius) / MEAN_LOAD
+
+    def radius(self, depth: FloatArray) -> FloatArray:
+        return super().radius(MEAN_LOAD * depth)
+
+    def depth_and_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
+        load, slope = super().depth_and_weighted_slope(radius)
+        return load / MEAN_LOAD, slope
+
+    def depth_over_radius(self, radius: FloatArray) -> FloatArray:
+        pieces = self._pieces
+        w = self._rise(radius)
+        piece = pieces.piece(w)
+        start = pieces.start[:-1]
+        whole = self._part(start, pieces.start[1:], np.arange(start.size))
+        before = np.append(0.0, np.cumsum(whole))
+        return before.take(piece) + self._part(pieces.start.take(piece), w, piece)
+
+    def _part(self, low: FloatArray, high: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+        """∫ N/(N_0 ξ) dξ between places w of pieces."""
+        node, weight = np.polynomial.legendre.leggauss(NODES)
+        w = low[..., None] + (high - low)[..., None] * (0.5 + 0.5 * node)
+        load = self._pieces.value(self._pieces.depth, w, np.broadcast_to(piece[..., None], w.shape))
+        square = np.maximum(w * w + self._pieces.flat_radius**2, 1e-300)
+        return np.asarray(0.5 * (high - low) * (load * w / square * weight).sum(axis=-1) / MEAN_LOAD)
+
+    def primitives(self, position: FloatArray, digits: float) -> Primitives:
+        return StripPiecePrimitives(self._pieces, position)
+
+
+class StripPiecePrimitives(PiecePrimitives, PlanePrimitives):
+    """Both integrals are of N′/ξ over w."""
+
+    @staticmethod
+    def inner_coefficients(pieces: SlopePieces) -> FloatArray:
+        return pieces.over_radius
+
+    def inner(self, radius: FloatArray) -> FloatArray:
+        return 2.0 * self.within(radius)[:1]
+
+    def outer(self, radius: FloatArray) -> FloatArray:
+        return super().outer(radius)[:1]
+
+    def pressure(self, radius: FloatArray) -> FloatArray:
+        return np.asarray(self.outer(radius)[0])

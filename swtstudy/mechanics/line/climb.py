@@ -1,4 +1,9 @@
-"""Climbs to the maxima of swt along the surface line, many at once: where they start and where they stand."""
+"""Climbs to the maxima of swt along the surface line, many at once: where they start and where they stand.
+
+swt at a position is that of the extremes over the cycle and over the planes. First all event-aligned instants
+are looked at; then the stress is sampled anew around the three instants that make swt (the largest σ_n, the
+largest and the smallest ε_n), ever closer, and the plane turns to the best one by these samples.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,185 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
-from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, lifted
+from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, extremes_and_rivals, lifted
 from swtstudy.mechanics.line.positions import Positions
-from swtstudy.mechanics.line.samples import ANGLE_ROUNDS
 from swtstudy.mechanics.numerics.arrays import largest_of_rows
-from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, climb_over_planes
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.planes.criterion import Criterion
+from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
+from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
+
+#: How often the plane is improved and the extremes over the cycle are looked up anew: for all, and at most
+#: where swt still rises, since the extremes move with the plane. 2 at most: 4e-4 at rtol 1e-4 at 1 of 1,001
+#: points (tests/mechanics/test_narrow_maxima.py).
+ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS = 2, 16
+
+
+@dataclass(frozen=True)
+class Samples:
+    """k samples around each of three extremes at n × X positions.
+
+    Attributes
+    ----------
+    brackets
+        Where they lie.
+    near
+        Shape (3, n, X, 3, k), see `of_extremes`.
+    criterion
+        Shape (n, 1).
+    """
+
+    brackets: TimeBrackets
+    near: FloatArray
+    criterion: Criterion
+
+    def take(self, index: NDArray[np.intp]) -> Samples:
+        """Return the samples of the points at ``index``."""
+        return Samples(self.brackets.take(index), self.near[:, index], self.criterion.take(index))
+
+    def or_other(self, own: NDArray[np.bool_], other: Samples) -> Samples:
+        """These around the extremes that are ``own``, shape (n, X, 3), and other ones around the others."""
+        near = np.where(own[..., None], self.near, other.near)
+        return replace(self, brackets=self.brackets.or_other(own, other.brackets), near=near)
+
+    def narrowed(self, angle: FloatArray) -> TimeBrackets:
+        """Brackets around the best samples on planes (n, X)."""
+        return self.brackets.narrowed(on_plane(self.near, angle).argmax(axis=-1))
+
+    def tops(self, angle: FloatArray) -> FloatArray:
+        """Maxima of the three curves between the samples, on planes (n, X), shape (n, X, 3)."""
+        return on_plane(self._at_peaks(angle), angle)
+
+    def best_plane(self, angle: FloatArray, gain: float) -> tuple[FloatArray, FloatArray]:
+        """swt and 2θ of the best planes near some, each (n, X), until they rise by less than a share."""
+        for _ in range(ANGLE_ROUNDS):
+            peaks, start = self._at_peaks(angle), angle
+            angle = _turned(peaks, start, self.criterion)
+        before, peaks = _swt(peaks, start, self.criterion), self._at_peaks(angle)
+        swt = _swt(peaks, angle, self.criterion)
+        rows, some = np.arange(len(angle)), self
+        for _ in range(ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS):
+            rises = np.flatnonzero((swt[rows] - before > gain * swt[rows]).any(axis=1))
+            if not rises.size:
+                break
+            rows, some, before = rows[rises], some.take(rises), swt[rows[rises]]
+            start = angle[rows]
+            turned = _turned(peaks[:, rises], start, some.criterion)
+            peaks = some._at_peaks(turned)
+            found = _swt(peaks, turned, some.criterion)
+            swt[rows], angle[rows] = found, turned
+        return swt, angle
+
+    def _at_peaks(self, angle: FloatArray) -> FloatArray:
+        """Coefficients of the three curves at their maxima between the samples, shape (3, n, X, 3)."""
+        weights = self.brackets.weights_at_peak(on_plane(self.near, angle))
+        return np.asarray((self.near * weights).sum(axis=-1))
+
+
+def _turned(peaks: FloatArray, angle: FloatArray, criterion: Criterion) -> FloatArray:
+    """2θ at which the extremes (3, n, X, 3) of planes (n, X) make the largest swt."""
+    return best_angle(peaks[..., 0], 0.5 * (peaks[..., 1] + peaks[..., 2]), angle, criterion)
+
+
+def _swt(peaks: FloatArray, angle: FloatArray, criterion: Criterion) -> FloatArray:
+    """swt by the extremes (3, n, X, 3) of planes (n, X)."""
+    return criterion.of_maxima(*np.moveaxis(on_plane(peaks, angle), -1, 0))
+
+
+def of_extremes(planes: PlaneHistory) -> FloatArray:
+    """Coefficients of the curves whose maxima make swt, each at its own samples: (3, n, X, 3, k)."""
+    stress, swing = (values.reshape(*values.shape[:-1], 3, -1) for values in (planes.stress, planes.swing))
+    return np.stack([stress[..., 0, :], swing[..., 1, :], -swing[..., 2, :]], axis=-2)
+
+
+def on_plane(coefficients: FloatArray, angle: FloatArray) -> FloatArray:
+    """A + B cos 2θ + C sin 2θ of coefficients (3, n, X, …) at 2θ of shape (n, X)."""
+    a, b, c = coefficients
+    angle = angle.reshape(angle.shape + (1,) * (a.ndim - angle.ndim))
+    return np.asarray(a + b * np.cos(angle) + c * np.sin(angle))
+
+
+def refine(
+    scene: Scene, position: FloatArray, side: FloatArray, double_angle: FloatArray, resolution: Resolution
+) -> tuple[FloatArray, FloatArray]:
+    """swt on one side of the contact, with the extremes found closely.
+
+    Parameters
+    ----------
+    scene
+        n points.
+    position
+        Shape (n, X): r = |x|.
+    side
+        Shape (n,): sign of x.
+    double_angle
+        Shape (n, X): 2θ to start from, rad.
+    resolution
+        How closely.
+
+    Returns
+    -------
+    swt, double_angle
+        Shape (n, X).
+    """
+    look = Look.at(scene, position, resolution.nodes, resolution.digits)
+    planes = scene.planes(look.history, side[:, None, None])
+    best = climb_over_planes(planes, double_angle, ANGLE_ROUNDS)
+    found, rival, falling = extremes_and_rivals(planes, best, look.inside)
+    zoom = _Zoom(scene, look, side, resolution)
+    first = zoom.around(found, falling)
+    swt, angle = zoom.to_maximum(first, best)
+    # Two instants that the nodes cannot tell apart are both followed; neighbours have the same bracket.
+    rows = np.flatnonzero((np.abs(found - rival) > 1).any(axis=(1, 2)))
+    if rows.size:
+        again = _Zoom(scene.take(rows), look.take(rows), side[rows], resolution)
+        second, first, plane = again.around(rival[rows]), first.take(rows), best[rows]
+        # Of two instants the one around which the plane is higher.
+        here = second.tops(plane) > first.tops(plane)
+        more, at = again.to_maximum(second.or_other(here, first), plane)
+        better = more > swt[rows]
+        swt[rows] = np.where(better, more, swt[rows])
+        angle[rows] = np.where(better, at, angle[rows])
+    return swt, angle
+
+
+@dataclass(frozen=True)
+class _Zoom:
+    """Ever closer samples.
+
+    Attributes
+    ----------
+    scene, look, side
+        n points, their look and the signs of x.
+    resolution
+        How closely.
+    """
+
+    scene: Scene
+    look: Look
+    side: FloatArray
+    resolution: Resolution
+
+    def around(self, extremes: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> Samples:
+        """Samples around instants of the look, shape (n, X, 3); for ``falling`` see `TimeBrackets.around`."""
+        return self._within(self.look.brackets(extremes, falling))
+
+    def _within(self, brackets: TimeBrackets) -> Samples:
+        history = self.look.line.history(brackets.samples())
+        near = of_extremes(self.scene.planes(history, self.side[:, None, None]))
+        return Samples(brackets, near, self.scene.criterion_along)
+
+    def to_maximum(self, samples: Samples, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """swt and 2θ near a plane (n, X)."""
+        gain = 10.0**-self.resolution.digits
+        swt, angle = samples.best_plane(angle, gain)
+        for _ in range(1, self.resolution.zooms):
+            samples = self._within(samples.narrowed(angle))
+            swt, angle = samples.best_plane(angle, gain)
+        return swt, angle
+
 
 #: Half the distance between the positions of a climb's first round, in gaps of the first look, and how it
 #: shrinks from round to round. Twice the first: 1e-4 at 1 of 128 points; half: 3e-7.

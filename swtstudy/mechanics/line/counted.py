@@ -2,7 +2,8 @@
 
 A life N(SWT) is one of strain cycles. The strain of a plane is counted by rainflow, each cycle with its own
 amplitude and its own largest σ_n: a swt of its own. A round does the damage Σ 1/N(SWT_i), which depends on a
-material's constants; so what is kept are the cycles themselves, over the largest swt.
+material's constants; so what is kept are the cycles themselves, over the largest swt, as few numbers: those
+that are alike are one, with how many they are.
 
 The place and plane of the largest swt are not always those of the largest damage: others may have more
 cycles. Between any two values of SWT, 1/N goes like a power of it, for strain-life constants one from 1 to
@@ -15,14 +16,14 @@ that is an upper bound of the sum, and little is left to count where a round has
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.first_look import resolved
+from swtstudy.mechanics.line.first_look import joined_pieces, resolved
 from swtstudy.mechanics.line.look import Look, lifted
-from swtstudy.mechanics.line.many_cusps import joined_pieces
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import Criterion
@@ -30,6 +31,7 @@ from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Powers of swt of which the sum is made largest.
 POWERS = np.array([1.0, 2.0, 4.0, 8.0])
@@ -250,3 +252,86 @@ def _closer(
     shares = _at(own, here.around(c[:, None])[:, 0], side, angle) / largest[point]
     order = np.lexsort((power, point))
     return [(int(point[k]), int(power[k]), shares[k]) for k in order]
+
+
+#: Cycles whose SWT differ by less than this, relative, are equal.
+EQUAL = 1e-6
+#: Cycles are alike whose logarithms of SWT differ by less than a width times that to the largest SWT plus so
+#: much; the first width with which they are few enough. So are 300 random cycles 8, with a damage that is
+#: right to 14 % for lives that go with SWT to the minus 1 to 9. 0.4 in place of 0.05: 27 %.
+WIDTHS, LEAST_DEPTH = 1e-3 * 1.5 ** np.arange(25), 0.05
+#: Cycles that are alike have the mean of this power of SWT, so that a life which goes with SWT to the minus
+#: this power stays as it is.
+POWER = 4.0
+
+
+@dataclass(frozen=True)
+class FewCycles:
+    """Strain cycles in a round of n points, of shape (n, places, cycles) by `COUNTED_SIZES`.
+
+    Attributes
+    ----------
+    share
+        SWT of a cycle over the largest SWT, descending at each place; NaN where there are no more.
+    number
+        How many cycles have it.
+    """
+
+    share: FloatArray
+    number: FloatArray
+
+    @classmethod
+    def of(cls, scene: Scene, position: FloatArray, double_angle: FloatArray) -> FewCycles:
+        """Find the strain cycles of n points, see `strain_cycles`; NaN where the angle is.
+
+        Where only the position is, s is that far from the contact.
+        """
+        share, number = np.full((2, len(scene), *COUNTED_SIZES.values()), np.nan)
+        near = np.flatnonzero(np.isfinite(position))
+        far = np.flatnonzero(np.isnan(position) & np.isfinite(double_angle))
+        found = strain_cycles(scene.take(near), position[near], double_angle[near]) if near.size else []
+        found += far_cycles(scene.take(far)) if far.size else []
+        for point, places in zip(np.concatenate([near, far]), found, strict=True):
+            for place, cycles in enumerate(places):
+                shares, numbers = few(cycles, share.shape[-1])
+                share[point, place, : shares.size], number[point, place, : shares.size] = shares, numbers
+        return cls(share, number)
+
+
+def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
+    """At most so many cycles in the place of many, and how many each stands for.
+
+    The largest stays as it is, so that the damage is never less than its own.
+
+    Parameters
+    ----------
+    shares
+        Shape (k,), positive and descending.
+    most
+        Two at least.
+
+    Examples
+    --------
+    >>> few(np.array([1.0, 1.0, 0.5]), 8)
+    (array([1. , 0.5]), array([2., 1.]))
+    """
+    depth = np.log(shares[0] / shares)
+    equal = int(np.searchsorted(depth, EQUAL, side="right"))
+    rest = depth[equal:]
+    for width in WIDTHS:
+        begins = _begins(rest, width)
+        if len(begins) < most:
+            break
+    groups = np.split(shares[equal:], begins[1 : most - 1]) if rest.size else []
+    means = [float((group**POWER).mean() ** (1.0 / POWER)) for group in groups]
+    return np.array([shares[0], *means]), np.array([float(equal), *(float(len(group)) for group in groups)])
+
+
+def _begins(ascending: FloatArray, width: float) -> list[int]:
+    """Where groups begin, by the depths below the largest SWT."""
+    begins: list[int] = []
+    for place, value in enumerate(ascending):
+        begin = ascending[begins[-1]] if begins else -np.inf
+        if value - begin > width * (LEAST_DEPTH + begin):
+            begins.append(place)
+    return begins

@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import packed, place_in_row
-from swtstudy.mechanics.numerics.cosine import between
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.numerics.arrays import between, packed, place_in_row
+from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of

@@ -24,13 +24,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate
-from swtstudy.mechanics.control.force import ForceCoordinate
+from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate, ForceCoordinate
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives
-from swtstudy.mechanics.indenter.flat_faced import SMALLEST_FACE, TruncatedParaboloid
-from swtstudy.mechanics.line.accuracy import SETTLED, Accuracy
-from swtstudy.mechanics.line.look import Look, lifted
+from swtstudy.mechanics.indenter.paraboloid import SMALLEST_FACE, TruncatedParaboloid
+from swtstudy.mechanics.line.look import SETTLED, Accuracy, Look, lifted
 from swtstudy.mechanics.line.maximum import Maximum, reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import align
@@ -179,7 +177,7 @@ def _swt(
 ) -> tuple[FloatArray, FloatArray]:
     """swt and 2θ at L = ``distance``, shape (n, X), on the best plane near 2θ = ``start``.
 
-    Unlike `swtstudy.mechanics.line.value.refine` this knows that the stress may jump at an event: an extreme
+    Unlike `swtstudy.mechanics.line.climb.refine` this knows that the stress may jump at an event: an extreme
     is interpolated only where its neighbours belong to the same smooth stretch.
     """
     profile = scene.profile

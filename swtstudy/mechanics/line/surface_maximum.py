@@ -1,7 +1,7 @@
 """swt on the circle through the critical point of the surface line: the assumption y = 0, tested.
 
 The stress on the circle is made of the same building blocks as on the line, see
-`swtstudy.mechanics.stress.circle`. They know only r: edge and slip fronts pass the whole circle at once, and
+`swtstudy.mechanics.stress.history`. They know only r: edge and slip fronts pass the whole circle at once, and
 the instants that make swt on the line make it on the circle. Not so with a bulk stress: where it presses, the
 line may be the lowest place of the circle, whose highest has its own instants and a plane that turns with it.
 Nor with a criterion that needs no tension.
@@ -14,15 +14,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.line.climb import of_extremes, on_plane
 from swtstudy.mechanics.line.look import Look, extreme_instants
 from swtstudy.mechanics.line.maximum import Maximum
-from swtstudy.mechanics.line.samples import of_extremes, on_plane
 from swtstudy.mechanics.planes.ascent import climb
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.circle import circle_stress
-from swtstudy.mechanics.stress.history import History
+from swtstudy.mechanics.stress.history import History, circle_stress
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md): nothing is computed there. 0.45: no

@@ -1,7 +1,8 @@
-"""Two harmonic loads (eqs. 7, 8) and their common period.
+"""Two harmonic loads (eqs. 7, 8) and their common period, and the loads of parameter points.
 
 φ = ω1 t/q for ω2/ω1 = p/q in lowest terms. With displacements prescribed the normal load is the indentation
-depth δ/δ0, and the tangential load is G* u/(μ E* δ0).
+depth δ/δ0, and the tangential load is G* u/(μ E* δ0). Phases that differ may give the same s, and points may
+share one load or be solved together.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from swtstudy.mechanics.load.harmonic_sum import even_instants
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import FloatArray, IntArray, Points
 
 #: Amplitudes below this do not move the normal load at all: they are lost beside 1.
 NO_AMPLITUDE = 1e-300
@@ -191,3 +192,108 @@ def _turning_points_of_slip_line(load: BimodalLoad, sign: float) -> FloatArray:
 
     roots = monotone_roots(rate, np.zeros(len(row)), Brackets.of(rate, low, high))
     return filled_rows(row, np.mod(roots, PERIOD), len(load), PERIOD)
+
+
+def without_what_stands_still(
+    constant: NDArray[np.bool_], phase: FloatArray, p: IntArray, q: IntArray
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Phase and ω2/ω1 = p/q, each (n,): 0 and 1 for a constant normal load, which has neither."""
+    return np.where(constant, 0.0, phase), np.where(constant, 1, p), np.where(constant, 1, q)
+
+
+def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
+
+    Shifting time by π/ω2 flips u and mirrors x.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    p, q
+        Shape (n,), ω2/ω1 = p/q in lowest terms.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
+    """
+    period = np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p
+    turns = np.floor(phase / period + 1e-12)
+    folded = np.maximum(phase - turns * period, 0.0)
+    mirrored = (q % 2 == 1) & (turns % 2 == 1)
+    return folded, mirrored
+
+
+def fold_bulk_phase(
+    phase: FloatArray,
+    moves: NDArray[np.bool_],
+    mirrored: NDArray[np.bool_],
+    both_ways: NDArray[np.bool_],
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Fold ψ_B of bulk stresses that oscillate with the tangential load, once ψ is folded.
+
+    Mirroring x leaves a bulk stress as it is, but the shift of time by π/ω2 that flips u flips its
+    oscillation, too.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    moves
+        Shape (n,): whether the bulk stress oscillates; elsewhere it has no phase.
+    mirrored
+        Shape (n,): where `fold_phase` mirrors x.
+    both_ways
+        Shape (n,): whether that shift of time leaves ψ as it is, so that ψ_B + π mirrors x.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent ψ_B in [0, π) or [0, 2π), and whether x is mirrored by both folds together.
+    """
+    phase = phase + np.where(mirrored, np.pi, 0.0)
+    period = np.where(both_ways, 1.0, 2.0) * np.pi
+    turns = np.floor(phase / period + 1e-12)
+    folded = np.maximum(phase - turns * period, 0.0)
+    return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & (turns % 2 == 1))
+
+
+def load_of(points: Points) -> Load:
+    """The loads (eqs. 7, 8) of points that are alike, see `alike`."""
+    if points.path is not None:
+        return points.path.loads(points.normal_amplitude, points.tangential_amplitude)
+    of_load = points.normal_amplitude, points.tangential_amplitude, points.phase
+    return BimodalLoad(*of_load, int(points.p[0]), int(points.q[0]))
+
+
+def alike(points: Points) -> list[NDArray[np.intp]]:
+    """Indices of points whose loads are one `Load`; within each, points with the same load are neighbours."""
+    if not len(points):
+        return []
+    of_load = points.phase, points.tangential_amplitude, points.normal_amplitude
+    order = np.lexsort((*of_load, points.p, points.q))
+    ratio = np.stack([points.p, points.q])[:, order]
+    return np.split(order, np.flatnonzero((np.diff(ratio, axis=1) != 0).any(axis=0)) + 1)
+
+
+def largest_normal(points: Points) -> FloatArray:
+    """The largest normal load of each point, shape (n,)."""
+    largest = np.empty(len(points))
+    for index in alike(points):
+        largest[index] = load_of(points.take(index)).largest_normal
+    return largest
+
+
+def largest_turn_count(points: Points) -> int:
+    """Largest number of turning instants that the load of points with equal shared columns can have."""
+    if points.path is not None:
+        return points.path.turn_count
+    return 6 * int(max(points.p[0], points.q[0]))
+
+
+def shared_load(points: Points) -> tuple[Load, NDArray[np.intp]]:
+    """The distinct loads of points that are alike, and which of them each point has."""
+    table = np.stack([points.normal_amplitude, points.tangential_amplitude, points.phase], axis=1)
+    _, first, number = np.unique(table, axis=0, return_index=True, return_inverse=True)
+    return load_of(points.take(first)), number.reshape(-1)

@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.loop import FINITE, LARGEST, Loop, checked_mean, checked_name, mean_of
+from swtstudy.mechanics.load.load import FINITE, LARGEST, Load, Loop, checked_mean, checked_name, mean_of
 from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
-from swtstudy.mechanics.load.smooth_path import SmoothPath, sampled
+from swtstudy.mechanics.load.smooth import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.numbers import read_numbers
 
 #: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000

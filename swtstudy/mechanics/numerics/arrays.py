@@ -1,11 +1,14 @@
-"""Many short rows: look-ups along the last axis, ragged rows as one array, and axes that match.
+"""Arrays of many short rows: look-ups, ragged rows as one, matching axes; places and directions that spread.
 
-The look-ups are much faster than `numpy.take_along_axis`.
+The look-ups are much faster than `numpy.take_along_axis`. Cosine-spaced places are dense at both ends, where
+functions may begin like square roots; of plane normals n and −n are one plane, so that half a sphere holds
+all.
 """
 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
@@ -188,3 +191,31 @@ def distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     number = np.empty(values.shape, dtype=np.intp)
     np.put_along_axis(number, order, np.cumsum(new, axis=1) - 1, axis=1)
     return packed(new, ascending)[0], number
+
+
+def between(low: FloatArray, high: FloatArray, angle: FloatArray) -> FloatArray:
+    """Places between ``low`` (α = 0) and ``high`` (α = π) at the angle α."""
+    return low + (high - low) * (0.5 - 0.5 * np.cos(angle))
+
+
+@lru_cache(maxsize=4)
+def hemisphere(planes: int) -> FloatArray:
+    """Unit normals on a Fibonacci spiral over the half sphere z > 0.
+
+    Parameters
+    ----------
+    planes
+        Number of planes n; their spacing is about √(2π/n) rad.
+
+    Returns
+    -------
+    normals
+        Shape (n, 3); no two are the same plane.
+    """
+    index = np.arange(planes)
+    z = 1.0 - (index + 0.5) / planes
+    angle = index * np.pi * (3.0 - np.sqrt(5.0))
+    radius = np.sqrt(1.0 - z**2)
+    normals = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=-1)
+    normals.flags.writeable = False
+    return normals

@@ -1,8 +1,10 @@
-"""A criterion: an increasing function f(T, a) of a plane's largest tension and the amplitude of its swing.
+"""Criteria: increasing functions f(T, a) of a plane's largest tension and the amplitude of its swing.
 
-Both are made of curves over the cycle that are linear in the stress. The tension is σ_n, and T its maximum.
-The swing is the normal strain or the shear stress (`swtstudy.mechanics.planes.swing.Swing`), and a is half
-the sum of the maxima of the swing and of its negative. So three maxima over the cycle make the value.
+They are the Smith–Watson–Topper parameter (eq. 9), Walker's with its exponent, and those of shear by Fatemi
+and Socie and by Findley. Both T and a are made of curves over the cycle that are linear in the stress. The
+tension is σ_n, and T its maximum. The swing is the normal strain or the shear stress
+(`swtstudy.mechanics.planes.swing.Swing`), and a is half the sum of the maxima of the swing and of its
+negative. So three maxima over the cycle make the value.
 
 What the searches over places, planes and instants need of a criterion, and all they need:
 
@@ -29,9 +31,8 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from swtstudy.mechanics.planes.swing import Swing
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS, Swing
+from swtstudy.mechanics.points import FloatArray, Points, Rows
 
 #: Values and two derivatives, each of the same shape.
 Jet = tuple[FloatArray, FloatArray, FloatArray]
@@ -142,3 +143,173 @@ class Criterion(Rows, ABC):
         plane
             Whether in plane strain.
         """
+
+
+#: γ of the Smith–Watson–Topper parameter.
+SWT_EXPONENT = 0.5
+#: Amplitudes below this are none: what is divided by it has a finite square.
+NO_AMPLITUDE = 1e-100
+
+
+@dataclass(frozen=True)
+class Swt(Criterion):
+    """swt, the largest σ_n times the amplitude of ε_n, 0 where the plane never is in tension.
+
+    With Walker's exponent γ it is σ_n^(2 − 2γ) (E ε_n)^(2γ)/E, whose γ = 1/2 is swt.
+
+    Attributes
+    ----------
+    exponent
+        γ in (0, 1); None where it is 1/2 everywhere.
+    modulus
+        E in the unit of stress over that of strain; None with the exponent.
+    """
+
+    exponent: FloatArray | None = None
+    modulus: FloatArray | None = None
+
+    name: ClassVar[str] = "swt"
+    words: ClassVar[str] = "Smith–Watson–Topper parameter"
+    symbol: ClassVar[str] = "swt"
+    degree: ClassVar[int] = 2
+    swing: ClassVar[Swing] = NORMAL_STRAIN
+    needs_tension: ClassVar[bool] = True
+    knows_sharp_edge: ClassVar[bool] = True
+
+    @classmethod
+    def of(cls, exponent: FloatArray, modulus: FloatArray) -> Swt:
+        """With exponents γ and moduli E of one shape."""
+        return cls() if np.all(exponent == SWT_EXPONENT) else cls(exponent, modulus)
+
+    def value(self, tension: FloatArray, amplitude: FloatArray) -> FloatArray:
+        tension = np.maximum(tension, 0.0)
+        if self.exponent is None or self.modulus is None:
+            return np.asarray(tension * amplitude)
+        γ, E = self.exponent, self.modulus
+        swing = np.maximum(E * amplitude, 0.0)
+        return np.asarray(tension ** (2.0 - 2.0 * γ) * swing ** (2.0 * γ) / E)
+
+    def partials(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, ...]:
+        α, β = self.powers(tension, amplitude)
+        T, a, f = tension, np.maximum(amplitude, NO_AMPLITUDE), self.value(tension, amplitude)
+        return α * f / T, β * f / a, α * (α - 1.0) * f / T**2, α * β * f / (T * a), β * (β - 1.0) * f / a**2
+
+    def derivatives(self, tension: Jet, amplitude: Jet) -> tuple[FloatArray, FloatArray]:
+        (f, df, ddf), (g, dg, ddg) = tension, amplitude
+        if self.exponent is None:
+            return df * g + f * dg, ddf * g + 2.0 * df * dg + f * ddg
+        # σ_n times a power κ of ε_n has its maxima there, too: f g^κ, over g^(κ − 1).
+        κ = self.exponent / (1.0 - self.exponent)
+        g = np.maximum(g, NO_AMPLITUDE)
+        slope = df * g + κ * f * dg
+        return slope, ddf * g + κ * (2.0 * df * dg + f * ((κ - 1.0) * dg * dg / g + ddg))
+
+    def log_derivatives(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, FloatArray]:
+        f, g = (jet[:, 1:] / jet[:, :1] for jet in (tension, amplitude))
+        # Of ln f the second derivative is f″/f − (f′/f)².
+        square = [a[:, [0, 1, 0]] * a[:, [0, 1, 1]] for a in (f, g)]
+        if self.exponent is None:
+            return f[:, :2] + g[:, :2], square[0] + square[1] - f[:, 2:] - g[:, 2:]
+        β = 2.0 * self.exponent[:, None]
+        α = 2.0 - β
+        slope = α * f[:, :2] + β * g[:, :2]
+        return slope, α * (square[0] - f[:, 2:]) + β * (square[1] - g[:, 2:])
+
+    def powers(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, FloatArray]:
+        β = np.asarray(2.0 * SWT_EXPONENT if self.exponent is None else 2.0 * self.exponent)
+        return np.asarray(2.0 - β), β
+
+    def far_field(
+        self, largest: FloatArray, amplitude: FloatArray, poisson_ratio: FloatArray, plane: bool
+    ) -> tuple[FloatArray, FloatArray]:
+        """On the x-normal."""
+        if not plane:
+            amplitude = amplitude / (1.0 - poisson_ratio**2)
+        return self.value(largest, amplitude), np.zeros_like(largest)
+
+
+#: γ = 1/2.
+SWT = Swt()
+
+
+@dataclass(frozen=True)
+class ShearCriterion(Criterion):
+    """An amplitude of the shear stress, raised by the largest σ_n.
+
+    Attributes
+    ----------
+    sensitivity
+        How much by.
+    """
+
+    sensitivity: FloatArray
+
+    degree: ClassVar[int] = 1
+    swing: ClassVar[Swing] = SHEAR_STRESS
+    needs_tension: ClassVar[bool] = False
+    knows_sharp_edge: ClassVar[bool] = False
+
+
+@dataclass(frozen=True)
+class FatemiSocie(ShearCriterion):
+    """γ_a G (1 + κ σ_n⁺), γ_a G being the amplitude of τ; κ over the unit of the stress."""
+
+    name: ClassVar[str] = "fatemi_socie"
+    words: ClassVar[str] = "Fatemi–Socie parameter"
+    symbol: ClassVar[str] = r"\mathrm{FS}"
+
+    def value(self, tension: FloatArray, amplitude: FloatArray) -> FloatArray:
+        return np.asarray(amplitude * (1.0 + self.sensitivity * np.maximum(tension, 0.0)))
+
+    def partials(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, ...]:
+        slope = self.sensitivity * (tension > 0.0)
+        zero = np.zeros_like(tension)
+        return amplitude * slope, 1.0 + slope * tension, zero, slope + zero, zero
+
+    def far_field(
+        self, largest: FloatArray, amplitude: FloatArray, poisson_ratio: FloatArray, plane: bool
+    ) -> tuple[FloatArray, FloatArray]:
+        # sin 2θ (1 + m + m cos 2θ) is largest where its derivative, a quadratic form of the cosine, vanishes.
+        m = 0.5 * self.sensitivity * np.maximum(largest, 0.0)
+        cosine = 2.0 * m / (1.0 + m + np.sqrt((1.0 + m) ** 2 + 8.0 * m**2))
+        tension, swing = 0.5 * largest * (1.0 + cosine), 0.5 * amplitude * np.sqrt(1.0 - cosine**2)
+        return self.value(tension, swing), np.arccos(cosine)
+
+
+@dataclass(frozen=True)
+class Findley(ShearCriterion):
+    """τ_a + k max σ_n, and 0 where that is negative."""
+
+    name: ClassVar[str] = "findley"
+    words: ClassVar[str] = "Findley stress"
+    symbol: ClassVar[str] = "f"
+
+    def value(self, tension: FloatArray, amplitude: FloatArray) -> FloatArray:
+        return np.maximum(amplitude + self.sensitivity * tension, 0.0)
+
+    def partials(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, ...]:
+        zero = np.zeros_like(tension)
+        return self.sensitivity + zero, 1.0 + zero, zero, zero, zero
+
+    def far_field(
+        self, largest: FloatArray, amplitude: FloatArray, poisson_ratio: FloatArray, plane: bool
+    ) -> tuple[FloatArray, FloatArray]:
+        pull = self.sensitivity * largest
+        return 0.5 * (pull + np.hypot(amplitude, pull)), np.arctan2(amplitude, pull)
+
+
+def _swt(points: Points) -> Criterion:
+    return Swt.of(points.walker_exponent, 1.0 - points.poisson_ratio**2)
+
+
+#: What makes the criterion of points, by its name.
+CRITERIA: dict[str, Callable[[Points], Criterion]] = {
+    Swt.name: _swt,
+    FatemiSocie.name: lambda points: FatemiSocie(points.normal_sensitivity),
+    Findley.name: lambda points: Findley(points.normal_sensitivity),
+}
+
+
+def criterion_of(points: Points) -> Criterion:
+    """The criterion of n points, shape (n,)."""
+    return CRITERIA[points.criterion](points)

@@ -12,12 +12,12 @@ from typing import ClassVar
 
 import numpy as np
 
-from swtstudy.mechanics.planes.hooke import strain_history
 from swtstudy.mechanics.planes.weights import (
     apply_jets,
     bilinear_weights,
     normal_weights,
     squared,
+    strain_history,
     tangent_basis,
 )
 from swtstudy.mechanics.points import FloatArray

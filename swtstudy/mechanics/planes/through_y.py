@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
-from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.planes.swt import SWT
+from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.points import FloatArray
 
 #: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.

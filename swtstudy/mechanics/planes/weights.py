@@ -1,10 +1,27 @@
-"""Weights with which the six components of a tensor make linear functionals of it on a plane."""
+"""Weights with which the six components of a tensor make linear functionals of it; Hooke's law."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
+
+
+def strain_history(
+    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+) -> FloatArray:
+    """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
+
+    Parameters
+    ----------
+    stress
+        Shape (..., 6).
+    poisson_ratio, young_modulus
+        ν, E; ν may be an array that can be broadcast to (..., 1).
+    """
+    strain = (1.0 + poisson_ratio) * stress
+    strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)
+    return strain / young_modulus
 
 
 def normal_weights(normal: FloatArray) -> FloatArray:

@@ -12,12 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.load.loop import BulkCourse
+from swtstudy.mechanics.load.load import PERIOD, BulkCourse
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import FloatArray, Points, Rows
 
 
 class BulkStress(Rows, ABC):

@@ -17,14 +17,13 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.events.nodes import Nodes
+from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.numerics.arrays import distinct, gather
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
-from swtstudy.mechanics.stress.passing import COORDINATE, Passing
+from swtstudy.mechanics.stress.tip import COORDINATE, Passing
 
 #: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
 OUTSIDE = 1.1

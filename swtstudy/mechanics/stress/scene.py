@@ -4,24 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from swtstudy.mechanics.contact.cycle import Cycle
-from swtstudy.mechanics.contact.march import solve_cycle
+from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.control.diagram import diagram
-from swtstudy.mechanics.events.passages import split_at, split_at_breakpoints
+from swtstudy.mechanics.events.stretches import split_at, split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.load.bimodal import load_of
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.load.of_points import load_of
-from swtstudy.mechanics.planes.criteria import criterion_of
-from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.planes.swt import SWT
+from swtstudy.mechanics.planes.criterion import SWT, Criterion, criterion_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.rows import Rows
+from swtstudy.mechanics.points import FloatArray, Points, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
-from swtstudy.vocabulary.prescribed import Control
+from swtstudy.vocabulary.parameters import Control
 
 
 @dataclass(frozen=True)

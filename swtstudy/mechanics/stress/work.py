@@ -1,15 +1,188 @@
-"""Quantities of a whole cycle: dissipated work, largest force ratio, radii."""
+"""Quantities of a whole cycle, such as its work, and the tangential component that is not prescribed.
+
+That is the force of a displacement, or the way of a force. Both are integrals over the memory diagram: ∫ o′
+dC over the other coordinate C of the contact radius, on lines by its values at their ends. On growths o′ dC =
+Ṫ/Ṅ dC is integrated over the time of touch-down, where nothing is singular. In the plane the way is known but
+for a constant share of the force.
+"""
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
-from swtstudy.mechanics.contact.stick_zone import stick_coordinate
-from swtstudy.mechanics.numerics.cosine import between
-from swtstudy.mechanics.numerics.peaks import parabola
+import numpy as np
+from numpy.typing import NDArray
+
+from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.memory import GROWTH, Memory
+from swtstudy.mechanics.contact.slip_front import stick_coordinate
+from swtstudy.mechanics.control.coordinate import (
+    Coordinate,
+    DepthCoordinate,
+    ForceCoordinate,
+    StripDisplacement,
+)
+from swtstudy.mechanics.control.normal_map import LEAST_RADIUS
+from swtstudy.mechanics.events.stretches import split_at_breakpoints
+from swtstudy.mechanics.indenter.plane import PlaneProfile
+from swtstudy.mechanics.load.load import PERIOD
+from swtstudy.mechanics.numerics.arrays import between
+from swtstudy.mechanics.numerics.roots import parabola
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.conjugate import Conjugate
 from swtstudy.mechanics.stress.scene import Scene
+
+#: Digits for which growths on a wavy profile have more nodes. Other digits: 3e-11 of the work.
+DIGITS = 16.0
+#: Cycles times intervals times instants times pieces or nodes that are looked at together: some 100 MB.
+LARGEST_SIZE = 2_000_000
+
+
+@dataclass(frozen=True)
+class Conjugate:
+    """The tangential component that is not prescribed.
+
+    Attributes
+    ----------
+    cycle
+        n cycles, cut where the front passes breakpoints.
+    coordinate, other
+        The coordinate of their diagrams and the other one.
+    by_force
+        Whether the tangential force is prescribed.
+    unit
+        Shape (n,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
+    nodes
+        Gauss nodes for each growth on a smooth profile.
+    """
+
+    cycle: Cycle
+    coordinate: Coordinate
+    other: Coordinate | StripDisplacement
+    by_force: bool
+    unit: FloatArray
+    nodes: int
+
+    @classmethod
+    def of(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
+        """Over as much of the cycles of a scene as is no mirror image of the rest: all, or the first half."""
+        cycle = split_at_breakpoints(scene.cycle)
+        if cycle.load.mirrored_half:
+            half = cycle.first_half()
+            cycle = replace(half, end=np.minimum(half.end, 0.5 * PERIOD))
+        return replace(cls.whole(scene, unit, nodes), cycle=cycle)
+
+    @classmethod
+    def whole(cls, scene: Scene, unit: FloatArray, nodes: int) -> Conjugate:
+        """Over the cycles of a scene, in their intervals."""
+        by_force = isinstance(scene.coordinate, ForceCoordinate)
+        other: Coordinate | StripDisplacement
+        if isinstance(scene.profile, PlaneProfile):
+            other = StripDisplacement(scene.profile)
+        else:
+            other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
+        return cls(scene.cycle, scene.coordinate, other, by_force, unit, nodes)
+
+    def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
+        """Return the tables at ``index``, with so many nodes."""
+        return replace(
+            self,
+            cycle=self.cycle.take(index),
+            coordinate=self.coordinate.take(index),
+            other=self.other.take(index),
+            unit=self.unit[index],
+            nodes=nodes,
+        )
+
+    def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Conjugate:
+        """Return the integrals at ``index`` over one interval each, arrays of shape (m,)."""
+        cycle = self.cycle.take_intervals(index, interval[:, None])
+        return replace(self.take(index, self.nodes), cycle=cycle)
+
+    def parts(self, count: int) -> Iterator[Conjugate]:
+        """These over some intervals at a time, in order, so many that ``count`` instants in each fit."""
+        n, intervals, pieces = self.cycle.memory.start.shape
+        # A front in a growth is integrated to with as many nodes.
+        size = n * intervals * count * max(pieces, self.nodes)
+        if size <= LARGEST_SIZE:
+            yield self
+            return
+        every = np.arange(n)
+        for some in np.array_split(np.arange(intervals), min(-(-size // LARGEST_SIZE), intervals)):
+            chosen = np.broadcast_to(some, (n, some.size))
+            yield replace(self, cycle=self.cycle.take_intervals(every, chosen))
+
+    def at(self, instant: FloatArray) -> FloatArray:
+        """The component at instants of shape (n, i, k), over μ F_0 or μ E* δ0/G*."""
+        interval = np.arange(self.cycle.memory.start.shape[1])[:, None]
+        states = self.cycle.states(interval, instant)
+        front, edge = self._other(states.front), self._other(states.edge)
+        return self._up_to(states.front, states.piece) + states.sign * (edge - front)
+
+    def offset(self, coordinate: FloatArray) -> FloatArray:
+        """Offset of the springs at coordinates inside of the front, (n, i, k): ∫ o′ dC over the other one."""
+        start = self.cycle.memory.start[:, :, None]
+        piece = np.maximum((start <= coordinate[..., None]).sum(axis=-1) - 1, 0)
+        return self._up_to(coordinate, piece)
+
+    def normal_force(self, normal: FloatArray) -> FloatArray:
+        """The normal force over F_0 at normal loads of the diagram, shape (n, …)."""
+        return normal if self.by_force else self._other(normal)
+
+    def rule(self) -> tuple[FloatArray, FloatArray]:
+        """Nodes and weights of Gauss's rule on [−1, 1]."""
+        node, weight = np.polynomial.legendre.leggauss(
+            self.nodes + 2 * self.other.profile.extra_nodes(DIGITS)
+        )
+        return node, weight
+
+    def _up_to(self, coordinate: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+        """∫ o′ dC up to coordinates in pieces of the memory, each of shape (n, i, k)."""
+        memory, shape = self.cycle.memory, coordinate.shape
+        row = np.broadcast_to(np.arange(shape[0])[:, None, None], shape)
+        interval = np.broadcast_to(np.arange(shape[1])[:, None], shape)
+        pieces = memory.take((row, interval, piece))
+        return self._inside()[row, interval, piece] + self._integral(row, pieces, coordinate)
+
+    def _inside(self) -> FloatArray:
+        """∫ o′ dC up to the start of each piece of the memory, shape (n, i, d)."""
+        memory = self.cycle.memory
+        row = np.broadcast_to(np.arange(len(memory.start))[:, None, None], memory.start.shape)[..., 1:]
+        every = slice(None)
+        first, end = memory.take((every, every, slice(-1))), memory.start[..., 1:]
+        inside = np.zeros_like(memory.start)
+        part = self._integral(row, first, np.where(np.isfinite(end), end, first.start))
+        np.cumsum(part, axis=-1, out=inside[..., 1:])
+        return inside
+
+    def _integral(self, row: NDArray[np.intp], pieces: Memory, end: FloatArray) -> FloatArray:
+        """∫ o′ dC over pieces of the cycles number ``row`` up to a coordinate."""
+        finite = np.isfinite(pieces.start)
+        start = np.where(finite, pieces.start, 0.0)
+        end = np.where(finite, np.maximum(end, start), 0.0)
+        grown = (pieces.slope == GROWTH) & (end > start)
+        slope = np.where(pieces.slope == GROWTH, 0.0, pieces.slope)
+        result = slope * (self._other(end) - self._other(start))
+        if np.any(grown):
+            index, branch = row[grown], pieces.branch[grown]
+            load, coordinate = self.cycle.load.take(index), self.coordinate.take(index)
+            first, last = (load.touch_down(ends[grown], branch) for ends in (start, end))
+            node, weight = self.rule()
+            instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * node)
+            radius = np.maximum(coordinate.radius(load.normal(instant)), LEAST_RADIUS)
+            rate = load.tangential_rate(instant) * self._stiffness(radius, self.unit[index, None])
+            result[grown] = 0.5 * (last - first) * (rate * weight).sum(axis=1)
+        return result
+
+    def _stiffness(self, radius: FloatArray, unit: FloatArray) -> FloatArray:
+        """Derivative of the other coordinate by that of the diagram."""
+        if isinstance(self.other, StripDisplacement):
+            return self.other.compliance(radius)
+        return unit / radius if self.by_force else radius / unit
+
+    def _other(self, coordinate: FloatArray) -> FloatArray:
+        return self.other.of(self.coordinate.radius(coordinate))
+
 
 #: Gauss nodes for each growth and interval, doubled until the error claimed is no more than this share of the
 #: work: at most 2e-6 of it is wrong then at 320 points, and as a rule nothing.
@@ -38,7 +211,7 @@ def dissipated_work(scene: Scene, unit: FloatArray) -> tuple[FloatArray, FloatAr
     scene
         n points.
     unit
-        Shape (n,), see `swtstudy.mechanics.control.force.unit_half_load`.
+        Shape (n,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
 
     Returns
     -------

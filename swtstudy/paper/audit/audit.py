@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swtstudy.study.definition import Study, require_study
-from swtstudy.study.sampling.drawn import drawn_rows
+from swtstudy.study.sample import drawn_rows
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -64,9 +64,9 @@ def audit_study(
         If the file exists but holds no audit, or ``study`` is not a Study.
     """
     require_study(study)
-    from swtstudy.archive.write import save
+    from swtstudy.archive.netcdf import save
     from swtstudy.paper.audit.point import audit_point
-    from swtstudy.paper.audit.table import audit_dataset, audited_points, open_audit
+    from swtstudy.paper.audit.report import audit_dataset, audited_points, open_audit
     from swtstudy.runner.workers import start_workers
 
     rows, definitions = drawn_rows(study.grid, points, seed), study.grid.definitions

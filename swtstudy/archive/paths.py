@@ -1,0 +1,160 @@
+"""Paths of archives: names that they can have, a lock that allows one run at a time, and files that are none.
+
+Names are checked before anything is computed.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+
+from swtstudy.vocabulary.mistakes import Mistake, Report
+
+try:
+    import fcntl
+except ImportError:  # Windows: without a lock, the later of two runs wins, still with a complete archive
+    fcntl = None  # type: ignore[assignment]
+
+
+class ArchiveError(ValueError):
+    """A file that is not an archive of a study, or a damaged one."""
+
+
+#: Bytes to spare: the longest name made from ``name.nc`` is ``.name-12345678.png``, of an unfinished figure.
+_ADDED = 11
+
+#: Longest name in bytes where the file system does not report it.
+_LONGEST_NAME = 255
+
+
+def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: str = "") -> dict[str, Path]:
+    """Paths of the archives of study files, by study file.
+
+    Raises
+    ------
+    StudyError
+        With every path that no archive can have.
+    """
+    paths = {study: Path(folder) / f"{prefix}{Path(study).stem}.nc" for study in studies}
+    report = Report()
+    for path in paths.values():
+        _check(path, report)
+    existing = _existing(Path(folder))
+    if not existing.is_dir():
+        report.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
+    report.refuse()
+    return paths
+
+
+def check_archive_path(path: Path) -> None:
+    """Raise a StudyError, a ValueError, for a path that no archive can have."""
+    _check(path, report := Report())
+    report.refuse()
+
+
+def _check(path: Path, report: Report) -> None:
+    whole = path.absolute()
+    found = []
+    try:
+        str(whole).encode()
+    except UnicodeEncodeError:
+        found.append(("bytes that are not UTF-8", "a path in UTF-8"))
+    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
+    if any("\\" in part for part in whole.parts[1:]):
+        found.append(("a backslash", "a path without one"))
+    if "\0" in str(whole):
+        found.append(("a null character", "a path without one"))
+    if not found:
+        longest = _longest_name(_existing(path.parent)) - _ADDED
+        length = len(os.fsencode(path.name))
+        if length > longest:
+            found.append((f"a name of {length} bytes", f"at most {longest}"))
+    report += [Mistake("", *parts, str(path)) for parts in found]
+
+
+def _existing(folder: Path) -> Path:
+    """The folder, or the nearest existing one above it."""
+    absolute = folder.absolute()
+    return next(each for each in (absolute, *absolute.parents) if each.exists())
+
+
+def _longest_name(folder: Path) -> int:
+    try:
+        return os.pathconf(folder, "PC_NAME_MAX")
+    except (AttributeError, OSError, ValueError):
+        return _LONGEST_NAME
+
+
+class LockedError(OSError):
+    """An archive that another process is writing."""
+
+
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold the lock of a folder, which is created if needed, and removed at the end if nothing else is in it.
+
+    The lock is the kernel's: it ends with the process, however that ends.
+
+    Raises
+    ------
+    LockedError
+        If another process holds it; the message says which.
+    """
+    refuse_link(folder)
+    path = folder / "lock"
+    handle = _acquire(path)
+    try:
+        os.truncate(handle, 0)
+        os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
+        yield
+    finally:
+        # Removed while held: whoever opened it in the meantime will find another file under its name.
+        if list(folder.iterdir()) == [path]:
+            path.unlink()
+            folder.rmdir()
+        os.close(handle)
+
+
+def refuse_link(folder: Path) -> None:
+    """Raise an OSError if a folder of ours is a link: what it points to is not ours to clear."""
+    if folder.is_symlink():
+        raise OSError(f"{folder} is a link; allowed: a folder that swtstudy makes")
+
+
+def is_locked(path: Path) -> bool:
+    """Return whether a program has a file open for writing: HDF5 then holds a lock on it."""
+    if fcntl is None:
+        return False
+    try:
+        with open(path, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        return False  # not even readable
+    return False
+
+
+def _acquire(path: Path) -> int:
+    while True:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        except FileNotFoundError:
+            continue  # the folder was removed in between
+        if fcntl is None:
+            return handle
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            holder = os.read(handle, 200).decode(errors="replace") or "another process"
+            os.close(handle)
+            target = path.parent.with_suffix("")
+            raise LockedError(f"{target} is being written by {holder}; wait until it has finished") from None
+        if path.exists() and os.stat(path).st_ino == os.fstat(handle).st_ino:
+            return handle
+        os.close(handle)

@@ -1,0 +1,176 @@
+"""Commands that say what matters, and check: sensitivity, fit, check and audit."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import click
+
+from swtstudy.cli.options import examples, study_completion, with_width
+
+
+@click.command(epilog=examples("swtstudy sensitivity sensitivity"))
+@click.argument("study", shell_complete=study_completion)
+@click.option(
+    "--y", multiple=True, default=("s",), show_default=True, help="A data variable; repeat for more."
+)
+@click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the bootstrap.")
+@click.option(
+    "--results", default="results", show_default=True, help="Folder for archive, indices and figure."
+)
+@with_width
+@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+def sensitivity(
+    study: str, y: tuple[str, ...], confidence: float, seed: int, results: str, width: Any, workers: int
+) -> None:
+    """Show which sampled parameters of STUDY matter: Sobol indices.
+
+    The sample of STUDY has the design "saltelli". Points that are not computed yet are computed as
+    by swtstudy run. Writes a table, a bar chart, and the indices as netCDF, beside the archive:
+    NAME_indices.
+    """
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.study.definition import read_studies
+    from swtstudy.vocabulary.files import check_writable, write_text
+
+    defined = read_studies([study])
+    if len(defined) > 1:
+        raise ValueError(f"{study}: found {len(defined)} studies; allowed: one")
+    (source, one), *_ = defined.items()
+    design = one.sample.design if one.sample else None
+    if design is None or design.name != "saltelli":
+        found = f"the design {design.name}" if design else "no design"
+        raise ValueError(
+            f'{source}: sample.design: found {found}; allowed: "saltelli": Sobol indices need its points'
+        )
+    target = archive_paths(defined, results)[source]
+    targets = {end: target.with_name(f"{target.stem}_indices{end}") for end in (".nc", ".md", ".png")}
+    for path in (target, *targets.values()):
+        check_writable(path)
+
+    from swtstudy.archive.netcdf import save
+    from swtstudy.figures.evaluated import draw_sensitivity
+    from swtstudy.figures.style import save_figure
+    from swtstudy.paper.statements.parameters import table
+    from swtstudy.results.sensitivity import sensitivity as indices_of
+    from swtstudy.runner.run import run
+    from swtstudy.study.shipped import shipped_studies
+
+    indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
+    text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
+    save(indices, targets[".nc"])
+    write_text(targets[".md"], text)
+    save_figure(draw_sensitivity(indices, width=width), targets[".png"])
+    click.echo(text)
+    for path in (target, *targets.values()):
+        click.echo(str(path))
+
+
+@click.command(epilog=examples("swtstudy fit rig.toml tests.csv"))
+@click.argument("study")
+@click.argument("tests")
+@click.option(
+    "--y", default="cycles_volume", show_default=True, help="Which lives: cycles_volume, _point or _line."
+)
+@click.option("--friction", is_flag=True, help="Fit friction, too.")
+@click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
+@click.option("--results", default="results", show_default=True, help="Folder for the fit and its figure.")
+@with_width
+def fit(study: str, tests: str, y: str, friction: bool, confidence: float, results: str, width: Any) -> None:
+    """Fit the critical distance, and friction, to the lives of TESTS.
+
+    STUDY is a study file with units and the constants of the material: what all tests have in common. TESTS
+    is a CSV file with a row for each test: parameters, in the units of the study, and life, the rounds to a
+    crack. Least squares of the logarithms of predicted over observed lives. Writes the fit as netCDF and the
+    figure of predicted over observed lives: NAME_fit.
+    """
+    from swtstudy.archive.netcdf import save
+    from swtstudy.figures.evaluated import draw_fit, fit_lines
+    from swtstudy.figures.style import save_figure
+    from swtstudy.results.fitting import fit as fitted_to
+    from swtstudy.vocabulary.files import check_writable
+
+    targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
+    for path in targets.values():
+        check_writable(path)
+    found = fitted_to(study, tests, y=y, friction=friction, confidence=confidence)
+    save(found, targets[".nc"])
+    save_figure(draw_fit(found, width=width), targets[".png"])
+    for line in fit_lines(found):
+        click.echo(line)
+    for path in targets.values():
+        click.echo(str(path))
+
+
+#: Commands that make everything to be checked: the audit is not part of the suite.
+EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"
+
+
+@click.command(epilog=examples(f"{EVERYTHING} && swtstudy check"))
+@click.option("--results", default="results", show_default=True, help="Folder with the archives.")
+@click.option("--output", "-o", help="Markdown file for the table; by default statements.md in that folder.")
+def check(results: str, output: str | None) -> None:
+    """Test what the paper says on the archives of its studies.
+
+    Prints a table of the statements with what was measured, and writes it to a Markdown file. The exit code
+    is 0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing
+    or have gaps.
+    """
+    from swtstudy.paper.statements.check import check as check_statements
+    from swtstudy.paper.statements.check import markdown, summary, terminal_table
+    from swtstudy.vocabulary.files import check_writable, write_text
+
+    target = Path(output) if output else Path(results) / "statements.md"
+    outcomes = check_statements(results)
+    checked = [outcome for outcome in outcomes if outcome.finding is not None]
+    click.echo(terminal_table(checked, shutil.get_terminal_size((120, 24)).columns))
+    click.echo(summary(outcomes))
+    problems = dict.fromkeys(
+        line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
+    )
+    if problems:
+        raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
+    check_writable(target)
+    write_text(target, markdown(outcomes))
+    click.echo(str(target))
+
+
+@click.command(epilog=examples("swtstudy audit figure3 --points 100"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+@click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
+@click.option("--seed", default=0, show_default=True, help="Seed of the random numbers.")
+@click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
+@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+@click.option(
+    "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
+)
+def audit(studies: tuple[str, ...], points: int, seed: int, results: str, workers: int, dense: bool) -> None:
+    """Solve random points of each STUDY in the whole body and on all planes.
+
+    Writes the audited points, and a report that says where the maximum is not on the surface line, where the
+    solver looks for s. Points already audited are not audited again.
+    """
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.paper.audit import AUDIT_PREFIX
+    from swtstudy.study.definition import read_studies
+    from swtstudy.vocabulary.files import check_writable, write_text
+
+    defined = read_studies(studies)
+    targets = archive_paths(defined, results, AUDIT_PREFIX)
+    for target in targets.values():
+        check_writable(target)
+
+    from swtstudy.paper.audit.audit import audit_study
+    from swtstudy.paper.audit.report import report
+
+    for source, study in defined.items():
+        target = targets[source]
+        with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
+            dataset = audit_study(study, target, points, seed, workers, dense, progress=bar.update)
+        text = report(dataset)
+        write_text(target.with_suffix(".md"), text)
+        click.echo(text)
+        click.echo(f"{target}\n{target.with_suffix('.md')}")

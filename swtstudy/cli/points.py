@@ -1,0 +1,236 @@
+"""Commands on single points: solve and show."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from swtstudy.cli.options import SEVERAL, InSections, examples, on_terminal, study_completion, with_width
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+_DISTANCE = QUANTITY_AXES[DISTANCE]
+
+
+#: Why there is no s in a regime.
+WHY = {
+    "not_finite": "s is infinite, since swt grows without bound towards the edge of the contact",
+    "no_equilibrium": "there is no s, since friction does not carry the force, or the normal force pulls",
+}
+
+
+def _short(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Decorate a command with one option for each parameter."""
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        for parameter in reversed(PARAMETERS.values()):
+            default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
+            words = "; ".join(
+                filter(None, (parameter.described, parameter.note, parameter.allowed + default))
+            )
+            option = f"--{parameter.name.replace('_', '-')}"
+            command = click.option(option, metavar=metavar, help=words)(command)
+        return command
+
+    return decorate
+
+
+@click.command(
+    cls=InSections,
+    epilog=examples(
+        "swtstudy solve --phase 0,pi/2",
+        "swtstudy solve --quantities dissipation,stick_radius --tangential-amplitude 0.2,0.4",
+        "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
+    ),
+)
+@with_parameters(SEVERAL)
+@click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
+@click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
+@click.option(
+    f"--{DISTANCE.replace('_', '-')}",
+    metavar=SEVERAL,
+    help=f"{_DISTANCE.described}, which are further columns; {_DISTANCE.allowed}",
+)
+def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
+    """Print s for single values or lists of parameters.
+
+    The columns are aligned on a terminal, and parted by tabs in a pipe or a file.
+
+    VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    """
+    from swtstudy.mechanics.points import REGIMES
+    from swtstudy.solving import solve as solve_grid
+
+    parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
+    asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
+    dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
+    dims = list(map(str, dataset.s.dims))
+    places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
+    columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
+    more = _more(dataset, columns)
+    lines = [[*dims, *columns, *more]]
+    rows = zip(*(dataset[name].values.ravel() for name in columns), *more.values(), strict=True)
+    for place, (s, error, surface, x, angle, regime, *others) in zip(places, rows, strict=True):
+        numbers = (
+            f"{s:.6f}",
+            f"{error:.1e}",
+            f"{surface:.6f}",
+            f"{x:z.5f}",
+            f"{angle:z.2f}",
+            REGIMES[int(regime)],
+            *(f"{value:.6g}" for value in others),
+        )
+        lines.append([*map(_short, place), *numbers])
+    for line in aligned(lines) if on_terminal() else map("\t".join, lines):
+        click.echo(line)
+    known = {REGIMES[int(regime)] for regime in dataset.regime.values.ravel()}
+    for name in known & WHY.keys():
+        click.echo(f"{name}: {WHY[name]}", err=True)
+
+
+def aligned(lines: list[list[str]]) -> list[str]:
+    """Lines whose columns are as wide as they need to be, words to the left and numbers to the right.
+
+    Examples
+    --------
+    >>> for line in aligned([["phase", "s"], ["0", "0.142857"], ["1.5708", "0.15"]]):
+    ...     print(line)
+     phase         s
+         0  0.142857
+    1.5708      0.15
+    """
+    columns = list(zip(*lines, strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    left = [column[-1][-1:].isalpha() and column[-1] != "nan" for column in columns]
+    return [
+        "  ".join(
+            f"{cell:{'<' if own else '>'}{width}}"
+            for cell, own, width in zip(line, left, widths, strict=True)
+        ).rstrip()
+        for line in lines
+    ]
+
+
+def _more(dataset: xr.Dataset, columns: tuple[str, ...]) -> dict[str, NDArray]:
+    """Further columns: a quantity with dimensions of its own has one for each place in them."""
+    found = {}
+    for name in (str(name) for name in dataset.data_vars if name not in columns):
+        own = [str(dim) for dim in dataset[name].dims if dim not in dataset.s.dims]
+        values = dataset[name].transpose(*dataset.s.dims, *own).values.reshape(dataset.s.size, -1)
+        places = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in own))
+        for place, column in zip(places, values.T, strict=True):
+            found[f"{name}[{','.join(place)}]" if own else name] = column
+    return found
+
+
+def _values(text: str) -> str | list[str]:
+    parts = [part.strip() for part in text.split(",")]
+    return parts if len(parts) > 1 else parts[0]
+
+
+@click.command(
+    cls=InSections,
+    epilog=examples(
+        "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
+        "swtstudy show --profile rounded_punch --flat-radius 0.5",
+        "swtstudy show --profile worn.csv",
+        "swtstudy show rig.toml --tangential-force-amplitude 60",
+        "swtstudy show rig.toml --profile worn.csv --smoothing 0.0002",
+        "swtstudy show --load square loops",
+    ),
+)
+@click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
+@with_parameters("VALUE")
+@click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Of that study.")
+@click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
+@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+@click.option(
+    "--smoothing", type=float, help="What the fit may miss of a profile that is a table; in its lengths."
+)
+@with_width
+def show(
+    study: str | None,
+    output: str,
+    style: str | None,
+    smoothing: float | None,
+    width: Any,
+    body: int,
+    **texts: str | None,
+) -> None:
+    """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
+
+    With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
+    CSV file with the columns radius and height, in a_H and δ0.
+
+    With a STUDY its contact is drawn in its units, with single values of what are axes there; with one of its
+    profiles or a CSV file alone, that profile in its lengths, pressed by the mean load; with the name of one
+    of its loads alone, that load: its course with the recorded cycles, its path, and how near friction comes
+    to its end.
+
+    The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
+
+    VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    """
+    values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    words = ""
+    if study is None:
+        figure = _point_or_profile(values, smoothing or 0.0, style, width)
+    elif [*values] == ["load"]:
+        figure, words = _load(study, str(values["load"]), style, width)
+    else:
+        from swtstudy.contacts.of_results import contact_of_study
+
+        of_shape = _of_shape(values)
+        contact = contact_of_study(study, values, smoothing, of_shape)
+        figure = contact.draw_profile(style, width) if of_shape else contact.inspect(body, style, width)
+    from swtstudy.figures.style import save_figure
+    from swtstudy.vocabulary.files import check_writable
+
+    check_writable(output)
+    save_figure(figure, output, style)
+    if words:
+        click.echo(words)
+    click.echo(output)
+
+
+def _point_or_profile(values: dict[str, object], smoothing: float, style: str | None, width: Any) -> Figure:
+    """A point, or a profile where its shape alone is given."""
+    from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.profile import draw_profile
+    from swtstudy.study.loops_and_profiles import table_from
+
+    if Path(str(values.get("profile"))).suffix == ".csv":
+        values = {**values, "profile": table_from(Path(str(values["profile"])), smoothing)}
+    return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
+
+
+def _of_shape(values: dict[str, object]) -> bool:
+    """Return whether a profile and its shape alone are given."""
+    return "profile" in values and all(PARAMETERS[name].part == "shape" for name in values)
+
+
+def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure, str]:
+    """A load of a study, and what its record is like in words."""
+    from swtstudy.figures.load import draw_load
+    from swtstudy.study.definition import Study
+    from swtstudy.study.loops_and_profiles import read_signal_of
+    from swtstudy.study.shipped import find_study
+
+    study, path = Study.from_toml(source), find_study(source)
+    signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
+    figure = draw_load(study, name, signal, style=style, width=width)
+    return figure, "" if signal is None else f"{name}: {signal.words}"

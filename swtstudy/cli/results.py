@@ -1,0 +1,140 @@
+"""Commands on results: report, plot, info and merge."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from swtstudy.cli.options import archive_completion, examples, with_width
+
+
+@click.command(
+    epilog=examples(
+        "swtstudy report results/figure3.nc",
+        "swtstudy report results/figure3.nc -o to_send.html",
+        "swtstudy report results/*.nc -o site/",
+    )
+)
+@click.argument("archives", metavar="ARCHIVE...", nargs=-1, required=True, shell_complete=archive_completion)
+@click.option(
+    "--output", "-o", help="HTML file, by default beside the archive; of several archives a folder."
+)
+@click.option(
+    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Processes, for several."
+)
+def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
+    """Write an HTML page about each ARCHIVE, to send to people without Python.
+
+    A page needs no other file and no network: what matters in a sentence, the figure with its values, slices,
+    extrema, the best and the worst point, settings, errors, a CSV file, and how to make it again.
+
+    Several archives also get a page that lists them. Files that are no archives are left out.
+    """
+    from swtstudy.reports.site import write_reports
+
+    for path, problem in write_reports(archives, output, workers):
+        click.echo(problem or str(path), err=bool(problem))
+
+
+@click.command(
+    epilog=examples(
+        "swtstudy plot results/figure3.nc --width column -o figure3.pdf",
+        "swtstudy plot results/figure3.nc --y critical_x --y regime",
+        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle -o angle.png",
+    )
+)
+@click.argument("archive", shell_complete=archive_completion)
+@click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
+@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+@with_width
+@click.option("--x", help="The axis along the horizontal axis.")
+@click.option("--hue", help="The axis whose values are the lines.")
+@click.option("--panels", help="The axis whose values are the panels.")
+@click.option("--vertical", help="The axis along the vertical axis of contours and heat maps.")
+@click.option("--kind", help="lines, life, contour or heatmap.")
+@click.option(
+    "--y", multiple=True, help="What is drawn, such as s, critical_x or regime; repeat for more rows."
+)
+@click.option("--title", help="A title over the figure.")
+@click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
+@click.option(
+    "--validity", is_flag=True, default=None, help="Mark what is outside of what the model holds for."
+)
+def plot(archive: str, output: str | None, style: str | None, width: Any, **own: Any) -> None:
+    """Draw a figure of an ARCHIVE, from the archive alone.
+
+    With --x the options alone define the layout; without it they change the layout stored in the archive.
+    """
+    from swtstudy.archive.archive import open_results
+    from swtstudy.figures.draw import draw, layout_of
+    from swtstudy.figures.style import save_figure
+    from swtstudy.points.records import MISSING
+    from swtstudy.study.figure import FigureLayout
+    from swtstudy.vocabulary.files import check_writable
+
+    target = Path(output) if output else Path(archive).with_suffix(".png")
+    dataset = open_results(archive)
+    check_writable(target)
+    given = {key: value for key, value in own.items() if value not in (None, ())}
+    layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
+    save_figure(draw(dataset, layout, style, width), target, style)
+    missing = int((dataset.status == MISSING).sum())
+    if missing:
+        click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)
+    click.echo(str(target))
+
+
+@click.command(epilog=examples("swtstudy info results/figure3.nc"))
+@click.argument("archive", shell_complete=archive_completion)
+def info(archive: str) -> None:
+    """Describe an ARCHIVE.
+
+    Shows its study and versions, how complete and how accurate it is.
+    """
+    from swtstudy.archive.archive import open_results
+    from swtstudy.archive.describe import describe
+    from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
+
+    dataset = open_results(archive)
+    for line in describe(dataset):
+        click.echo(line)
+    saved = points_saved(parts_folder(Path(archive)))
+    if saved:
+        click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")
+    kept = points_saved(kept_folder(Path(archive)))
+    if kept:
+        click.echo(
+            f"  kept           {kept} distinct points of other studies are in {kept_folder(Path(archive))}"
+        )
+
+
+@click.command(epilog=examples("swtstudy merge results/a.nc results/b.nc -o results/both.nc"))
+@click.argument("archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion)
+@click.option("--output", "-o", required=True, help="File for the merged archive.")
+@click.option(
+    "--sparse", is_flag=True, help="Allow points that are in none of the archives; they are missing."
+)
+def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
+    """Merge several ARCHIVEs into one.
+
+    Along every axis the merged grid has the values of all archives. Points of it that are in none of them
+    are refused without --sparse; contradictory values are always refused.
+    """
+    from swtstudy.archive.merge import merge as merge_archives
+    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.parts import parts_folder
+    from swtstudy.archive.paths import check_archive_path, locked
+    from swtstudy.points.records import MISSING
+    from swtstudy.vocabulary.files import check_writable
+
+    target = Path(output)
+    check_archive_path(target)
+    check_writable(target)
+    with locked(parts_folder(target)):
+        dataset = merge_archives([Path(archive) for archive in archives], sparse)
+        save(dataset, target)
+    missing = int((dataset.status == MISSING).sum())
+    click.echo(f"{target}: {dataset.s.size} points, {missing} of them missing")

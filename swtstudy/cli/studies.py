@@ -1,0 +1,211 @@
+"""Commands on studies that leave archives alone: new, validate, plan, list and schema."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from shutil import get_terminal_size
+from typing import TYPE_CHECKING
+
+import click
+
+from swtstudy.cli.options import examples, on_terminal, study_completion
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+
+if TYPE_CHECKING:
+    from swtstudy.points.records import Records
+    from swtstudy.runner.work import Work
+    from swtstudy.study.definition import Study
+
+
+@click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
+@click.argument("name")
+@click.option("--units", is_flag=True, help="A study of real contacts, in N, mm and MPa.")
+def new(name: str, units: bool) -> None:
+    """Write NAME.toml, a small commented study to start from.
+
+    Beside it goes the schema that editors use to complete and check studies. An existing study is never
+    replaced.
+    """
+    from swtstudy.study.schema import SCHEMA_FILE, schema_text
+    from swtstudy.study.template import template, template_with_units
+    from swtstudy.vocabulary.files import check_writable, write_text
+
+    if Path(name).name in ("", ".toml"):
+        raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
+    target = Path(name if name.endswith(".toml") else f"{name}.toml")
+    check_writable(target)
+    try:
+        open(target, "x").close()
+    except FileExistsError:
+        raise FileExistsError(f"{target} already exists; choose another name") from None
+    try:
+        write_text(target, (template_with_units if units else template)(target.stem.replace("_", " ")))
+    except BaseException:
+        target.unlink()  # empty still, and in the way of another try
+        raise
+    click.echo(str(target))
+    schema = target.with_name(SCHEMA_FILE)
+    if not schema.exists():
+        write_text(schema, schema_text())
+        click.echo(str(schema))
+
+
+@click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+def validate(studies: tuple[str, ...]) -> None:
+    """Check each STUDY (a TOML file) without computing anything."""
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.study.definition import read_studies
+
+    defined = read_studies(studies)
+    archive_paths(defined, "")
+    for source, study in defined.items():
+        sizes = " × ".join(
+            f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
+        )
+        click.echo(f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else ""))
+
+
+@click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
+@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+@click.option("--results", default="results", show_default=True, help="Folder of the archives.")
+@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
+    """Show what a run of each STUDY would compute, and how long it would take.
+
+    A few points are computed to time them, loops of many vertices with fewer; nothing is written.
+    """
+    from swtstudy.archive.paths import archive_paths
+    from swtstudy.study.definition import read_studies
+
+    defined = read_studies(studies)
+    targets = archive_paths(defined, results)
+    for source, study in defined.items():
+        for line in describe(study, targets[source], workers):
+            click.echo(line)
+
+
+def describe(study: Study, target: Path, workers: int) -> list[str]:
+    """Describe in lines what a run would do."""
+    from swtstudy.points.unique import loads
+    from swtstudy.runner.work import assess
+
+    work = assess(study, target)
+    missing, todo = work.missing, work.todo
+    grid, distinct = study.grid, len(missing)
+    panels = study.figure.panels if study.figure else None
+    count = len(grid.values(panels)) if panels else 1
+    shared = int(missing.sum()) - loads(work.points.table[missing])
+    return [
+        study.title,
+        f"  prescribed         {grid.control.name}",
+        f"  archive            {target}{'' if target.exists() else ' (does not exist yet)'}",
+        f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
+        *_quantities(study),
+        f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
+        f"  already computed   {distinct - todo}",
+        f"  to be computed     {todo} ({shared} of them share another's contact solution)",
+        *_again(work),
+        *(_time(work, study.rtol, workers) if todo else ()),
+    ]
+
+
+def _quantities(study: Study) -> Iterator[str]:
+    from swtstudy.vocabulary.quantities import DISTANCE, distance_of
+
+    if study.asked.items:
+        unit = study.grid.row(DISTANCE).units.replace("1", "")
+        asked = [f"{item} {unit}".strip() if distance_of(item) else item for item in study.asked.items]
+        yield f"  quantities         {', '.join(asked)}"
+
+
+def _again(work: Work) -> Iterator[str]:
+    """Which of the points to be computed are known in part."""
+    if work.incomplete.any():
+        yield f"  without s          {int(work.incomplete.sum())} of them lack quantities alone"
+    if work.outdated:
+        yield f"  recomputed         {work.outdated} come from another version of the solver"
+    if work.coarse:
+        yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
+
+
+def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
+    """Estimate the time of a run from a few points that are solved."""
+    from swtstudy.points.unique import duration
+    from swtstudy.runner.chunk import solve_points
+    from swtstudy.runner.collector import CHUNK_SECONDS
+    from swtstudy.runner.work import estimate
+
+    timed: list[int] = []
+
+    def count(found: Records) -> None:
+        timed.append(len(found))
+
+    seconds = sum(
+        estimate(work.points, wanted, rtol, solve_points, count, asked) for wanted, asked in work.tasks()
+    )
+    of = f"{sum(timed)} point" + ("s" if sum(timed) > 1 else "")
+    yield f"  chunks             about {min(max(1, round(seconds / CHUNK_SECONDS)), work.todo)}"
+    yield (
+        f"  time               about {duration(seconds / workers)} with {workers} workers "
+        f"({1e3 * seconds / work.todo:.3g} ms a point, from {of} timed)"
+    )
+
+
+@click.command("list", epilog=examples("swtstudy list", "swtstudy run figure3"))
+def list_studies() -> None:
+    """List the studies of the paper.
+
+    They come with the package; other commands accept their names as STUDY.
+    """
+    from swtstudy.study.definition import Study
+    from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
+
+    studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
+    width = max(map(len, studies))
+    columns = get_terminal_size().columns - 1 if on_terminal() else None
+    for group, names in in_groups(studies).items():
+        click.echo(group)
+        for name in names:
+            title = studies[name].title
+            click.echo(cut(f"  {name:<{width}}  {_points(studies[name]):>12}  {title}", columns))
+        click.echo()
+    click.echo(f"files: {shipped_folder()}")
+
+
+def _points(study: Study) -> str:
+    """Number of points to be computed; those of random boxes are drawn."""
+    from swtstudy.points.unique import LARGEST_GRID
+
+    return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"
+
+
+def cut(line: str, columns: int | None) -> str:
+    """A line no longer than so many columns, with an ellipsis where words are left out.
+
+    Examples
+    --------
+    >>> cut("Figure 3: s over the phase", 12)
+    'Figure 3: s…'
+    """
+    return line if columns is None or len(line) <= columns else f"{line[: columns - 1].rstrip()}…"
+
+
+@click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))
+@click.option("--output", "-o", help="File for the schema; by default it is printed.")
+def schema(output: str | None) -> None:
+    """Write the JSON schema of study files.
+
+    Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
+    a study whose first line is "#:schema study.schema.json".
+    """
+    from swtstudy.study.schema import schema_text
+    from swtstudy.vocabulary.files import check_writable, write_text
+
+    if output is None:
+        click.echo(schema_text(), nl=False)
+        return
+    check_writable(output)
+    write_text(output, schema_text())
+    click.echo(output)

@@ -1,1 +1,0 @@
-"""The textbook method, an oracle for tests and benchmarks alone."""

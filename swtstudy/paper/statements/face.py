@@ -1,0 +1,171 @@
+"""Figures 5 and 6: the radius of the punch face, by itself and with the frequency ratio."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swtstudy.paper.statements.statement import (
+    Finding,
+    Statement,
+    at,
+    coupling,
+    even,
+    largest_rise,
+    listed,
+    with_dims,
+)
+from swtstudy.vocabulary.wording import value_words
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: Largest share of the variance of ln s for a coupling that is called weak, or negligible.
+WEAK, NEGLIGIBLE = 0.1, 0.01
+
+
+def rounded_punch_falls(figure5: xr.Dataset) -> Finding:
+    """Check whether s of the rounded punch falls with b at every phase."""
+    return _monotone(figure5, "rounded_punch", -1)
+
+
+def truncated_paraboloid_rises(figure5: xr.Dataset) -> Finding:
+    """Check whether s of the truncated paraboloid rises with b at every phase."""
+    return _monotone(figure5, "truncated_paraboloid", 1)
+
+
+def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
+    """Check whether s rises (sense 1) or falls (-1) with b at every phase, up to its estimated error."""
+    curves = with_dims(at(figure5, profile=profile), "flat_radius", "phase").sortby("flat_radius")
+    curves = curves.transpose("flat_radius", "phase")
+    s, error = curves.s.values, curves.s_error.values
+    against = sense * (s[:-1] - s[1:]) - error[1:] - error[:-1]
+    means = even(curves, "phase").s.mean("phase")
+    measured = f"mean over ψ, against b = 0, at b/a_H = {listed(means / means[0].item())}"
+    wrong = against > 0
+    if wrong.any():
+        step, phase = np.unravel_index(np.argmax(against / s[:-1]), against.shape)
+        b = curves.flat_radius.values
+        measured += (
+            f"; the opposite at {wrong.any(axis=0).sum()} of {s.shape[1]} phases, by up to "
+            f"{(against / s[:-1]).max():.1%} (b/a_H = {b[step]:g} to {b[step + 1]:g}, "
+            f"ψ = {np.degrees(curves.phase.values[phase]):.1f}°)"
+        )
+    else:
+        measured += f"; likewise at each of {s.shape[1]} phases"
+    return Finding(measured, not wrong.any())
+
+
+def rounded_punch_uncoupled(figure5: xr.Dataset) -> Finding:
+    """Coupling of b and ψ for the rounded punch."""
+    return coupling_with(even(at(figure5, profile="rounded_punch"), "phase"), "flat_radius", NEGLIGIBLE)
+
+
+def truncated_paraboloid_weakly_coupled(figure5: xr.Dataset) -> Finding:
+    """Coupling of b and ψ for the truncated paraboloid."""
+    return coupling_with(even(at(figure5, profile="truncated_paraboloid"), "phase"), "flat_radius", WEAK)
+
+
+def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:
+    """Coupling of a shape parameter with the load, and whether it is within a bound."""
+    share = coupling(with_dims(dataset, dim).s, dim)
+    return Finding(f"{share:.1%} of the variance of ln s is coupling", share <= largest)
+
+
+OF_FACE = (
+    Statement(
+        "Figure 5",
+        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
+        "no step of b/a_H raises s beyond its error at any phase",
+        ("figure5",),
+        rounded_punch_falls,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
+        "no step of b/a_H lowers s beyond its error at any phase",
+        ("figure5",),
+        truncated_paraboloid_rises,
+    ),
+    Statement(
+        "Figure 5",
+        "Rounded punch: b/a_H and phase are practically not coupled.",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        rounded_punch_uncoupled,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
+        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        truncated_paraboloid_weakly_coupled,
+    ),
+)
+
+
+#: Largest distance of two curves that look like one in a figure, as a fraction of its height.
+_LINE = 0.02
+
+
+def all_curves_fall(figure6: xr.Dataset) -> Finding:
+    """Check whether s falls with b for every load."""
+    rise = largest_rise(with_dims(figure6, "flat_radius"), "flat_radius")
+    ordered = figure6.s.sortby("flat_radius")
+    end = ordered.isel(flat_radius=-1) / ordered.isel(flat_radius=0)
+    words = f"rises by up to {rise:.1e} from one b to the next" if rise else "rises nowhere"
+    measured = (
+        f"s {words}; at b/a_H = {float(ordered.flat_radius[-1]):g} it is {float(end.min()):.2f} to "
+        f"{float(end.max()):.2f} of s at 0"
+    )
+    return Finding(measured, rise == 0)
+
+
+def curves_are_alike(figure6: xr.Dataset) -> Finding:
+    """Largest distance of the curves once each is divided by its value at b = 0."""
+    normalised = with_dims(figure6, "phase", "frequency_ratio").s / at(figure6, flat_radius=0).s
+    by_phase = _distance(normalised, ["frequency_ratio"])
+    height = float(normalised.max() - normalised.min())
+    share = float(_distance(normalised, ["frequency_ratio", "phase"])) / height
+    words = ", ".join(
+        f"ψ = {value_words('phase', phase)}: {distance / height:.0%}"
+        for phase, distance in zip(by_phase.phase.values.tolist(), by_phase.values.tolist(), strict=True)
+    )
+    return Finding(
+        f"largest distance of the curves, of the figure's height, {words}; all: {share:.0%}", share <= _LINE
+    )
+
+
+def _distance(normalised: xr.DataArray, over: list[str]) -> xr.DataArray:
+    return (normalised.max(over) - normalised.min(over)).max("flat_radius")
+
+
+def loads_do_not_couple(figure6: xr.Dataset) -> Finding:
+    """Coupling of b with phase and frequency ratio."""
+    return coupling_with(figure6, "flat_radius", NEGLIGIBLE)
+
+
+OF_FACE_AND_FREQUENCY = (
+    Statement(
+        "Figure 6",
+        "Rounded punch: s falls with b/a_H for every frequency ratio and phase.",
+        "no step of b/a_H raises s beyond its error",
+        ("figure6",),
+        all_curves_fall,
+    ),
+    Statement(
+        "Figure 6",
+        "All curves fall in exactly the same way: no coupling of load and profile can be seen.",
+        "the curves s/s(b = 0) are nowhere further apart than 2% of the figure's height",
+        ("figure6",),
+        curves_are_alike,
+    ),
+    Statement(
+        "Figure 6",
+        "Rounded punch: the coupling of b/a_H with the load is negligible.",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ, ω2/ω1)",
+        ("figure6",),
+        loads_do_not_couple,
+    ),
+)

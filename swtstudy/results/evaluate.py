@@ -1,0 +1,239 @@
+"""Evaluating results: slices, the quantity that a figure shows, extrema along a dimension, tidy tables.
+
+Values of parameters are written as in a study file. A quantity is a data variable, or s over its value at one
+place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.points.grid import SAMPLE
+from swtstudy.points.records import COMPUTED
+from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
+from swtstudy.study.figure import QUANTITY, reference
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
+from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.quantities import COUNTED, error_of
+from swtstudy.vocabulary.wording import value_words
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from numpy.typing import NDArray
+
+#: Values of an axis that a message lists one by one; of longer axes the first and the last.
+_LISTED = 12
+
+
+def slice_at(
+    dataset: xr.Dataset, places: Mapping[str, object], tolerance: float = AXIS_TOLERANCE
+) -> xr.Dataset:
+    """The part of results at given values of their parameters: see ``slice`` of the accessor."""
+    require_points(dataset)
+    report = Report()
+    chosen: dict[str, Any] = {}
+    rows = np.ones(dataset.sizes.get(SAMPLE, 0), bool)
+    for name, raw in places.items():
+        if name not in dataset.coords or name not in AXES:
+            known = [str(known) for known in dataset.coords if known in AXES]
+            report(name, "not a parameter of these results", nearest(name, known))
+            continue
+        several = isinstance(raw, list | tuple | range | np.ndarray) and np.ndim(raw) > 0
+        elements: list[object] = list(raw) if several else [raw]  # type: ignore[call-overload]
+        if not elements:
+            report(name, literal(raw), "at least one value")
+        found = [_index(dataset[name], element, tolerance, report) for element in elements]
+        if name in dataset.dims:
+            chosen[name] = found if several else found[0]
+        elif dataset[name].dims == (SAMPLE,):
+            values = dataset[name].values
+            rows &= np.isin(values, values[found])
+    report.refuse()
+    return dataset.isel(chosen if rows.all() else {**chosen, SAMPLE: np.flatnonzero(rows)})
+
+
+def require_points(dataset: xr.Dataset) -> None:
+    """Raise a ValueError for results without a single point, which a selection may leave."""
+    empty = [str(name) for name, size in dataset.sizes.items() if not size]
+    if empty:
+        raise ValueError(f"these results are empty: no value is left of {', '.join(empty)}")
+
+
+def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -> int:
+    """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
+    name = str(there.name)
+    value: Value
+    try:
+        # A name is known by its place in the results, whatever it stood for.
+        named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
+        sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
+        value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
+    except ValueError as error:
+        report(name, f"{literal(raw)} ({error})", AXES[name].allowed)
+        return 0
+    known = np.atleast_1d(there.values).tolist()
+    index = index_of(value, known, tolerance)
+    if index is None:
+        report(name, f"{literal(raw)}, which is not in these results", _listed(name, known))
+        return 0
+    return index
+
+
+def _listed(name: str, values: list[float | str]) -> str:
+    words = [value_words(name, value) for value in values]
+    if len(words) > _LISTED:
+        words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
+    return ", ".join(words)
+
+
+def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
+    """The quantity that a figure's ``y`` names.
+
+    Parameters
+    ----------
+    dataset
+        Results.
+    y
+        The name of a data variable, or "s/s(name=value)" with the name or the symbol of a parameter.
+
+    Raises
+    ------
+    ValueError
+        If it is neither, or the place is not in the results.
+
+    See Also
+    --------
+    quantity_error : its estimated error.
+    """
+    place = reference(y)
+    if place is None:
+        name = y.strip()
+        if name not in dataset.data_vars:
+            known = f"{nearest(name, map(str, dataset.data_vars))}, {QUANTITY}"
+            raise StudyError([Mistake("figure.y", f"{literal(y)} (not a quantity)", known)])
+        return known_regime(dataset) if name == "regime" else dataset[name]
+    name, value = place
+    ratio = dataset.s / slice_at(dataset, {name: value}).s.drop_vars(name)
+    attributes = {"long_name": f"s over s at {name} = {value}", "units": "1", "symbol": "s/s_0"}
+    return ratio.rename("s").assign_attrs(attributes)
+
+
+def known_regime(dataset: xr.Dataset) -> xr.DataArray:
+    """The regime; NaN at points that failed or are missing, which an archive marks "not_finite"."""
+    if "status" not in dataset:
+        return dataset.regime
+    return dataset.regime.where(dataset.status == COMPUTED)
+
+
+def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
+    """Estimated absolute error of `quantity`, 0 at the reference place; None if no error is known."""
+    place = reference(y)
+    error = error_of("s" if place is not None else y.strip())
+    if error not in dataset:
+        return None
+    if place is None:
+        return dataset[error]
+    name, value = place
+    there = slice_at(dataset, {name: value})
+    own, reference_error = (part.s_error / abs(part.s) for part in (dataset, there.drop_vars(name)))
+    both = abs(quantity(dataset, y)) * (own + reference_error)
+    return both.where(dataset[name] != there[name].item(), 0.0)
+
+
+def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
+    """Least and greatest values along a dimension, and where they are: see ``extrema`` of the accessor."""
+    require_points(dataset)
+    values = quantity(dataset, y).compute()  # xarray indexes by arrays in memory only
+    if "flag_values" in values.attrs:
+        raise StudyError([Mistake("y", f"{literal(y)}, whose values are flags", "numbers, such as 's'")])
+    if dim not in values.dims:
+        raise ValueError(
+            f"found {dim!r}, not a dimension of {y}; allowed: {nearest(dim, map(str, values.dims))}"
+        )
+    symbol, units = values.attrs.get("symbol", y), values.attrs.get("units", "1")
+    parts: dict[str, xr.DataArray] = {}
+    for name, index in (
+        ("minimum", values.fillna(np.inf).argmin(dim)),
+        ("maximum", values.fillna(-np.inf).argmax(dim)),
+    ):
+        # Parameters of a sample, too, are along the dimension, and differ between the two places.
+        along = [str(name) for name, each in values.coords.items() if dim in each.dims]
+        value = values.isel({dim: index}).drop_vars(along)
+        place = values[dim].isel({dim: index}).drop_vars(along)
+        place = place.where(value.notnull()) if place.dtype.kind == "f" else place
+        words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", "units": units, "symbol": symbol}
+        parts[name] = value.drop_attrs().assign_attrs(words)
+        words = {"long_name": f"{dim.replace('_', ' ')} of {name} {y}"}
+        parts[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
+    words = {"long_name": f"maximum over minimum of {y}", "comment": f"along {dim}", "units": "1"}
+    parts["ratio"] = (parts["maximum"] / parts["minimum"]).drop_attrs().assign_attrs(words)
+    found = xr.Dataset(parts)
+    # The places that xarray indexes by bring coordinates without attributes.
+    return found.assign_coords({name: found[name].assign_attrs(dataset[name].attrs) for name in found.coords})
+
+
+def to_table(dataset: xr.Dataset) -> pd.DataFrame:
+    """Results as a table, one row per point: see ``to_table`` of the accessor."""
+    import pandas as pd
+
+    # A point has several cycles, which are no column.
+    dataset = dataset.drop_vars([*COUNTED], errors="ignore")
+    beside = dims_beside(dataset)
+    dims = [str(name) for name in dataset.dims if name not in beside]
+    # Those of a sample are along its dimension, single values along none.
+    others = [str(name) for name in dataset.coords if name not in (*dims, *beside)]
+    rows = dataset.drop_dims(beside)
+    shape = tuple(rows.sizes[name] for name in dims)
+    columns = {}
+    for name in [*dims, *others, *map(str, dataset.data_vars)]:
+        for column, values in _columns(name, dataset[name], beside):
+            whole = values.broadcast_like(rows) if dims else values
+            flat = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
+            columns[column] = _as_words(flat, values.attrs.get("flag_meanings"))
+    return pd.DataFrame(columns).rename_axis("point")
+
+
+def dims_beside(dataset: xr.Dataset) -> list[str]:
+    """Dimensions that only some columns have, which make several columns of these in the place of more rows.
+
+    The directions of nonlocal values; the bodies, where only what they are made of differs.
+    """
+    along = {str(dim) for values in dataset.data_vars.values() for dim in values.dims}
+    beside = ["direction"] + ["body"] * ("body" not in along)
+    return [name for name in beside if name in dataset.dims]
+
+
+def _columns(name: str, values: xr.DataArray, beside: list[str]) -> Iterator[tuple[str, xr.DataArray]]:
+    own = next((dim for dim in beside if dim in values.dims), None)
+    if own is None:
+        yield name, values
+        return
+    for index, place in enumerate(values[own].values.tolist()):
+        yield f"{name}[{place}]", values.isel({own: index}, drop=True)
+
+
+def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
+    """Flags as words: see ``words`` of the accessor."""
+    flags = [str(each) for each, values in dataset.data_vars.items() if "flag_meanings" in values.attrs]
+    if name not in flags:
+        raise StudyError([Mistake("name", literal(name), f"a variable of flags: {', '.join(flags)}")])
+    words = np.array([*dataset[name].attrs["flag_meanings"].split(), ""], dtype=object)
+    values = dataset[name].values
+    known = np.isfinite(values)
+    found = dataset[name].copy(data=words[np.where(known, values, -1).astype(int)])
+    return found.drop_attrs(deep=False).assign_attrs(long_name=dataset[name].attrs.get("long_name", name))
+
+
+def _as_words(flat: NDArray, meanings: str | None) -> NDArray:
+    """Flags by their meanings."""
+    import pandas as pd
+
+    if meanings is None:
+        return flat
+    # xarray's operations leave NaN where a flag is missing.
+    codes = np.where(np.isfinite(flat), flat, -1).astype(int)
+    return pd.Categorical.from_codes(codes, meanings.split())

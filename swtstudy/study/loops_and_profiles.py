@@ -1,0 +1,167 @@
+"""The loops of loads, and the profiles as tables, that a study defines in its text or in files beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
+from swtstudy.study.trace import read_trace
+from swtstudy.vocabulary.choices import AXISYMMETRIC
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.files import parse_toml
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+
+_ANY_LOOP = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
+#: The same for one that a real contact may be given without its mean load.
+_ANY_ABSOLUTE_LOOP = LoadPath("any", _ANY_LOOP.vertices, 1.0)
+#: What may be said of vertices and of harmonics besides.
+_BESIDE = {
+    "vertices": ("absolute", "mean_normal"),
+    "normal": ("mean_normal",),
+    "file": (*KEYS, "keep_cycles"),
+}
+
+
+def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+    """The loops of a study, by name, as far as they are sound.
+
+    Parameters
+    ----------
+    tables
+        What the study has under ``loads``, as far as its structure is sound.
+    folder
+        That of the study, to which the paths of files are relative.
+    report
+        Told what is wrong with them.
+    """
+    found: dict[str, Definition] = {}
+    for name, table in tables.items():
+        key = f"loads.{name}"
+        # A wrong loop stands for any: that it is used is no mistake of its own.
+        found[name] = _ANY_ABSOLUTE_LOOP if {"absolute", "mean_normal"} & {*table} else _ANY_LOOP
+        if not isinstance(table.get("file", ""), str):
+            continue  # reported with the structure
+        kind = _kind(table)
+        if isinstance(kind, Mistake):
+            report(key, kind.found, kind.allowed)
+            continue
+        try:
+            if kind == "file":
+                signal = signal_from(folder / table["file"], name, table)
+                found[name] = signal.loop
+                found |= {each.name: each for each in signal.loops if table.get("keep_cycles") is True}
+            else:
+                found[name] = _loop(name, table, kind)
+        except StudyError as error:
+            for each in error.mistakes:
+                report(*_placed(each, key, kind))
+    return found
+
+
+def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
+    """The signal that a load of a sound study is; None for one that comes from no file."""
+    table = parse_toml(text).get("loads", {}).get(name, {})
+    return signal_from(folder / table["file"], name, table) if "file" in table else None
+
+
+def _kind(table: Mapping[str, Any]) -> str | Mistake:
+    """Key that defines a loop: its vertices, a file, or harmonics of which "normal" is the first."""
+    given = [each for each in ("vertices", "file", *COLUMNS, BULK) if table.get(each) is not None]
+    if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
+        allowed = "vertices, file, or normal and tangential, with or without bulk"
+        return Mistake("", " and ".join(given) or "nothing", allowed)
+    kind = given[0]
+    strange = [key for key in table if table[key] is not None and key not in (*given, *_BESIDE[kind])]
+    strange = [
+        key for key in strange if key in (*_BESIDE["file"], "mean_normal")
+    ]  # others are reported elsewhere
+    if strange:
+        of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
+        return Mistake("", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
+    return kind
+
+
+def _placed(mistake: Mistake, key: str, kind: str) -> tuple[str, str, str]:
+    """A mistake in a loop, at its key in the study."""
+    first = mistake.key.partition(",")[0].partition(".")[0]
+    if kind == "file" and first in KEYS and not mistake.source:
+        return f"{key}.{mistake.key}", mistake.found, mistake.allowed
+    where = key if kind == "normal" else f"{key}.{kind}"
+    return where, f"{mistake.found}{place_of(mistake)}", mistake.allowed
+
+
+def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:
+    mean, absolute = table.get("mean_normal"), table.get("absolute")
+    if kind == "normal":
+        rows = table["normal"], table["tangential"], table.get("bulk") or ()
+        return LoadPath.harmonic_sum(name, *rows, mean_normal=mean)
+    if absolute not in (None, False, True) or (absolute and mean is not None):
+        found = literal(absolute) if mean is None else "absolute and mean_normal"
+        raise StudyError([Mistake("absolute", found, "true or false; without mean_normal")])
+    if absolute:
+        return LoadPath.absolute(name, table["vertices"])
+    return LoadPath(name, table["vertices"], mean)
+
+
+def place_of(mistake: Mistake) -> str:
+    """Where in a file or a list the mistake is."""
+    place = ": ".join(part for part in (mistake.source, mistake.key) if part)
+    return f" ({place})" if place else ""
+
+
+#: Columns of the file of a profile.
+PROFILE_COLUMNS = ("radius", "height")
+
+_RADII = np.linspace(0.0, 1e3, 9)
+_ANY_PROFILE = TabulatedProfile("any", _RADII, _RADII**2)
+
+
+def table_from(path: Path, smoothing: float = 0.0) -> TabulatedProfile:
+    """The profile in a CSV file, of the name of the file."""
+    radius, height = read_columns(path, PROFILE_COLUMNS).T
+    return TabulatedProfile(path.stem, radius, height, smoothing)
+
+
+def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProfile:
+    """A profile from its table."""
+    geometry, smoothing = table.get("geometry", AXISYMMETRIC), table.get("smoothing")
+    if table.get("two_sided") is True:
+        form = {key: table[key] for key in ("columns", "separator", "decimal") if key in table}
+        level = table.get("level") is not False
+        given = {"level": level, "smoothing": smoothing, "geometry": geometry, **form}
+        return read_trace(folder / str(table.get("file")), name=name, **given)
+    smoothing = 0.0 if smoothing is None else smoothing
+    if "file" not in table:
+        return TabulatedProfile(name, table["radius"], table["height"], smoothing, geometry)
+    check_form(table, PROFILE_COLUMNS, report := Report())
+    report.refuse()
+    radius, height = read_columns(folder / table["file"], PROFILE_COLUMNS, (), form_of(table)).T
+    return TabulatedProfile(name, radius, height, smoothing, geometry)
+
+
+def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+    """The profiles of a study, by name; as `read_loops` for loads."""
+    # A wrong profile stands for any: that it is used is no mistake of its own.
+    found: dict[str, Definition] = {name: _ANY_PROFILE for name in tables}
+    for name, table in tables.items():
+        key = f"profiles.{name}"
+        given = [each for each in (*PROFILE_COLUMNS, "file") if table.get(each) is not None]
+        if not isinstance(table.get("file", ""), str):
+            continue  # reported with the structure
+        if given not in (["file"], [*PROFILE_COLUMNS]):
+            words = " and ".join(given) or "nothing"
+            report(key, words, "radius and height, or file")
+            continue
+        try:
+            found[name] = _profile(name, table, folder)
+        except StudyError as error:
+            for each in error.mistakes:
+                report(key, f"{each.found}{place_of(each)}", each.allowed)
+    return found

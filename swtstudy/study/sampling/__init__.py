@@ -1,1 +1,0 @@
-"""Samples of parameters: designs of points in given ranges, or points from a file."""

@@ -1,0 +1,116 @@
+"""Names that parameters take: the families of indenters, of revolution (eqs. 3–6) and plane, and criteria.
+
+Their formulas are in `swtstudy.mechanics.indenter` and `swtstudy.mechanics.planes.criterion`.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TypeGuard
+
+#: What a contact is: a disc, or a strip in plane strain.
+AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
+
+
+@dataclass(frozen=True)
+class Family:
+    """One family of indenters; its class is in `swtstudy.mechanics.indenter.PROFILES`.
+
+    Attributes
+    ----------
+    name
+        Value of the parameter ``profile``.
+    shape
+        The shape parameters κ_i that it has.
+    plain
+        The shape parameter and its value that make it the `PLAIN` family of its geometry, whatever the
+        others are; None for none.
+    geometry
+        One of `GEOMETRIES`.
+    """
+
+    name: str
+    shape: tuple[str, ...] = ()
+    plain: tuple[str, float] | None = None
+    geometry: str = AXISYMMETRIC
+
+
+FAMILIES: dict[str, Family] = {
+    family.name: family
+    for family in (
+        Family("paraboloid"),
+        Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.0)),
+        Family("truncated_paraboloid", ("flat_radius",), plain=("flat_radius", 0.0)),
+        Family("wavy_paraboloid", ("waviness_amplitude", "wavelength"), plain=("waviness_amplitude", 0.0)),
+        Family("power_law", ("exponent",), plain=("exponent", 2.0)),
+        Family("cylinder", geometry=PLANE),
+        Family("rounded_flat", ("flat_half_width",), ("flat_half_width", 0.0), PLANE),
+        Family("wavy_cylinder", ("waviness_amplitude", "wavelength"), ("waviness_amplitude", 0.0), PLANE),
+        Family("power_law_cylinder", ("exponent",), ("exponent", 2.0), PLANE),
+    )
+}
+
+#: The family of what the user has defined.
+TABLE = Family("table")
+
+#: The families that others of their geometry are at their plain shape.
+PLAIN, PLAIN_STRIP = "paraboloid", "cylinder"
+PLAIN_OF = {AXISYMMETRIC: PLAIN, PLANE: PLAIN_STRIP}
+
+
+def is_profile(raw: object) -> TypeGuard[str]:
+    """Return whether something is the name of a profile."""
+    return isinstance(raw, str) and raw in FAMILIES
+
+
+def family_of(profile: object) -> Family:
+    """The family of a profile, or of that of a name; what the user has defined has no shape parameters."""
+    return FAMILIES.get(str(profile), TABLE)
+
+
+def is_plane(profile: object) -> bool:
+    """Return whether a profile, or that of a name, is that of a plane contact."""
+    return getattr(profile, "geometry", family_of(profile).geometry) == PLANE
+
+
+def families_with(name: str) -> list[str]:
+    """Names of the families that have a shape parameter."""
+    return [family.name for family in FAMILIES.values() if name in family.shape]
+
+
+#: Their names: the Smith–Watson–Topper parameter, and the criteria of shear.
+SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
+CRITERIA = (SWT, FATEMI_SOCIE, FINDLEY)
+
+#: What s is, in words for attributes, and its symbol with its unit.
+MEANING = {
+    SWT: "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
+    FATEMI_SOCIE: "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
+    FINDLEY: "maximum Findley stress over E* delta0 / a_H",
+}
+#: What a reader calls its values.
+WORDS = {SWT: "SWT", FATEMI_SOCIE: "Fatemi-Socie parameter", FINDLEY: "Findley stress"}
+SYMBOLS = {
+    SWT: r"\mathrm{SWT}/\mathrm{SWT}_0",
+    FATEMI_SOCIE: r"G \mathrm{FS}/(E^*\delta_0/a_H)",
+    FINDLEY: r"f/(E^*\delta_0/a_H)",
+}
+#: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).
+BENEATH = (
+    "a criterion of shear may be larger beside that line or beneath the surface, where friction is below "
+    "0.3, the Poisson ratio below 0.1 or the tangential motion small: swtstudy audit compares"
+)
+#: The profile at whose sharp edge only SWT may be finite while it slips.
+SHARP = "truncated_paraboloid"
+
+
+def with_values_of(text: str, value: str) -> str:
+    """A text about SWT with what another criterion calls its values in the place of that.
+
+    Examples
+    --------
+    >>> with_values_of("mean of swt/SWT0 about local maxima of swt", "Findley stress")
+    'mean of Findley stress in the unit of s about local maxima of Findley stress'
+    """
+    return re.sub(r"\b(?:swt|SWT)\b", value, text.replace("swt/SWT0", f"{value} in the unit of s"))
