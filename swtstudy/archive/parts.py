@@ -27,6 +27,7 @@ from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.mechanics.points import Solution
 from swtstudy.points.canonical import COLUMNS, NAMES, ROW, group_rows
 from swtstudy.points.records import Records, Run, join
+from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 
 _log = logging.getLogger(__name__)
@@ -44,7 +45,7 @@ _NAME = re.compile(r"[0-9]{6,}\.npz")
 _JOINED = 32
 
 #: What the numbers in a table mean; parts with another layout cannot be used.
-_LAYOUT = {"columns": list(COLUMNS), "profiles": list(NAMES)}
+_LAYOUT = {"columns": list(COLUMNS), "profiles": list(NAMES), "criteria": list(CRITERIA)}
 
 
 def parts_folder(path: Path) -> Path:

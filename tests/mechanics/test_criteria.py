@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scenes import plane_points, points, random_plane_points, random_points, take
 
 import swtstudy
+from swtstudy.archive.parts import _LAYOUT
 from swtstudy.cli import main
 from swtstudy.fields.one_point import read_scene
 from swtstudy.figures.draw import draw
@@ -22,7 +23,7 @@ from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import smallest_sphere, swt_of_history
-from swtstudy.mechanics.planes.criterion import FatemiSocie, Findley
+from swtstudy.mechanics.planes.criterion import CRITERIA, FatemiSocie, Findley
 from swtstudy.mechanics.planes.swing import SHEAR_STRESS
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 from swtstudy.mechanics.points import Points, Solution
@@ -30,6 +31,8 @@ from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.points.grid import complete
 from swtstudy.reports.parts import section
 from swtstudy.solving import solve_grid
+from swtstudy.units.variables import KINDS
+from swtstudy.vocabulary import choices
 
 Array = NDArray[np.float64]
 
@@ -49,6 +52,13 @@ def uniaxial(name: str, k: float, swing: Array, mean: float | Array = 0.0) -> Ar
     shear, tension = 0.5 * np.sin(2.0 * θ), np.cos(θ) ** 2
     pairs = np.broadcast(swing, mean)
     return np.array([(s * shear * (1.0 + k * max(s + m, 0.0) * tension)).max() for s, m in pairs])
+
+
+def test_each_table_of_criteria_has_the_same_ones_in_the_same_order() -> None:
+    """Their numbers in tables of points are those of their names."""
+    tables = CRITERIA, choices.MEANING, choices.WORDS, choices.SYMBOLS, KINDS
+    assert [tuple(table) for table in tables] == len(tables) * [choices.CRITERIA]
+    assert _LAYOUT["criteria"] == list(choices.CRITERIA)
 
 
 @pytest.mark.parametrize("name", SHEAR)
