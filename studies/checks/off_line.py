@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from overlooked import SCENES
+from overlooked import CHUNK, SCENES
 
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
@@ -46,8 +46,8 @@ COUNTS = {
     "Walker's exponent": (100, 20),
 }
 SEED = 3
-#: Shares by which a dense look may be higher: what is claimed of s_surface, and of the body.
-ALLOWED = 1e-4, 1e-4
+#: Share by which a dense look may be higher: what is claimed of s_surface, and of the body.
+ALLOWED = 1e-4
 #: On a circle: angles, planes and instants of the first look, in rad how far the first closer one goes,
 #: how often, and how it narrows.
 ANGLES, PLANES, INSTANTS = np.linspace(0.0, np.pi, 65), 2000, 8
@@ -138,7 +138,7 @@ def shortfalls(task: tuple[str, int, bool]) -> tuple[str, bool, Array]:
     """By how much s_surface, or the body's maximum, is below the dense look at some points, relative."""
     name, count, in_body = task
     rng = np.random.default_rng([SEED, list(SCENES).index(name)])
-    drawn = [SCENES[name][0](rng) for _ in range(-(-count // 50))]
+    drawn = [SCENES[name][0](rng) for _ in range(-(-count // CHUNK))]
     low: list[float] = []
     for some in drawn:
         points = some.take(np.arange(min(count - len(low), len(some))))
@@ -168,15 +168,15 @@ def lines(found: list[tuple[str, bool, Array]]) -> Iterator[str]:
         "`swtstudy audit` finds, against dense looks at circles and bodies at random points, small motions "
         "among them. `python studies/checks/off_line.py`"
     )
-    for in_body, title in enumerate(("s_surface", "The body's maximum")):
+    for in_body, title in ((False, "s_surface"), (True, "The body's maximum")):
         yield from ("", f"## {title}", "")
-        yield f"| scene | points | low by more than {ALLOWED[in_body]:g} | lowest |"
+        yield f"| scene | points | low by more than {ALLOWED:g} | lowest |"
         yield "|---|---|---|---|"
         for name, of_body, low in found:
-            if of_body == bool(in_body):
+            if of_body == in_body:
                 known = low[np.isfinite(low)]
                 worst = max(known.max(initial=0.0), 0.0)
-                yield f"| {name} | {known.size} | {(known > ALLOWED[in_body]).sum()} | {worst:.1e} |"
+                yield f"| {name} | {known.size} | {(known > ALLOWED).sum()} | {worst:.1e} |"
 
 
 def main() -> None:
@@ -187,8 +187,8 @@ def main() -> None:
     given = arguments.parse_args()
     most = 1 if given.quick else given.points or 10**6
     tasks = [
-        (name, min(counts[in_body], most), bool(in_body))
-        for in_body in range(2)
+        (name, min(counts[in_body], most), in_body)
+        for in_body in (False, True)
         for name, counts in list(COUNTS.items())[: 1 if given.quick else None]
     ]
     if given.quick:

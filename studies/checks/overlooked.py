@@ -40,6 +40,8 @@ STEPS, PLANES = 64, 32
 #: Points that are drawn, and solved, together.
 CHUNK = 50
 RTOLS = 1e-4, 1e-6
+#: Bulk stress over the contact's own by which the search takes its other way: it moves s by as much.
+NEXT_TO_NONE = 1e-12
 #: Relative accuracy of the dense look's own closest grids.
 DENSE = 1e-7
 
@@ -107,7 +109,7 @@ def bulk_stress(rng: np.random.Generator, scale: float = 1.0) -> Points:
 
 def next_to_no_bulk_stress(rng: np.random.Generator) -> Points:
     """The other way through the solver, without its short cuts."""
-    return bulk_stress(rng, 1e-12)
+    return bulk_stress(rng, NEXT_TO_NONE)
 
 
 def walker(rng: np.random.Generator) -> Points:

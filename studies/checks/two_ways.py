@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from overlooked import CHUNK, SCENES
+from overlooked import CHUNK, NEXT_TO_NONE, SCENES
 
 from swtstudy.mechanics import solve_points
 
@@ -36,8 +36,6 @@ NAMES = (
     "Walker's exponent",
 )
 RTOL, SEED = 1e-4, 4
-#: Bulk stress over the contact's own: it moves s by as much.
-NEXT_TO_NONE = 1e-12
 
 
 def differences(task: tuple[str, int]) -> tuple[str, NDArray[np.float64], list[str]]:
@@ -64,8 +62,7 @@ def lines(found: dict[str, list[NDArray[np.float64]]]) -> Iterator[str]:
     yield (
         "s of random points, small motions among them, without a bulk stress and with one of "
         f"{NEXT_TO_NONE:g} of the contact's own, at rtol {RTOL:g}: where they differ one of them has "
-        "overlooked a maximum. "
-        "`python studies/checks/two_ways.py`"
+        "overlooked a maximum. `python studies/checks/two_ways.py`"
     )
     yield ""
     yield "| scene | points | s differs by more than s_error | largest difference |"

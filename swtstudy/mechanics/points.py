@@ -34,6 +34,11 @@ class Rows:
         """The rows of several, one after another; what is no rows is that of the first."""
         return cls._made(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__)
 
+    def write(self, index: Any, rows: Self) -> None:
+        """Write other rows at an index of NumPy's, in place; they consist of arrays alone."""
+        for name in self.__match_args__:
+            getattr(self, name)[index] = getattr(rows, name)
+
     @classmethod
     def _made(cls, values: Any) -> Self:
         make: Any = cls

@@ -51,6 +51,13 @@ def test_rows_are_joined_in_their_order() -> None:
     assert found.none is None
 
 
+def test_rows_are_written_in_place_where_they_belong() -> None:
+    rows = Solution(*(np.zeros((2, 3)) for _ in range(6)))
+    rows.write((np.array([1, 0]), np.array([2, 1])), Solution(*(np.array([5.0, 7.0]) + k for k in range(6))))
+    np.testing.assert_array_equal(rows.s, [[0.0, 7.0, 0.0], [0.0, 0.0, 5.0]])
+    np.testing.assert_array_equal(rows.s_error, rows.s + (rows.s > 0.0))
+
+
 @pytest.mark.parametrize("family", ["paraboloid", "power_law", "rounded_punch", "cylinder", "rounded_flat"])
 def test_a_profile_taken_is_the_one_of_its_row(family: str) -> None:
     depth = np.array([1.0, 1.5, 1.75])

@@ -6,7 +6,6 @@ Of growths the memory knows that the ground was gained in stick; the load says w
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,11 +58,6 @@ class Memory(Rows):
         deeper = Memory.empty(*lead, depth)
         deeper.write((..., slice(own)), self)
         return deeper
-
-    def write(self, index: tuple[Any, ...], pieces: Memory) -> None:
-        """Write pieces at ``index``, in place."""
-        for values, new in zip(vars(self).values(), vars(pieces).values(), strict=True):
-            values[index] = new
 
 
 def held_offset(load: Load, pieces: Memory, coordinate: FloatArray) -> FloatArray:

@@ -110,10 +110,10 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     high = np.flatnonzero((seen.swt >= least[:, None]).any(axis=1))
     closer = look_at(scene, pieces, piece[high], share[high], CLOSER)
     # What either look shows is there, and what either cannot exclude may be.
-    angle = np.where(closer.swt > seen.swt[high], closer.double_angle, seen.double_angle[high])
-    seen.double_angle[high] = angle
-    for values, new in ((seen.swt, closer.swt), (seen.highest, closer.highest)):
-        values[high] = np.maximum(values[high], new)
+    before = seen.take(high)
+    angle = np.where(closer.swt > before.swt, closer.double_angle, before.double_angle)
+    highest = np.maximum(before.highest, closer.highest)
+    seen.write(high, Seen(np.maximum(before.swt, closer.swt), angle, highest))
     return Positions.of(pieces, piece, np.pi * share), seen
 
 
@@ -199,8 +199,7 @@ def look_at(
         rows, left = left[:size], left[size:]
         index, real = as_rows(part, rows)
         look = first_look(scene.take(owner[rows]), r[index], resolution, PLANES)
-        for values, seen in zip(vars(found).values(), vars(look).values(), strict=True):
-            values[index[real]] = seen[real]
+        found.write(index[real], look.take(real))
     return found
 
 
@@ -286,9 +285,7 @@ def _begins(scene: Scene, pieces: Pieces) -> NDArray[np.bool_]:
     seen = Seen(*np.full((3, len(run), 1 if scene.mirrored_half else 2), np.nan))
     looked, new = np.zeros_like(run), np.flatnonzero(run)
     for _ in range(int(np.diff(new, append=len(run)).max()).bit_length() + 1):
-        of_new = look_at(scene, pieces, new, np.zeros(new.size), ROUGH)
-        for values, found in zip(vars(seen).values(), vars(of_new).values(), strict=True):
-            values[new] = found
+        seen.write(new, look_at(scene, pieces, new, np.zeros(new.size), ROUGH))
         looked[new] = True
         new = _halves(pieces.point, seen.swt, np.flatnonzero(looked))
     kept = _kept(pieces.point, seen, np.flatnonzero(looked))

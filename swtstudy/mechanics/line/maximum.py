@@ -62,10 +62,9 @@ class Maximum(Rows):
 
     def put(self, index: NDArray[np.intp] | NDArray[np.bool_], other: Maximum) -> Maximum:
         """The same with other points at ``index``."""
-        result = [values.copy() for values in vars(self).values()]
-        for values, new in zip(result, vars(other).values(), strict=True):
-            values[index] = new
-        return Maximum(*result)
+        result = Maximum(*(values.copy() for values in vars(self).values()))
+        result.write(index, other)
+        return result
 
 
 def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
