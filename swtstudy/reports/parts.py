@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from html import escape
 from importlib.resources import files
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -78,8 +78,12 @@ def embedded(figure: Figure, dpi: float = _DPI, drawing: bool = True) -> Picture
 
 
 def _settle(figure: Figure, dpi: float) -> None:
-    """Lay a figure out once and for all: else matplotlib does so, and draws twice, when it is saved."""
+    """Lay a figure out once and for all: else matplotlib does so, and draws twice, when it is saved.
+
+    With its canvas of pixels, too: what that has measured of the letters needs no second look to draw them.
+    """
     figure.dpi = dpi
+    FigureCanvasAgg(figure)
     engine = figure.get_layout_engine()
     if engine is not None:
         with styled(None, getattr(figure, "width", None)):
@@ -94,7 +98,7 @@ def _rounded(drawing: bytes) -> bytes:
 
 def _pixels(figure: Figure) -> bytes:
     """A figure as a WebP file, in the figure's own dots per inch, with as many colours as it needs."""
-    canvas, content = FigureCanvasAgg(figure), BytesIO()
+    canvas, content = cast(FigureCanvasAgg, figure.canvas), BytesIO()
     with styled(None, getattr(figure, "width", None)):
         canvas.draw()
     seen = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
