@@ -23,6 +23,8 @@ from swtstudy.vocabulary.wording import listed, number_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
+#: Letters to the left of the words of a line.
+INDENT = 17
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
@@ -32,7 +34,7 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     """
     yield str(dataset.attrs.get("title", "Results"))
     for label, words in facts(dataset):
-        yield f"  {label:<13}  {words}"
+        yield f"{f'  {label}':<{INDENT}}{words}"
 
 
 def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:

@@ -92,8 +92,8 @@ def _log_to_terminal() -> None:
         "swtstudy new mine         # a commented study to start from",
         "swtstudy run --help",
         "",
-        'Shell completion: eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)" in ~/.bashrc',
-        "(zsh_source in ~/.zshrc; fish_source for fish).",
+        "Shell completion, a line of ~/.bashrc (zsh_source in ~/.zshrc):",
+        '  eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)"',
     ),
     context_settings={"help_option_names": ["-h", "--help"]},
 )

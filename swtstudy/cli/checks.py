@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Any
 
 import click
 
 from swtstudy.cli.options import examples, study_completion, with_width
+from swtstudy.cli.terminal import line_length, of_markdown, wrapped
 
 
 @click.command(epilog=examples("swtstudy sensitivity sensitivity"))
@@ -64,7 +64,7 @@ def sensitivity(
     save(indices, targets[".nc"])
     write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
-    click.echo(text)
+    click.echo(of_markdown(text, line_length()))
     for path in (target, *targets.values()):
         click.echo(str(path))
 
@@ -100,7 +100,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
-        click.echo(line)
+        click.echo(wrapped(line, line_length()))
     for path in targets.values():
         click.echo(str(path))
 
@@ -126,7 +126,7 @@ def check(results: str, output: str | None) -> None:
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
     checked = [outcome for outcome in outcomes if outcome.finding is not None]
-    click.echo(terminal_table(checked, shutil.get_terminal_size((120, 24)).columns))
+    click.echo(terminal_table(checked, line_length() or 120))
     click.echo(summary(outcomes))
     problems = dict.fromkeys(
         line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
@@ -172,5 +172,5 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
             dataset = audit_study(study, target, points, seed, workers, dense, progress=bar.update)
         text = report(dataset)
         write_text(target.with_suffix(".md"), text)
-        click.echo(text)
+        click.echo(of_markdown(text, line_length()))
         click.echo(f"{target}\n{target.with_suffix('.md')}")

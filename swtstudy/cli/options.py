@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
@@ -43,11 +42,6 @@ class InSections(click.Command):
         for title, records in sections.items():
             with formatter.section(title):
                 formatter.write_dl(records)
-
-
-def on_terminal() -> bool:
-    """Return whether people read what is printed: not in a pipe or a file."""
-    return sys.stdout.isatty()
 
 
 def with_width(command: Callable[..., Any]) -> Callable[..., Any]:

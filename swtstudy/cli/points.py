@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import SEVERAL, InSections, examples, on_terminal, study_completion, with_width
+from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
+from swtstudy.cli.terminal import fitted, line_length, wrapped
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
+from swtstudy.vocabulary.wording import raised
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,8 +55,8 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
     cls=InSections,
     epilog=examples(
         "swtstudy solve --phase 0,pi/2",
-        "swtstudy solve --quantities dissipation,stick_radius --tangential-amplitude 0.2,0.4",
-        "swtstudy solve --profile rounded_punch --flat-radius 0.5 --frequency-ratio 3/2",
+        "swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4",
+        "swtstudy solve --profile rounded_punch --flat-radius 0.5,1",
     ),
 )
 @with_parameters(SEVERAL)
@@ -68,7 +70,8 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
 
-    The columns are aligned on a terminal, and parted by tabs in a pipe or a file.
+    On a terminal the columns are aligned, or one below the other where it is too narrow for them; in a pipe
+    or a file they are parted by tabs.
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
@@ -95,34 +98,18 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
             *(f"{value:.6g}" for value in others),
         )
         lines.append([*map(_short, place), *numbers])
-    for line in aligned(lines) if on_terminal() else map("\t".join, lines):
+    for line in _as_read(lines, line_length()):
         click.echo(line)
     known = {REGIMES[int(regime)] for regime in dataset.regime.values.ravel()}
     for name in known & WHY.keys():
-        click.echo(f"{name}: {WHY[name]}", err=True)
+        click.echo(wrapped(f"{name}: {WHY[name]}", line_length()), err=True)
 
 
-def aligned(lines: list[list[str]]) -> list[str]:
-    """Lines whose columns are as wide as they need to be, words to the left and numbers to the right.
-
-    Examples
-    --------
-    >>> for line in aligned([["phase", "s"], ["0", "0.142857"], ["1.5708", "0.15"]]):
-    ...     print(line)
-     phase         s
-         0  0.142857
-    1.5708      0.15
-    """
-    columns = list(zip(*lines, strict=True))
-    widths = [max(map(len, column)) for column in columns]
-    left = [column[-1][-1:].isalpha() and column[-1] != "nan" for column in columns]
-    return [
-        "  ".join(
-            f"{cell:{'<' if own else '>'}{width}}"
-            for cell, own, width in zip(line, left, widths, strict=True)
-        ).rstrip()
-        for line in lines
-    ]
+def _as_read(lines: list[list[str]], room: int | None) -> Iterable[str]:
+    """A table for people, as wide as their terminal, or for programs."""
+    if room is None:
+        return map("\t".join, lines)
+    return fitted([[raised(cell) for cell in line] for line in lines], room)
 
 
 def _more(dataset: xr.Dataset, columns: tuple[str, ...]) -> dict[str, NDArray]:

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from swtstudy.cli.options import archive_completion, examples, with_width
+from swtstudy.cli.terminal import line_length, wrapped
 
 
 @click.command(
@@ -43,7 +44,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
     epilog=examples(
         "swtstudy plot results/figure3.nc --width column -o figure3.pdf",
         "swtstudy plot results/figure3.nc --y critical_x --y regime",
-        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle -o angle.png",
+        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle",
     )
 )
 @click.argument("archive", shell_complete=archive_completion)
@@ -95,12 +96,12 @@ def info(archive: str) -> None:
     Shows its study and versions, how complete and how accurate it is.
     """
     from swtstudy.archive.archive import open_results
-    from swtstudy.archive.describe import describe
+    from swtstudy.archive.describe import INDENT, describe
     from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 
     dataset = open_results(archive)
     for line in describe(dataset):
-        click.echo(line)
+        click.echo(wrapped(line, line_length(), INDENT))
     saved = points_saved(parts_folder(Path(archive)))
     if saved:
         click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from shutil import get_terminal_size
 from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.options import examples, on_terminal, study_completion
+from swtstudy.cli.options import examples, study_completion
+from swtstudy.cli.terminal import cut, line_length, wrapped
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 if TYPE_CHECKING:
@@ -64,7 +64,8 @@ def validate(studies: tuple[str, ...]) -> None:
         sizes = " × ".join(
             f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
         )
-        click.echo(f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else ""))
+        words = f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else "")
+        click.echo(wrapped(words, line_length(), 2))
 
 
 @click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
@@ -83,7 +84,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     targets = archive_paths(defined, results)
     for source, study in defined.items():
         for line in describe(study, targets[source], workers):
-            click.echo(line)
+            click.echo(wrapped(line, line_length(), 21))
 
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
@@ -164,12 +165,12 @@ def list_studies() -> None:
 
     studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))
-    columns = get_terminal_size().columns - 1 if on_terminal() else None
+    room = line_length()
     for group, names in in_groups(studies).items():
         click.echo(group)
         for name in names:
             title = studies[name].title
-            click.echo(cut(f"  {name:<{width}}  {_points(studies[name]):>12}  {title}", columns))
+            click.echo(cut(f"  {name:<{width}}  {_points(studies[name]):>12}  {title}", room))
         click.echo()
     click.echo(f"files: {shipped_folder()}")
 
@@ -179,17 +180,6 @@ def _points(study: Study) -> str:
     from swtstudy.points.unique import LARGEST_GRID
 
     return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"
-
-
-def cut(line: str, columns: int | None) -> str:
-    """A line no longer than so many columns, with an ellipsis where words are left out.
-
-    Examples
-    --------
-    >>> cut("Figure 3: s over the phase", 12)
-    'Figure 3: s…'
-    """
-    return line if columns is None or len(line) <= columns else f"{line[: columns - 1].rstrip()}…"
 
 
 @click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))

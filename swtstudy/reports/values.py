@@ -91,9 +91,17 @@ def _command(name: str, rest: Iterator[tuple[str | None, ...]], upright: bool) -
 
 def symbol_of(values: xr.DataArray) -> str:
     """The symbol of a coordinate or data variable as HTML; its name in words if it has none."""
+    latex = _latex(values)
+    return tied(symbol_html(latex)) if latex else _words(values)
+
+
+def _latex(values: xr.DataArray) -> str:
     name = str(values.name)
-    latex = values.attrs.get("symbol", AXES[name].symbol if name in AXES else "")
-    return tied(symbol_html(str(latex))) if latex else escape(name.replace("_", " "))
+    return str(values.attrs.get("symbol", AXES[name].symbol if name in AXES else ""))
+
+
+def _words(values: xr.DataArray) -> str:
+    return escape(str(values.name).replace("_", " "))
 
 
 def tied(words: str) -> str:
@@ -129,7 +137,11 @@ def place_html(values: xr.DataArray) -> str:
     """A single value with symbol and unit; the value alone of a name."""
     name, value = str(values.name), values.item()
     words = escape(" ".join(filter(None, (value_text(name, value), unit_of(values)))))
-    return words if isinstance(value, str) else tied(f"{symbol_of(values)} = {words}")
+    return (
+        words
+        if isinstance(value, str)
+        else tied(f"{symbol_html(_latex(values)) or _words(values)} = {words}")
+    )
 
 
 def share(part: float) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -16,9 +17,12 @@ _LARGEST_DENOMINATOR = 20
 #: A decimal of so many digits at most is read more easily than a fraction that is equal to it.
 _EXACT = 6
 
-#: Numbers below this power of ten are written out.
-_PLAIN = 6
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+#: Numbers below this power of ten are written out; beside those that are not, numbers between these.
+_PLAIN, _PLAIN_BESIDE = 6, (1e-2, 1e3)
+_SUPERSCRIPTS = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
+_RAISED = str.maketrans("-0123456789", _SUPERSCRIPTS)
+#: A number with a power of ten: what its lead is without noughts behind the point.
+_WITH_POWER = re.compile(r"(-?\d+(\.\d*[1-9])?)(?:\.?0*)e([+-]\d+)")
 
 #: Attributes of a coordinate, which say the unit of results that have one.
 _NONE: Mapping[Any, Any] = {}
@@ -103,13 +107,47 @@ def number_words(value: float, digits: int = 4) -> str:
     ('0.1235', '73100', '5·10⁷', '1.25·10⁻⁷')
     """
     text = f"{value:.{digits}g}"
-    if "e" not in text:
+    _, _, power = text.partition("e")
+    return f"{float(text):.0f}" if power and 0 <= int(power) < _PLAIN else raised(text)
+
+
+def raised(text: str) -> str:
+    """A number as computers write it with a power of ten as people do; other words as they are.
+
+    Examples
+    --------
+    >>> raised("1.60e-05"), raised("1e+09"), raised("0.15"), raised("stick")
+    ('1.6·10⁻⁵', '10⁹', '0.15', 'stick')
+    """
+    found = _WITH_POWER.fullmatch(text)
+    if not found:
         return text
-    lead, power = text.split("e")
-    if 0 <= int(power) < _PLAIN:
-        return f"{float(text):.0f}"
+    lead, power = found[1], str(int(found[3]))
     lead = {"1": "", "-1": "-"}.get(lead, f"{lead}·")
-    return f"{lead}10{str(int(power)).translate(_RAISED)}"
+    return f"{lead}10{power.translate(_RAISED)}"
+
+
+def numbers_words(values: Iterable[float], digits: int = 4) -> list[str]:
+    """Numbers side by side, as `number_words`: if one has a power of ten, all large and small ones do.
+
+    Examples
+    --------
+    >>> numbers_words([130e3, 5e7], 2), numbers_words([8000, 99e3]), numbers_words([100, 1e7, 0, math.inf])
+    (['1.3·10⁵', '5·10⁷'], ['8000', '99000'], ['100', '10⁷', '0', 'inf'])
+    """
+    numbers = [float(value) for value in values]
+    words = [number_words(number, digits) for number in numbers]
+    if not any(set(each) & set(_SUPERSCRIPTS) for each in words):
+        return words
+    return [
+        raised(f"{number:.{digits - 1}e}") if _large_or_small(number) else each
+        for number, each in zip(numbers, words, strict=True)
+    ]
+
+
+def _large_or_small(value: float) -> bool:
+    low, high = _PLAIN_BESIDE
+    return math.isfinite(value) and value != 0.0 and not low <= abs(value) < high
 
 
 def listed(words: Sequence[str], most: int) -> str:

@@ -13,14 +13,15 @@ from folders import RESULTS
 
 import swtstudy
 from swtstudy.cli import _SECTIONS, main
-from swtstudy.cli.points import WHY, aligned
-from swtstudy.cli.studies import cut
+from swtstudy.cli.points import WHY
+from swtstudy.cli.terminal import aligned, cut, fitted, of_markdown, wrapped
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S
 from swtstudy.runner.collector import ProgressBar, line
 from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import raised
 
 
 class Terminal(io.StringIO):
@@ -45,9 +46,66 @@ def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch
     arguments = ["solve", "--friction", "0.1,0.2", "--rtol", "1e-2"]
     piped = CliRunner().invoke(main, arguments).stdout
     assert piped.splitlines()[0].startswith("friction\ts\t")
-    monkeypatch.setattr(import_module("swtstudy.cli.points"), "on_terminal", lambda: True)
+    monkeypatch.setattr(import_module("swtstudy.cli.points"), "line_length", lambda: 80)
     shown = CliRunner().invoke(main, arguments)
     assert "\t" not in shown.stdout
+    error = piped.splitlines()[1].split("\t")[2]
+    assert re.fullmatch(r"\d\.\de-0\d", error)
+    assert raised(error) in shown.stdout
+    assert error not in shown.stdout
+
+
+WIDE = [
+    "solve",
+    "--rtol",
+    "1e-2",
+    "--quantities",
+    "dissipation,stick_radius",
+    "--tangential-amplitude",
+    "0.2,0.4,0.6",
+]
+
+
+@pytest.mark.parametrize("columns", [40, 60, 80, 100, 200])
+def test_a_table_is_no_wider_than_the_terminal(columns: int) -> None:
+    parted = [each.split("\t") for each in lines_of(*WIDE)]
+    printed = fitted(parted, columns)
+    assert max(map(len, printed)) <= columns
+    found = [each.split() for each in printed if each]
+    if columns == 200:
+        assert found == parted
+        return
+    # One quantity a line: its name, then its value at each point that there is room for.
+    whole = {name: [value for line in found if line[0] == name for value in line[1:]] for name in parted[0]}
+    assert whole == {name: list(values) for name, *values in zip(*parted, strict=True)}
+    blocks = "\n".join(printed).split("\n\n")
+    assert len(blocks) == {40: 3, 60: 1}.get(columns, 1)
+
+
+def test_a_point_too_wide_for_any_terminal_is_still_told() -> None:
+    assert fitted([["name"], ["x" * 30]], 20) == ["name  " + "x" * 30]
+
+
+def test_lines_are_broken_between_words_below_their_own() -> None:
+    line = "  axis           phase: 0, 0.04363 … 2π (151 values), a-hyphen-stays"
+    for columns in (35, 40, 60):
+        first, *others = wrapped(line, columns, 17).split("\n")
+        assert others
+        assert max(map(len, (first, *others))) <= columns
+        assert all(each.startswith(" " * 17) and each[17] != " " for each in others)
+        assert " ".join([first, *map(str.strip, others)]) == line
+    assert wrapped(line, None, 17) == line
+
+
+@pytest.mark.parametrize("name", ["sensitivity_indices", "audit_parameter_box", "audit_criteria_box"])
+def test_tables_of_markdown_are_set_in_columns(name: str) -> None:
+    text = (RESULTS / f"{name}.md").read_text("utf-8")
+    assert of_markdown(text, None) == text
+    shown = of_markdown(text, 80).splitlines()
+    assert max(map(len, shown)) <= 80
+    assert not [each for each in shown if "|" in each]
+    words = re.sub(r"\|[-|]+\||\|", " ", text).split()
+    assert sorted(" ".join(shown).split()) == sorted(words)
 
 
 @pytest.mark.parametrize(
