@@ -15,16 +15,19 @@ from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.validity import validity_lines
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.labels import Units
+from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
-from swtstudy.vocabulary.wording import listed, number_words, value_words
+from swtstudy.vocabulary.wording import listed, number_words, numbers_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
 #: Letters to the left of the words of a line.
 INDENT = 17
+#: Of an error that is rtol of s.
+_ROUNDING = 1e-9
 
 
 def describe(dataset: xr.Dataset) -> Iterator[str]:
@@ -135,9 +138,9 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         given = read_contact(dataset.attrs[CONTACT])
         yield "units", ", ".join(vars(given.units).values())
         for material in dict.fromkeys(given.materials):
-            yield "material", ", ".join(f"{name} {v:g}" for name, v in vars(material).items())
+            yield "material", _constants(material)
         for torsion in dict.fromkeys(given.shear_materials):
-            yield "in torsion", ", ".join(f"{name} {v:g}" for name, v in vars(torsion).items())
+            yield "in torsion", _constants(torsion)
         if given.yield_strengths:
             yield "yields at", _stresses(given.yield_strengths, given.units)
         if given.findley_limits:
@@ -146,9 +149,13 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "lives", _counted_words(dataset)
 
 
+def _constants(material: FatigueConstants | ShearConstants) -> str:
+    return ", ".join(f"{name} {number_words(v, 6)}" for name, v in vars(material).items())
+
+
 def _stresses(values: tuple[float, ...], units: Units) -> str:
     """The stresses of both bodies, once where they are alike."""
-    return f"{', '.join(f'{each:g}' for each in dict.fromkeys(values))} {units.stress}"
+    return f"{', '.join(number_words(each, 6) for each in dict.fromkeys(values))} {units.stress}"
 
 
 def _counted_words(dataset: xr.Dataset) -> str:
@@ -200,7 +207,7 @@ def accuracy(dataset: xr.Dataset) -> str:
     relative = relative_errors(dataset)
     if not relative.size:
         return "s is 0 or unknown at all points"
-    above = int((relative > dataset.attrs["rtol"]).sum())
-    largest, median = (number_words(float(each), 2) for each in (relative.max(), np.median(relative)))
+    above = int((relative > dataset.attrs["rtol"] * (1.0 + _ROUNDING)).sum()) or "none"
+    largest, median = numbers_words((relative.max(), np.median(relative)), 2)
     words = f"relative error of s estimated up to {largest}, median {median}"
     return f"{words}; {above} of {relative.size} points above rtol"

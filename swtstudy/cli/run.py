@@ -167,10 +167,11 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     from swtstudy.archive.attributes import read_failures
     from swtstudy.archive.describe import relative_errors
     from swtstudy.points.validity import validity_lines
+    from swtstudy.vocabulary.wording import number_words
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
-    worst = f"relative error up to {relative.max():.1e}" if relative.size else none
+    worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
     for line in validity_lines(dataset):
         click.echo(f"validity: {line}", err=True)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
-from swtstudy.vocabulary.wording import flag_words, number_words
+from swtstudy.vocabulary.wording import flag_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -31,7 +31,7 @@ class Limit:
     largest
         The limit.
     words
-        What is so beyond it.
+        What is beyond it.
     value
         What the variable is, in words.
     short
@@ -56,14 +56,14 @@ LIMITS = (
     Limit(
         "radius_ratio",
         0.1,
-        "with a contact too large for half-spaces",
+        "contact too large for half-spaces",
         "contact radius over R",
         "half-spaces",
     ),
     Limit(
         "bulk_shift_ratio",
         0.5,
-        "where the bulk strain moves the stick zone, which is left out",
+        "shift of the stick zone by bulk strain too large to be left out",
         "shift over the width of the slip zone",
         "bulk strain",
     ),
@@ -87,14 +87,17 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
             continue
         values = _over_points(dataset, dataset[limit.variable])
         out = values > limit.largest
+        if not np.isfinite(values).any() and not out.any():
+            continue
+        found = f"{limit.value} up to {_number(np.nanmax(values))}, limit {limit.largest:g}"
         if out.any():
-            worst = f"{limit.value} up to {_number(np.nanmax(values))}, at most {limit.largest:g}"
-            lines.append(f"{_count(out)} {limit.words}: {worst}{_place(dataset, values)}")
-        elif np.isfinite(values).any():
-            within.append(f"{limit.value} up to {_number(np.nanmax(values))}, within {limit.largest:g}")
+            place = _place(dataset, values)
+            lines.append(f"{limit.words}{_where(out)}: {found}{f',{place}' if place else ''}")
+        else:
+            within.append(found)
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
-        words = "without a yield_strength nothing says whether that yields"
+        words = "whether that yields is unknown without a yield_strength"
         within.append(f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";"))
     return (*lines, *(within if inside else ()))
 
@@ -132,10 +135,10 @@ def _without_s(dataset: xr.Dataset) -> Iterator[str]:
     computed = dataset.status.values == 0 if "status" in dataset else np.ones(state.shape, bool)
     lost = computed & (state == REGIMES.index("no_equilibrium"))
     if lost.any():
-        yield f"{_count(lost)} in no equilibrium{_lacking(dataset, lost)}"
+        yield f"no equilibrium{_where(lost)}{_lacking(dataset, lost)}"
     infinite = computed & (state == REGIMES.index("not_finite"))
     if infinite.any():
-        yield f"{_count(infinite)} not finite: swt grows without bound towards an edge"
+        yield f"s is not finite{_where(infinite)}: swt grows without bound towards an edge"
 
 
 def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
@@ -171,10 +174,10 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
     for name, values in _every_life(dataset):
         out = _beyond(values)
         if out.any():
-            ends = dict.fromkeys((values[out].min(), values[out].max()))
-            found = " to ".join(map(_number, ends))
-            known = " to ".join(map(_number, KNOWN_LIVES))
-            yield f"{_count(out)} with {name} outside of {known}, extrapolated: {found}"
+            ends = dict.fromkeys((float(values[out].min()), float(values[out].max())))
+            found = " to ".join(numbers_words(ends, 3))
+            known = " to ".join(numbers_words(KNOWN_LIVES, 3))
+            yield f"{name} extrapolated{_where(out)}: {found}, while the constants are known for {known}"
 
 
 def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
@@ -201,12 +204,12 @@ def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> NDArray[np.float6
     return np.asarray(values.broadcast_like(dataset.s).transpose(*dataset.s.dims).values, float)
 
 
-def _count(out: NDArray[np.bool_]) -> str:
-    """Say how many of how many points."""
+def _where(out: NDArray[np.bool_]) -> str:
+    """Say at how many of how many points; nothing of a single one."""
     if out.size == 1:
-        return "the point is"
+        return ""
     words = "all" if out.all() else f"{int(out.sum())} of"
-    return f"{words} {out.size} points"
+    return f" at {words} {out.size} points"
 
 
 def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str, ...] = ()) -> str:

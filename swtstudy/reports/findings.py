@@ -14,12 +14,12 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.grid import SAMPLE
-from swtstudy.reports.values import place_html, symbol_of, unit_of, value_text
+from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.vocabulary.choices import SWT, family_of
+from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
-from swtstudy.vocabulary.wording import number_words
+from swtstudy.vocabulary.wording import number_words, numbers_words
 
 #: The parameter whose values have an s of another kind each.
 CRITERION = "criterion"
@@ -93,22 +93,35 @@ def _sentence(lever: Lever, swt: str) -> str:
     there = lever.there
     where = place_words(there.drop_vars(["at_minimum", "at_maximum"]), lever.table)
     words = ("best", "worst") if lever.chosen else ("least", "greatest")
-    least, greatest = (along(lever.name, there[f"at_{end}"]) for end in ("minimum", "maximum"))
+    least, greatest = (_at(lever.name, there[f"at_{end}"]) for end in ("minimum", "maximum"))
     named = f"The {re.split('[,:]', AXES[lever.name].meaning)[0]}"
-    if AXES[lever.name].kind != "name":
+    if is_number(there.at_minimum):
         named += f" {symbol_of(there.at_minimum.rename(lever.name))}"
     moves = f"{named} moves {swt} by <b>{number_words(lever.ratio, 3)} times</b>"
-    return f"{moves}{f' at {where}' if where else ''}: {words[0]} at {least}, {words[1]} at {greatest}."
+    return f"{moves}{where}: {words[0]} {least}, {words[1]} {greatest}."
 
 
 def along(name: str, place: xr.DataArray) -> str:
     """A value of a dimension with its unit."""
-    return escape(" ".join(filter(None, (value_text(name, place.item()), unit_of(place)))))
+    return with_unit(value_text(name, place.item(), place.attrs), place)
+
+
+def _at(name: str, place: xr.DataArray) -> str:
+    """At a number, or for something that has a name."""
+    words = along(name, place)
+    return f"at {words}" if is_number(place) else f"for {'the ' * (place.item() in FAMILIES)}{words}"
 
 
 def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
-    """Where one place lies along the dimensions of a table of extrema."""
-    return ", ".join(place_html(one[name]) for name, size in of.ratio.sizes.items() if size > 1)
+    """Where one place lies along the dimensions of a table of extrema, such as " for load L at μ = 1"."""
+    places = [(str(name), one[name]) for name, size in of.ratio.sizes.items() if size > 1]
+    names = [
+        f"the {along(name, place)}" if place.item() in FAMILIES else f"{name} {along(name, place)}"
+        for name, place in places
+        if not is_number(place)
+    ]
+    numbers = [place_html(place) for _, place in places if is_number(place)]
+    return f" for {' and '.join(names)}" * bool(names) + f" at {', '.join(numbers)}" * bool(numbers)
 
 
 def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
@@ -117,10 +130,11 @@ def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
     if SAMPLE in values.dims or not one:
         known = values.values[np.isfinite(values.values)]
         if known.size > 1:
-            low, middle, high = np.percentile(known, (0, 50, 100))
-            ends = f"from {number_words(low)} to {number_words(high)}, median {number_words(middle)}"
-            if high <= _MOVES * low:
-                ends = f"{number_words(low)}{_blank(unit_of(values))}: nothing that was varied moves it"
+            least, greatest = known.min(), known.max()
+            low, middle, high = numbers_words((least, np.median(known), greatest))
+            ends = f"from {low} to {high}, median {middle}"
+            if greatest <= _MOVES * least:
+                ends = f"{low}{_blank(unit_of(values))}: nothing that was varied moves it"
                 yield f"At all {known.size} points {swt} is {ends}."
             else:
                 yield f"Over {known.size} points {swt} goes {ends}{_blank(unit_of(values))}."
@@ -131,7 +145,7 @@ def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
     if "cycles" in dataset:
         lives = dataset.cycles.values[np.isfinite(dataset.cycles.values)]
         if lives.size:
-            rounds = dict.fromkeys(number_words(each, 2) for each in (lives.min(), lives.max()))
+            rounds = dict.fromkeys(numbers_words((lives.min(), lives.max()), 2))
             yield f"A crack starts after {' to '.join(rounds)} rounds of the load, at the worst place."
 
 

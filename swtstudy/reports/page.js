@@ -29,8 +29,8 @@
   dims.reduceRight((stride, d) => ((d.stride = stride), stride * d.size), 1);
   const known = { ...about.columns, ...dim };
   const rowsAt = (fixed, x, hue) => {
-    const base = dims.reduce((sum, d) => sum + (fixed[d.name] ?? 0) * d.stride, 0);
     const along = dim[x] ?? dim.sample;
+    const base = dims.reduce((sum, d) => sum + (d === along || d.name === hue ? 0 : (fixed[d.name] ?? 0) * d.stride), 0);
     const each = hue ? [...Array(dim[hue].size).keys()] : [0];
     return each.map((k) => [...Array(along.size).keys()].map((i) => base + i * along.stride + (hue ? k * dim[hue].stride : 0)));
   };
@@ -41,8 +41,8 @@
     if (typeof value !== "number") return String(value).replaceAll("_", " ");
     if (!Number.isFinite(value)) return "–";
     const [lead, power] = value.toExponential(digits - 1).split("e");
-    if (value === 0 || (power > -4 && power < 6)) return String(Number(value.toPrecision(Math.max(digits, Number(power) + 1))));
-    return (Number(lead) === 1 ? "" : Number(lead) + "·") + "10" + raised(Number(power));
+    if (value === 0 || (power > -4 && power < 6)) return String(Number(value.toPrecision(Math.max(digits, Number(power) + 1)))).replace("-", "−");
+    return (Number(lead) === 1 ? "" : String(Number(lead)).replace("-", "−") + "·") + "10" + raised(Number(power));
   };
   const escaped = (words) => words.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
   const index = (d, row) => Math.floor(row / d.stride) % d.size;
@@ -190,8 +190,7 @@
   const draw = () => {
     menu();
     hide();
-    const fixed = { ...state.fixed, [state.x]: 0, [state.hue]: 0 };
-    const curves = rowsAt(fixed, state.x, state.hue);
+    const curves = rowsAt(state.fixed, state.x, state.hue);
     const number = typeof table[state.x][0] === "number", flags = known[state.y]?.flags;
     const at = (row) => (number ? table[state.x][row] : dim[state.x] ? index(dim[state.x], row) : [...new Set(table[state.x])].indexOf(table[state.x][row]));
     const up = (row) => (flags ? (flags.indexOf(table[state.y][row]) + 1 || NaN) - 1 : table[state.y][row]);

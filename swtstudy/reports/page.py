@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.describe import facts
 from swtstudy.paper.statements.check import about_archive
+from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
 from swtstudy.reports.findings import CRITERION, sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, derived, figure, section, study_figure, table, whole
@@ -19,7 +20,7 @@ from swtstudy.reports.sections import (
     tiles,
 )
 from swtstudy.reports.values import about, packed, rows_of, symbol_of, table_of
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.shipped import shipped_studies
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ _MEANING = (
     "amplitude of the normal strain, over all planes and places) of a frictional contact of elastic bodies, "
     "over <i>E</i>*<i>δ</i><sub>0</sub>/<i>R</i>. The larger, the sooner a crack begins."
 )
+#: What the figures of a sample are over.
+_SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
 _HINT = " <span data-script hidden>Point at it, or use the arrow keys, for values.</span>"
 _SLICE = """<div class="controls"></div>
 <p class="up"></p>
@@ -105,7 +108,7 @@ def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], s
         known["derived"] = derived(dataset, layout, rows_of(dataset))
         known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue}
         known["start"]["fixed"] = worst_place(dataset)
-        words = f"{', '.join(layout.y)} over {layout.x}"
+        words = f"{', '.join(layout.y)} {_SAMPLED.get(layout.kind, f'over {layout.x}')}"
         caption = _caption(dataset, layout) + _HINT * bool(known["panels"])
         sections.append(section("figure", "Figure", figure(shown, words, caption, name="plot")))
     source = packed(rows)
@@ -128,8 +131,13 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
     """Caption of a figure: its quantities and parameters in symbols."""
     names = [y if "/" in y else symbol_of(dataset[y]) for y in layout.y]
     words = f"{', '.join(escape(each) if '/s(' in each else each for each in names)}"
-    along = {"x": "over", "vertical": "and", "hue": "a line for each", "panels": "a panel for each"}
-    parts = [f"{along[role]} {symbol_of(dataset[each])}" for role, each in layout.roles() if each in dataset]
+    mark = "a line" if layout.kind in LINE_KINDS else "a colour"
+    along = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
+    parts = [
+        _SAMPLED[layout.kind] if each == SAMPLE else f"{along[role]} {symbol_of(dataset[each])}"
+        for role, each in layout.roles()
+        if each in dataset
+    ]
     own = f" {escape(layout.caption)}" if layout.caption else ""
     return f"{words} {', '.join(parts)}.".replace(", and", " and") + own
 

@@ -16,7 +16,15 @@ from swtstudy.points.records import COMPUTED
 from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
-from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, unit_of, value_text
+from swtstudy.reports.values import (
+    place_html,
+    share,
+    symbol_html,
+    symbol_of,
+    unit_of,
+    value_text,
+    with_unit,
+)
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.units.reading import read_contact
 from swtstudy.vocabulary.mistakes import StudyError
@@ -41,8 +49,9 @@ def tiles(dataset: xr.Dataset) -> str:
         value = f"{number_words(float(swt))} {escape(unit_of(swt))}".strip()
         found.append((f"{end} {symbol_of(values)}".strip(), value, where))
     if relative.size:
-        words = f"estimated, half of them below {share(float(np.median(relative)))}"
-        found.append(("relative error, at most", share(float(relative.max())), words))
+        largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
+        words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
+        found.append(("relative error, at most", largest, words))
     each = (f"<div><dt>{a}</dt><dd>{b}<small>{c}</small></dd></div>" for a, b, c in found)
     return f'<dl class="tiles">{"".join(each)}</dl>'
 
@@ -127,7 +136,7 @@ def settings_section(dataset: xr.Dataset) -> Section:
         if name in AXES and name not in ("body", "direction") and name not in (row[0] for row in rows):
             values = dataset[name]
             own = "<b>{}</b>" if values.size > 1 else "{}"
-            said = own.format(f"{escape(_values(name, values))} {escape(unit_of(values))}".strip())
+            said = own.format(with_unit(_values(name, values), values))
             symbol = "" if AXES[name].kind == "name" else symbol_of(values)
             rows.append((name, symbol, escape(AXES[name].meaning), said))
     control = escape(str(dataset.control.item())) if "control" in dataset.coords else ""
@@ -144,9 +153,9 @@ def _units_note(dataset: xr.Dataset) -> str:
 def _values(name: str, values: xr.DataArray) -> str:
     known = np.atleast_1d(values.values)
     if len(known) > _LISTED and known.dtype.kind in "fiu":
-        ends = (value_text(name, float(end)) for end in (known.min(), known.max()))
+        ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
         return f"{' to '.join(ends)} ({len(np.unique(known))} values)"
-    return ", ".join(dict.fromkeys(value_text(name, value) for value in known.tolist()))
+    return ", ".join(dict.fromkeys(value_text(name, value, values.attrs) for value in known.tolist()))
 
 
 def _materials(dataset: xr.Dataset) -> Iterator[str]:

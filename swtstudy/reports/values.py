@@ -10,7 +10,7 @@ import gzip
 import math
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,8 @@ from swtstudy.figures.quantity_words import flag_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import dims_beside, to_table
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import number_words, value_words
+from swtstudy.vocabulary.wording import flag_words as value_words
+from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 _TOKENS = re.compile(r"\\([a-zA-Z]+|.)|([{}_^])|(\s+)|([A-Za-z])|(.)", re.DOTALL)
 _SIGNS = {"ell": "<i>ℓ</i>", "cdot": "·", "infty": "∞", "approx": "≈", ",": " ", ";": " ", " ": " "}
+#: Of what has none.
+_NONE: Mapping[Any, Any] = {}
 #: What has another letter in Unicode's names than in LaTeX.
 _GREEK = {"lambda": "lamda", "varphi": "phi", "varepsilon": "epsilon", "vartheta": "theta"}
 
@@ -115,33 +118,46 @@ def unit_of(values: xr.DataArray) -> str:
     return "" if unit in ("", "1", "rad") else {"degree": "°"}.get(unit, unit)
 
 
-def value_text(name: str, value: Any) -> str:
-    """A value as people say it: as `swtstudy.vocabulary.wording.value_words`, and every angle in π.
+def value_text(name: str, value: Any, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """A value as people say it, by the attributes of its coordinate, and every angle in π.
 
     Examples
     --------
     >>> value_text("phase", 2.7052603405912108), value_text("normal_amplitude", 8 / 9)
     ('0.861π', '8/9')
+    >>> value_text("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad rod"}), value_text("phase", -0.5)
+    ('rod', '−0.159π')
     """
     if isinstance(value, float) and not math.isfinite(value):
         return "–"
     if name not in AXES or isinstance(value, bool):
-        return number_words(value) if isinstance(value, float) else str(value)
-    words = value_words(name, value)
+        return number_words(value).replace("-", "−") if isinstance(value, float) else str(value)
+    words = value_words(name, value, attributes)
     if AXES[name].units == "rad" and "π" not in words and value:
-        return f"{value / math.pi:.3g}π"
-    return words
+        words = f"{value / math.pi:.3g}π"
+    return words.replace("-", "−") if _is_number(value, attributes) else words
+
+
+def is_number(values: xr.DataArray) -> bool:
+    """Return whether a single value is a number of its own, not a name or what stands for one."""
+    return _is_number(values.item(), values.attrs)
+
+
+def _is_number(value: Any, attributes: Mapping[Any, Any]) -> bool:
+    return not isinstance(value, str) and "flag_meanings" not in attributes
+
+
+def with_unit(words: str, values: xr.DataArray) -> str:
+    """A value in words with the unit of its coordinate, as HTML."""
+    unit = unit_of(values)
+    return escape(f"{words}{unit}" if unit == "°" else f"{words} {unit}".rstrip())
 
 
 def place_html(values: xr.DataArray) -> str:
     """A single value with symbol and unit; the value alone of a name."""
-    name, value = str(values.name), values.item()
-    words = escape(" ".join(filter(None, (value_text(name, value), unit_of(values)))))
-    return (
-        words
-        if isinstance(value, str)
-        else tied(f"{symbol_html(_latex(values)) or _words(values)} = {words}")
-    )
+    words = with_unit(value_text(str(values.name), values.item(), values.attrs), values)
+    symbol = symbol_html(_latex(values)) or _words(values)
+    return tied(f"{symbol} = {words}") if is_number(values) else words
 
 
 def share(part: float) -> str:
@@ -216,7 +232,7 @@ def _dimension(dataset: xr.Dataset, name: str) -> dict[str, Any]:
     values = dataset[name]
     numbers = values.dtype.kind in "fiu"
     known = np.sort(values.values) if numbers else values.values
-    words = [] if name == SAMPLE else [value_text(name, value) for value in values.values.tolist()]
+    words = [] if name == SAMPLE else [value_text(name, one, values.attrs) for one in values.values.tolist()]
     return {
         "name": name,
         "size": values.size,

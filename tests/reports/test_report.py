@@ -29,7 +29,7 @@ from swtstudy.reports.page import page
 from swtstudy.reports.parts import embedded, section
 from swtstudy.reports.sections import tiles
 from swtstudy.reports.site import write_reports
-from swtstudy.reports.values import symbol_html
+from swtstudy.reports.values import place_html, symbol_html
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
@@ -100,6 +100,12 @@ def read_multiple(words: str) -> float:
     """A multiple of π such as 0.86π, π/18 or 0."""
     number, _, below = words.partition("π")
     return float(number or "1") / float(below.removeprefix("/") or "1")
+
+
+@pytest.fixture
+def without_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without the pictures of points, which take seconds."""
+    monkeypatch.setattr("swtstudy.reports.page.points_section", lambda _: section("points", "Points"))
 
 
 @pytest.fixture(scope="module")
@@ -265,6 +271,51 @@ def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], sai
     assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", tiles(dataset))
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("figure5", "times for the truncated paraboloid at "),
+        ("figure5", ": least for the rounded punch, greatest for the truncated paraboloid."),
+        ("loops", "times for load L: least at 0.05"),
+        ("loops", "at μ = 1: best for diagonal, worst for L."),
+        ("criteria", "times for criterion swt at μ = 0.25: best at "),
+    ],
+)
+def test_what_has_a_name_is_no_place(name: str, said: str) -> None:
+    found = " ".join(sentences(swtstudy.open_results(RESULTS / f"{name}.nc")))
+    assert said in re.sub("<.*?>", "", found)
+
+
+def test_bodies_are_called_by_their_names() -> None:
+    contacts = swtstudy.physical(
+        young_modulus=[210e3, 150e3], poisson_ratio=0.3, radius=10.0, friction=0.5, normal_force=100.0,
+        tangential_force_amplitude=[10.0, 20.0], bodies=["test_piece", "pad"],
+    )  # fmt: skip
+    words = re.sub("<.*?>", "", " ".join(sentences(contacts.solve(rtol=1e-2))))
+    assert "moves SWT by 1.88 times for body test piece: best at 10, worst at 20." in words
+    assert "The body moves SWT by 1.4 times at QA = 10: least for test piece, greatest for pad." in words
+
+
+@pytest.mark.parametrize("name", ["figure4", "sensitivity", "life"])
+def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) -> None:
+    text = page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)
+    tied = re.findall(r'<span class="tied">.*?</span>', text)
+    assert len(tied) > 10
+    assert not [each for each in tied if each.count("<span") > 1]
+
+
+def test_the_figure_of_a_sample_is_over_its_parameters(without_points: None) -> None:
+    text = page(swtstudy.open_results(RESULTS / "sensitivity.nc"), "sensitivity")
+    (caption,) = re.findall("<figcaption>(.*?)</figcaption>", text.partition('id="figure"')[2])[:1]
+    assert re.sub("<.*?>", "", caption) == "s over each sampled parameter, a colour for each ω2/ω1."
+    assert 'alt="s over each sampled parameter"' in text
+
+
+def test_signs_and_degrees_are_set_as_in_print() -> None:
+    angle = xr.DataArray(-3.384, attrs={"units": "degree", "symbol": r"\varphi"}, name="critical_angle")
+    assert re.sub("<.*?>", "", place_html(angle)) == "φ = −3.384°"
+
+
 def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset) -> None:
     one = small.isel(phase=0, normal_amplitude=0)
     words = re.sub("<[^>]*>", " ", "".join(sentences(one)) + tiles(one))
@@ -280,15 +331,16 @@ def test_one_life_is_no_range() -> None:
 
 
 def test_validity_is_shown_where_results_have_it(
-    small: xr.Dataset, small_page: str, monkeypatch: pytest.MonkeyPatch
+    small: xr.Dataset, small_page: str, without_points: None
 ) -> None:
     assert "Where the model holds" not in small_page
-    # Pictures of points take seconds.
-    monkeypatch.setattr("swtstudy.reports.page.points_section", lambda _: section("points", "Points"))
     bare = small.drop_attrs(deep=False).assign_attrs({k: v for k, v in small.attrs.items() if k != "figure"})
     text = page(bare.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
-    assert "beyond first yield: largest von Mises stress over the yield strength up to 1.5, at most 1" in text
-    assert "<li>contact radius over R up to 0.05, within 0.1</li>" in text
+    assert (
+        "beyond first yield at all 6 points: largest von Mises stress over the yield strength up to 1.5"
+        in text
+    )
+    assert "<li>contact radius over R up to 0.05, limit 0.1</li>" in text
 
 
 @pytest.mark.slow
@@ -380,18 +432,32 @@ CHROMIUM = next(
 )
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
-def test_scripts_draw_slices_and_give_the_table(tmp_path: Path, small_page: str) -> None:
-    (tmp_path / "page.html").write_text(small_page, encoding="utf-8")
+def in_chromium(text: str, folder: Path) -> str:
+    """The page as its scripts leave it."""
+    (folder / "page.html").write_text(text, encoding="utf-8")
     options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"]
     command = [
         str(CHROMIUM),
         *options,
-        f"--user-data-dir={tmp_path / 'profile'}",
-        (tmp_path / "page.html").as_uri(),
+        f"--user-data-dir={folder / 'profile'}",
+        (folder / "page.html").as_uri(),
     ]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=True)
-    assert len(re.findall(r'<path class="c\d d0" d="M\d', done.stdout)) == 4  # two lines, and their legend
-    assert len(re.findall("<select>", done.stdout)) == 3
-    assert re.search(r'id="table" download="small\.csv" href="blob:', done.stdout)
-    assert "data-script hidden" not in done.stdout.replace('data-script=""', "data-script")
+    return subprocess.run(command, capture_output=True, encoding="utf-8", timeout=120, check=True).stdout
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
+def test_scripts_draw_slices_and_give_the_table(tmp_path: Path, small_page: str) -> None:
+    shown = in_chromium(small_page, tmp_path)
+    assert len(re.findall(r'<path class="c\d d0" d="M\d', shown)) == 4  # two lines, and their legend
+    assert len(re.findall("<select>", shown)) == 3
+    assert re.search(r'id="table" download="small\.csv" href="blob:', shown)
+    assert "data-script hidden" not in shown.replace('data-script=""', "data-script")
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
+def test_scripts_draw_every_point_of_a_sample(tmp_path: Path, without_points: None) -> None:
+    dataset = swtstudy.open_results(RESULTS / "sensitivity.nc")
+    shown = in_chromium(page(dataset, "sensitivity"), tmp_path)
+    places = [float(each) for each in re.findall(r'<circle class="c\d" cx="([^"]+)"', shown)]
+    assert len(places) == dataset.s.size
+    assert np.ptp(places) > 200.0
