@@ -136,7 +136,8 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """List the facts of the contacts of a study with units, besides the values of parameters."""
     if has_units(dataset):
         given = read_contact(dataset.attrs[CONTACT])
-        yield "units", ", ".join(vars(given.units).values())
+        units = ", ".join(filter(None, vars(given.units).values()))
+        yield from [("units", units)] if units else []
         for material in dict.fromkeys(given.materials):
             yield "material", _constants(material)
         for torsion in dict.fromkeys(given.shear_materials):

@@ -20,7 +20,7 @@ from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.wording import place_words
+from swtstudy.vocabulary.wording import number_words, place_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -114,7 +114,7 @@ def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
 
 
 def _value(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return number_words(value, 6) if isinstance(value, float) else str(value)
 
 
 #: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.

@@ -11,7 +11,7 @@ from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import listed
+from swtstudy.vocabulary.wording import listed, number_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -173,4 +173,4 @@ def _row(
 
 
 def _value(value: Value) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return number_words(value, 6) if isinstance(value, float) else str(value)

@@ -21,7 +21,7 @@ from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.wording import raised
+from swtstudy.vocabulary.wording import numbers_words, raised
 
 
 class Terminal(io.StringIO):
@@ -200,6 +200,38 @@ def test_an_archive_says_what_info_prints(results: xr.Dataset) -> None:
     archive = f"{RESULTS}/loops.nc"
     assert repr(swtstudy.open_results(archive).swt).splitlines() == lines_of("info", archive)
     assert not [each for each in lines_of("info", archive) if each.endswith("yes")]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("figure4", "none of 1490 points above rtol"), ("stability_small_motion", " of 565 points above rtol")],
+)
+def test_an_error_of_rtol_is_not_above_it(name: str, said: str) -> None:
+    dataset = swtstudy.open_results(f"{RESULTS}/{name}.nc")
+    (line,) = [each for each in repr(dataset.swt).splitlines() if each.startswith("  accurate")]
+    assert line.endswith(said)
+    known = (dataset.s_error / dataset.s).values.ravel()
+    above = int((known > 1.001 * dataset.attrs["rtol"]).sum())
+    assert f"; {above or 'none'} of" in line
+
+
+def test_numbers_side_by_side_are_of_one_kind() -> None:
+    assert numbers_words([5e7, 5e5], 2) == ["5·10⁷", "5·10⁵"]
+    assert numbers_words([3.9e-5, 1e-4, 0.5, -2000.0], 2) == ["3.9·10⁻⁵", "10⁻⁴", "0.5", "-2·10³"]
+    assert numbers_words([999.0, 1000.0, 1e-2, 9.9e-3, 1e9]) == ["999", "10³", "0.01", "9.9·10⁻³", "10⁹"]
+    assert numbers_words([5e5, 1e3]) == ["500000", "1000"]
+    assert numbers_words([]) == []
+
+
+def test_a_contact_in_pascals_has_no_computers_numbers() -> None:
+    contact = swtstudy.physical(
+        young_modulus=73.1e9, poisson_ratio=0.33, radius=0.05, normal_force=200.0, friction=0.5,
+        tangential_force_amplitude=60.0,
+    )  # fmt: skip
+    constants = swtstudy.FatigueConstants(73.1e9, 927e6, -0.113, 0.409, -0.713)
+    for said in (repr(contact), repr(contact.solve(rtol=1e-2, constants=constants).swt)):
+        assert "7.31·10¹⁰" in said
+        assert not re.search(r"\de[+-]?\d", said)
 
 
 def test_flags_are_words_in_one_call_that_their_attributes_name(results: xr.Dataset) -> None:
