@@ -54,6 +54,7 @@
   };
   const unit = (name) => (known[name]?.unit ? " " + escaped(known[name].unit) : "");
   const symbol = (name) => known[name]?.symbol ?? escaped(name);
+  const label = (name) => symbol(name) + (known[name]?.unit ? ` (${escaped(known[name].unit)})` : "");
   const errorOf = (name) => (name.startsWith("s/s") ? name + "_error" : name.replace(/(\[.*)?$/, "_error$1"));
   const describe = (y, row) => {
     const error = table[errorOf(y)]?.[row];
@@ -156,7 +157,7 @@
     whole.append(select);
     controls.append(whole);
   };
-  const titled = (n) => [n, known[n] ? `${plain(known[n].symbol)}${known[n].meaning ? " – " + known[n].meaning : ""}` : n];
+  const titled = (n) => [n, [...new Set([plain(symbol(n)), known[n]?.meaning ?? ""])].filter(Boolean).join(" – ")];
   const menu = () => {
     controls.replaceChildren();
     choice("upwards", values.map(titled), state.y, (v) => (state.y = v));
@@ -226,9 +227,9 @@
     });
     stage.querySelector("svg")?.remove();
     stage.insertAdjacentHTML("afterbegin", `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${escaped(plain(symbol(state.y)))} over ${escaped(plain(symbol(state.x)))}">${parts.join("")}</svg>`);
-    room.querySelector(".up").innerHTML = symbol(state.y) + unit(state.y);
-    room.querySelector(".across").innerHTML = symbol(state.x) + unit(state.x);
-    legend.innerHTML = state.hue ? `<b>${symbol(state.hue)}${unit(state.hue)}</b>` + curves.map((own, k) => `<span><svg width="26" height="8"><path class="c${k % 7} d${Math.floor(k / 7)}" d="M0 4H26"/></svg>${words(state.hue, own[0])}</span>`).join("") : "";
+    room.querySelector(".up").innerHTML = label(state.y);
+    room.querySelector(".across").innerHTML = label(state.x);
+    legend.innerHTML = state.hue ? `<b>${label(state.hue)}</b>` + curves.map((own, k) => `<span><svg width="26" height="8"><path class="c${k % 7} d${Math.floor(k / 7)}" d="M0 4H26"/></svg>${words(state.hue, own[0])}</span>`).join("") : "";
   };
   hide = attach(stage, () => points, () => state.y);
   draw();

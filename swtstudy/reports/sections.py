@@ -167,7 +167,10 @@ def _materials(dataset: xr.Dataset) -> Iterator[str]:
         ):
             for material in dict.fromkeys(several):
                 rows = [
-                    (escape(name.replace("_", " ")), f"{number_words(v)} {_unit_of_constant(dataset, name)}")
+                    (
+                        escape(name.replace("_", " ")),
+                        f"{value_text(name, v)} {_unit_of_constant(dataset, name)}",
+                    )
                     for name, v in vars(material).items()
                 ]
                 yield f"<h3>{title}</h3>" + table(("", ""), rows, numbers=(1,))
