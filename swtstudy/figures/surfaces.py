@@ -14,6 +14,7 @@ from matplotlib import rcParams
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
+from swtstudy.figures.contour_labels import parts_of, places_of_labels
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import tick_cells, tick_in_pi
 from swtstudy.mechanics.points import FloatArray
@@ -249,11 +250,13 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     shown = levels if is_life(surface.attrs) else levels[::2]
     look_of_labels: dict[str, Any] = {"fmt": _power} if is_life(surface.attrs) else {"fmt": "%g"}
     inks = [_ink(filled, float(level)) for level in shown]
-    for words in axes.clabel(lines, shown, fontsize="x-small", colors=inks, **look_of_labels):
-        words.set_color(words.get_color()[:3])  # not as pale as the lines
-        words.set_alpha(1.0)
     if surface.name == "s":
         _draw_extrema(axes, surface)
+    places = places_of_labels(axes, lines, shown)
+    look_of_labels |= {"manual": places, "fontsize": "x-small", "colors": inks}
+    for words in axes.clabel(lines, shown, **look_of_labels) if places else ():
+        words.set_color(words.get_color()[:3])  # not as pale as the lines
+        words.set_alpha(1.0)
     axes.grid(False)
     _tick_angles(axes, surface)
     return filled
@@ -280,16 +283,8 @@ def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
         inside = panel.x0 < box.x0 and box.x1 < panel.x1 and panel.y0 < box.y0 and box.y1 < panel.y1
         return bool(inside and box.width < _ISLAND * panel.width and box.height < _ISLAND * panel.height)
 
-    kept = [[part for part in _parts(path) if not island(part)] for path in contours.get_paths()]
+    kept = [[part for part in parts_of(path) if not island(part)] for path in contours.get_paths()]
     contours.set_paths([Path.make_compound_path(*parts) for parts in kept])
-
-
-def _parts(path: Path) -> list[Path]:
-    """The connected parts of a path."""
-    codes = np.array([] if path.codes is None else path.codes, dtype=np.uint8)
-    begins = np.flatnonzero(codes == Path.MOVETO).tolist()
-    places: Any = path.vertices
-    return [Path(places[a:b], codes[a:b]) for a, b in pairwise([*begins, len(codes)])]
 
 
 def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
