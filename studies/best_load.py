@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.colors import BoundaryNorm
+from matplotlib import colormaps
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -31,6 +32,8 @@ LARGEST = 0.9
 FINE, COARSE = (37, 145), (3, 5)
 #: s over that without a normal oscillation: steps of the map.
 LEVELS = np.arange(4, 21) / 10
+#: Of ratios from 0 to 2, so that both sides of 1 are told apart.
+COLOURS = ListedColormap(colormaps["PuOr_r"](0.25 * (LEVELS[:-1] + LEVELS[1:])))
 MARKS: dict[str, dict[str, Any]] = {
     "best": {"marker": "*", "markersize": 20, "color": "white", "markeredgecolor": "black", "linestyle": ""},
     "worst": {"marker": "X", "markersize": 14, "color": "black", "markeredgecolor": "white", "linestyle": ""},
@@ -100,8 +103,10 @@ def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
         for axes, (ratio, each) in zip(panels.flat, found.items(), strict=False):
             s = grid.swt.slice(frequency_ratio=ratio).s
             over_none = (s / s.sel(normal_amplitude=0.0)).rename("over_none")
-            look = {"norm": BoundaryNorm(LEVELS, 256)}
+            look = {"norm": BoundaryNorm(LEVELS, len(LEVELS) - 1), "cmap": COLOURS}
             filled = draw_contours(axes, over_none.transpose("normal_amplitude", "phase"), look)
+            for covered in [text for text in axes.texts if text.get_text() == "1"]:
+                covered.remove()  # by the thick line, which the legend explains
             axes.contour(s.phase, s.normal_amplitude, over_none, [1.0], colors="black", linewidths=2.2)
             for case, mark in MARKS.items():
                 at = each.sel(case=case)
