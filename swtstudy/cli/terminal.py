@@ -1,4 +1,4 @@
-"""What people read on a terminal: tables and lines as wide as it is."""
+"""Tables and lines for a terminal, as wide as it is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where labels of contours go: on straight stretches, inside the panel, apart from other labels and lines."""
+"""Places of the labels of contours: on straight stretches, inside the panel, apart from labels and lines."""
 
 from __future__ import annotations
 
