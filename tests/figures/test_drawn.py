@@ -5,6 +5,8 @@ import pytest
 import xarray as xr
 from made_up import made_up
 from matplotlib import colormaps
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 import swtstudy
@@ -390,9 +392,20 @@ def test_slip_map(axes):
     states = swtstudy.slip_map([0.2, 0.9, 1.4], time=[0.0, 1.0, 2.0, 3.0], phase=0.5)
     patches = draw_slip_map(axes, states)
     assert [patch.get_label() for patch in patches] == ["open", "stick", "forward slip", "backward slip"]
-    (mesh,) = axes.collections
-    drawn = np.asarray(mesh.get_array()).reshape(3, 4)
-    np.testing.assert_array_equal(drawn, states.state.transpose("r", "time"))
+    (mesh,) = axes.images
+    np.testing.assert_array_equal(mesh.get_array(), states.state.transpose("r", "time"))
+    # A cell goes half way to its neighbours, also where these are not equally far.
+    canvas = FigureCanvasAgg(axes.figure)
+    axes.set(ylim=(0.0, 1.65), autoscale_on=False)
+    axes.lines[0].set_visible(False)  # the edge of the contact
+    canvas.draw()
+    seen = np.asarray(canvas.buffer_rgba())
+    for r, row in ((0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
+        for column in (1, 2):
+            across, up = axes.transData.transform((column + 0.3, r))
+            colour = seen[seen.shape[0] - 1 - round(up), round(across)] / 255.0
+            code = int(states.state.transpose("r", "time")[row, column])
+            assert colour == pytest.approx(to_rgba(patches[code].get_facecolor()), abs=0.01)
     # Each state has the colour of its word.
     for code, patch in enumerate(patches):
         assert mesh.cmap(mesh.norm(code)) == patch.get_facecolor()

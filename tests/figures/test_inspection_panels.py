@@ -100,7 +100,7 @@ def test_slip(cattaneo, axes):
         assert place == pytest.approx((float(cattaneo.instant_time[number - 1]), 0.95 * top))
     words = [text.get_text() for text in axes.get_legend().get_texts()]
     assert words == ["stick", "forward slip", "backward slip", "critical point", "always sticks"]
-    mesh = axes.collections[0]
+    mesh = axes.images[0]
     np.testing.assert_array_equal(
         np.asarray(mesh.get_array()).reshape(cattaneo.state.T.shape), cattaneo.state.T
     )
