@@ -82,6 +82,16 @@ def test_a_table_is_no_wider_than_the_terminal(columns: int) -> None:
     assert len(blocks) == {40: 3, 60: 1}.get(columns, 1)
 
 
+def test_room_is_used_to_the_last_letter() -> None:
+    lines = [["name", "b"], ["12345", "6"], ["7", "89"], ["3", "4"]]
+    assert fitted(lines, 9) == aligned(lines) == [" name   b", "12345   6", "    7  89", "    3   4"]
+    wide = [[*line, *line] for line in lines]
+    assert fitted(wide, 18) == ["name  12345   7  3", "b         6  89  4"] * 2
+    first, second = ["name  12345   7", "b         6  89"], ["name  3", "b     4"]
+    assert fitted(wide, 17) == fitted(wide, 15) == [*first * 2, "", *second * 2]
+    assert fitted(wide, 14)[0] == "name  12345"
+
+
 def test_a_point_too_wide_for_any_terminal_is_still_told() -> None:
     assert fitted([["name"], ["x" * 30]], 20) == ["name  " + "x" * 30]
 
