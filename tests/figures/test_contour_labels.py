@@ -57,3 +57,21 @@ def test_a_label_keeps_away_from_lines() -> None:
     assert min(abs(x - 0.1), abs(x - 0.9), abs(y - 0.1)) >= 0.05
     assert y > 0.5  # the upper side has no line
     assert beside != free
+
+
+def test_a_contour_beneath_a_line_has_no_label() -> None:
+    axes = Figure().subplots()
+    x, y = np.meshgrid(np.linspace(0.0, 1.0, 51), np.linspace(0.0, 1.0, 51))
+    lines = axes.contour(x, y, x, levels=[0.3, 0.7])
+    axes.plot([0.3, 0.3], [0.0, 1.0])
+    ((place, _),) = places_of_labels(axes, lines, [0.3, 0.7])
+    assert place == pytest.approx(0.7)
+
+
+def test_labels_of_crowded_contours_keep_apart() -> None:
+    axes = Figure().subplots()
+    x, y = np.meshgrid(np.linspace(0.0, 1.0, 51), np.linspace(0.0, 1.0, 51))
+    levels = np.linspace(0.2, 0.8, 61)
+    places = np.array(places_of_labels(axes, axes.contour(x, y, x, levels=levels), levels))
+    assert 8 < len(places) < len(levels)
+    assert min(np.hypot(*(a - b)) for a, b in combinations(places, 2)) > 0.16
