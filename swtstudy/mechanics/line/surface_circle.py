@@ -27,11 +27,8 @@ SAFE_POISSON_RATIO = 0.35
 #: Angles from the x axis that are looked at first: by symmetry in y half of the circle is all of it. Half:
 #: 2e-4 low at 2 more of 1,690 points (these, and those below, are of `studies/checks/off_line.py`).
 ANGLES = np.linspace(0.0, np.pi, 17)
-#: Planes at each angle from which to climb, the highest peaks of the coarse ones.
-SUMMITS = 3
-#: Share of the largest swt that the coarse planes may hide, and then instants and angles. The second 0.02:
-#: 3e-2 low at one point, 1e-2 at another.
-SHARE, NEAR = 0.15, 0.05
+#: Share of the largest swt that instants and angles may hide. 0.02: 3e-2 low at one point, 1e-2 at another.
+NEAR = 0.05
 #: Cosine of the turn, 6°, between planes of one ridge at neighbouring angles. 11°: 2e-3 low at a point of
 #: tests/mechanics/test_surface_circle.py.
 ALIKE = 0.995
@@ -161,12 +158,12 @@ def _first_places(scene: Scene, r: FloatArray, line: FloatArray, known: FloatArr
     look = Look.at(scene, r[:, None], FIRST_STEPS, DIGITS)
     stress, tensor = _circle(scene, look.history, np.broadcast_to(ANGLES, (len(scene), ANGLES.size)))
     swt, normal = _summits(scene, stress, tensor)
-    chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=(1, 2)), line)[:, None, None]) & (swt > 0.0)
+    chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), line)[:, None]) & (swt > 0.0)
     chosen &= _on_top(swt, normal) & ~_known(swt, normal, known)
-    circle, angle, number = np.nonzero(chosen)
-    swt, normal = swt[circle, angle, number], normal[circle, angle, number]
+    at = circle, angle = np.nonzero(chosen)
+    swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])
     # Of two summits close to one another, each by instants of its own, a coarse plane leads to one.
-    some, criterion = (stress[circle, angle], tensor[circle, angle]), scene.criterion.take(circle)
+    criterion = scene.criterion.take(circle)
     other, turned = climb(*some, swap_instants(*some, normal, criterion), criterion, LAST_STEP)
     is_other = np.abs((turned * normal).sum(axis=-1)) < np.cos(2.0 * LAST_STEP)
     places = _Places(circle, ANGLES[angle], normal)
@@ -175,49 +172,31 @@ def _first_places(scene: Scene, r: FloatArray, line: FloatArray, known: FloatArr
 
 
 def _summits(scene: Scene, stress: FloatArray, tensor: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The highest summits over the planes at the angles, (n, k, SUMMITS), highest first, and normals.
-
-    None is 0.
-    """
+    """swt at the angles on a summit over the planes, (n, k), and normals, (n, k, 3)."""
     planes, criterion = CoarsePlanes.everywhere(), scene.criterion
-    coarse = np.stack(
-        [
-            planes.swt(own, float(ν), criterion.take(np.array([row])))
-            for row, (own, ν) in enumerate(zip(stress, scene.poisson_ratio, strict=True))
-        ]
-    )
-    coarse[coarse < coarse[..., planes.beside].max(axis=-1)] = 0.0
-    number = np.argpartition(-coarse, SUMMITS, axis=-1)[..., :SUMMITS]
-    coarse = np.take_along_axis(coarse, number, axis=-1)
-    at = np.nonzero((coarse >= (1.0 - SHARE) * coarse.max(axis=(1, 2), keepdims=True)) & (coarse > 0.0))
-    swt, normal = np.zeros(coarse.shape), np.zeros((*coarse.shape, 3))
-    start, own = planes.normal[number[at]], criterion.take(at[0])
-    swt[at], normal[at] = climb(stress[at[:2]], tensor[at[:2]], start, own, LAST_STEP)
-    order = np.argsort(-swt, axis=-1)
-    return np.take_along_axis(swt, order, axis=-1), np.take_along_axis(normal, order[..., None], axis=-2)
+    normal, swt = np.empty((*stress.shape[:2], 3)), np.zeros(stress.shape[:2])
+    for row, (own, ν) in enumerate(zip(stress, scene.poisson_ratio, strict=True)):
+        coarse = planes.swt(own, float(ν), criterion.take(np.array([row])))
+        normal[row], swt[row] = planes.normal[coarse.argmax(axis=1)], coarse.max(axis=1)
+    at = np.nonzero(swt > 0.0)
+    swt[at], normal[at] = climb(stress[at], tensor[at], normal[at], criterion.take(at[0]), LAST_STEP)
+    return swt, normal
 
 
 def _on_top(swt: FloatArray, normal: FloatArray) -> NDArray[np.bool_]:
-    """Which summits are higher than those on alike planes at the same and the next angles."""
-    beside = tuple(np.pad(v, ((0, 0), (1, 1)) + ((0, 0),) * (v.ndim - 2)) for v in (swt, normal))
+    """Which summits are higher than those on alike planes at the next angles, shape (n, k)."""
+    alike = np.abs((normal[:, 1:] * normal[:, :-1]).sum(axis=-1)) > ALIKE
     on_top = np.ones(swt.shape, dtype=bool)
-    for first in range(3):
-        own, turned = (v[:, first : first + ANGLES.size] for v in beside)
-        alike = np.abs(np.einsum("nakx,nalx->nakl", normal, turned)) > ALIKE
-        higher = own[:, :, None] > swt[..., None]
-        if first == 1:
-            # Of two that are as high the first one counts.
-            higher |= (own[:, :, None] == swt[..., None]) & np.tri(SUMMITS, k=-1, dtype=bool)
-        on_top &= ~(alike & higher).any(axis=-1)
+    on_top[:, 1:] &= ~alike | (swt[:, 1:] >= swt[:, :-1])
+    on_top[:, :-1] &= ~alike | (swt[:, :-1] >= swt[:, 1:])
     return on_top
 
 
 def _known(swt: FloatArray, normal: FloatArray, known: FloatArray) -> NDArray[np.bool_]:
     """Which summits are those of the line: on planes through y at its angle, from which swt falls."""
-    top = np.pad(swt.max(axis=-1), ((0, 0), (1, 1)))
-    falls = np.maximum(top[:, :-2], top[:, 2:]) < (1.0 - FALLS) * top[:, 1:-1]
-    on_line = (known[:, None] == ANGLES) & falls
-    return on_line[..., None] & (1.0 - normal[..., 1] ** 2 > ALIKE**2)
+    beside = np.pad(swt, ((0, 0), (1, 1)))
+    falls = np.maximum(beside[:, :-2], beside[:, 2:]) < (1.0 - FALLS) * swt
+    return (known[:, None] == ANGLES) & falls & (1.0 - normal[..., 1] ** 2 > ALIKE**2)
 
 
 def _around_extremes(scene: Scene, look: Look, whole: History, places: _Places) -> History:
