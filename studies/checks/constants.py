@@ -19,7 +19,7 @@ from altered import ROOT, assigned, in_a_process
 MECHANICS = ROOT / "swtstudy" / "mechanics"
 RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
-KINDS = {"wavy": "wavy", "struve": "wavy", "surface_maximum": "circle", "singular_edge": "edge"}
+KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"stress.tip": "tip"}
 KINDS |= {
@@ -45,9 +45,8 @@ DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 OTHERS = {
     "look.DIGITS_PER_ZOOM": ("4.0",),
     "look.SETTLED": ("1.0",),
-    "surface_maximum.ANGLES": ("v[::2]",),
-    "surface_maximum.CLOSER": ("v[:, ::2]",),
-    "surface_maximum.DIGITS": ("3.5",),
+    "surface_circle.ANGLES": ("v[::2]",),
+    "surface_circle.DIGITS": ("3.5",),
     "first_look.CANDIDATE_SHARE": ("0.95",),
     "first_look.HIDDEN_SHARE": ("2.0",),
     "first_look.JUMP": ("10 * v",),

@@ -25,7 +25,7 @@ from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.line.look import Look
-from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
+from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_on_planes
 from swtstudy.mechanics.planes.weights import tangent_basis

@@ -13,7 +13,7 @@ from swtstudy.mechanics.indenter import resolved_shape, roughness
 from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_finite
-from swtstudy.mechanics.line.surface_maximum import surface_maximum
+from swtstudy.mechanics.line.surface_circle import surface_maximum
 from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT

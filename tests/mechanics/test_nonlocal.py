@@ -12,8 +12,9 @@ from swtstudy.mechanics.body import nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
 from swtstudy.mechanics.body.histories import Histories, SpringCells
-from swtstudy.mechanics.body.quick_planes import CoarsePlanes, Peaks, rival_planes
+from swtstudy.mechanics.body.quick_planes import Peaks, rival_planes
 from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.stress.scene import scene_of
 

@@ -10,7 +10,7 @@ from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.line import surface_maximum
+from swtstudy.mechanics.line import surface_circle
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.history import circle_stress
@@ -63,6 +63,89 @@ def test_gain_is_that_of_the_field(parameters):
     assert float(solved.s_surface) == pytest.approx(swt.max(), rel=5e-4)
 
 
+#: With what `dense_circle` of studies/checks/off_line.py finds there.
+CIRCLES = [
+    # A bulk stress: other instants than the line's.
+    (
+        {
+            "normal_amplitude": 0.17947362,
+            "tangential_amplitude": 0.0248599,
+            "phase": 1.2546567,
+            "poisson_ratio": 0.4987338,
+            "friction": 0.4127386,
+            "bulk_stress_amplitude": 0.004575401,
+            "bulk_stress_mean": -0.01078477,
+            "bulk_stress_phase": 5.0540309,
+        },
+        "3",
+        0.005518343,
+    ),
+    # Instants that four steps of a stretch do not tell apart.
+    (
+        {
+            "profile": "wavy_paraboloid",
+            "waviness_amplitude": 0.094358728,
+            "wavelength": 9.7104941,
+            "normal_amplitude": 0.30861073,
+            "tangential_amplitude": 0.05299352,
+            "phase": 2.0605469,
+            "poisson_ratio": 0.47024462,
+            "friction": 0.83081176,
+        },
+        "3",
+        0.05644375,
+    ),
+    # A ridge beside a higher one, whose planes are 10° from it.
+    (
+        {
+            "normal_force_amplitude": 0.047248676,
+            "tangential_force_amplitude": 0.17364532,
+            "phase": 4.3070632,
+            "poisson_ratio": 0.4989036,
+            "friction": 0.84880752,
+        },
+        "2",
+        0.14391736,
+    ),
+    # Two planes close to one another, each with instants of its own.
+    (
+        {
+            "profile": "wavy_paraboloid",
+            "waviness_amplitude": 0.055907132,
+            "wavelength": 5.337221,
+            "normal_amplitude": 0.018785796,
+            "tangential_amplitude": 0.085610956,
+            "phase": 0.24791074,
+            "poisson_ratio": 0.47431964,
+            "friction": 0.5486751,
+        },
+        "3",
+        0.03796671,
+    ),
+    # The higher one of two maxima is the lower one at the first angles.
+    (
+        {
+            "profile": "truncated_paraboloid",
+            "flat_radius": 1.3394178,
+            "normal_amplitude": 0.052659046,
+            "tangential_amplitude": 0.39145783,
+            "phase": 4.3890133,
+            "poisson_ratio": 0.45549385,
+            "friction": 0.56359335,
+        },
+        "1",
+        0.29500192,
+    ),
+]
+
+
+@pytest.mark.parametrize(("point", "ratio", "highest"), CIRCLES)
+def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
+    solved = swtstudy.solve(**point, frequency_ratio=ratio)
+    assert float(solved.s_surface) == pytest.approx(highest, rel=3e-4)
+    assert float(solved.s_surface) > 1.001 * float(solved.s)
+
+
 def test_the_line_is_enough_for_more_compressible_bodies():
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}))
     np.testing.assert_array_equal(solved.s_surface, solved.s)
@@ -70,7 +153,7 @@ def test_the_line_is_enough_for_more_compressible_bodies():
 
 def test_a_safe_ratio_is_not_looked_at(monkeypatch):
     """The bound only saves time: without it the line has the maximum all the same."""
-    monkeypatch.setattr(surface_maximum, "SAFE_POISSON_RATIO", -1.0)
+    monkeypatch.setattr(surface_circle, "SAFE_POISSON_RATIO", -1.0)
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}), friction=[0.1, 0.8])
     np.testing.assert_array_equal(solved.s_surface, solved.s)
 

@@ -17,7 +17,6 @@ from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
 from swtstudy.mechanics.body.quick_planes import (
     SAME_INSTANT,
-    CoarsePlanes,
     Peaks,
     climb_from,
     highest_coarse_planes,
@@ -29,6 +28,7 @@ from swtstudy.mechanics.events.stretches import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.roots import near_maximum
+from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 

@@ -5,17 +5,15 @@ On a plane the highest peaks over the periodic cycle count, and what may be hidd
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import gather, hemisphere
+from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.numerics.roots import parabola_maximum
-from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
+from swtstudy.mechanics.planes.all_planes import CoarsePlanes, swt_of_history
 from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swing import Swing
@@ -87,10 +85,6 @@ def _neighbours(instant: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     return gather(instant, at % count) + PERIOD * (at // count), at % count
 
 
-#: Planes of the coarse search, about 13° apart.
-PLANES = 128
-#: Planes beside each.
-BESIDE = 6
 #: Planes this high in some histories, over the highest, are tried in others like them. 0: no change.
 NEAR = 0.7
 #: Planes from which to climb: those higher than the ones beside them before other high ones. Two: a plane
@@ -103,45 +97,6 @@ RIVALS = 0.9
 ALIKE = 0.9995
 #: Last step of a climb, rad: its square is the error. 1e-9: twice the steps.
 LAST_STEP = 3e-3
-#: Histories in the coarse search at a time.
-BLOCK = 16
-
-
-@dataclass(frozen=True)
-class CoarsePlanes:
-    """Planes from which to climb.
-
-    Attributes
-    ----------
-    normal
-        Shape (k, 3).
-    beside
-        Shape (k, b): numbers of the planes beside each.
-    """
-
-    normal: FloatArray
-    beside: NDArray[np.intp]
-
-    @staticmethod
-    def everywhere() -> CoarsePlanes:
-        """Return planes of all orientations."""
-        return CoarsePlanes(hemisphere(PLANES), _beside())
-
-    def some(self, which: NDArray[np.bool_]) -> CoarsePlanes:
-        """Some of the planes."""
-        number = np.where(which, np.cumsum(which) - 1, -1)
-        beside = number[self.beside[which]]
-        own = np.arange(len(beside))[:, None]
-        return CoarsePlanes(self.normal[which], np.where(beside < 0, own, beside))
-
-    def swt(self, stress: FloatArray, ν: float, criterion: Criterion) -> NDArray[np.float32]:
-        """swt of histories, (m, T, 6), on the planes, shape (m, k)."""
-        single = self.normal.astype(np.float32)
-        swt = np.empty((len(stress), len(single)), dtype=np.float32)
-        for first in range(0, len(stress), BLOCK):
-            part = slice(first, first + BLOCK)
-            swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, criterion)
-        return swt
 
 
 def planes_like(stress: FloatArray, ν: float, criterion: Criterion) -> CoarsePlanes:
@@ -243,10 +198,3 @@ def _climb(
 
     swt, normal = climb_by(active, flat, criterion.take(np.zeros(len(flat), dtype=np.intp)), LAST_STEP)
     return swt.reshape(start.shape[:2]), normal.reshape(start.shape)
-
-
-@lru_cache(maxsize=1)
-def _beside() -> NDArray[np.intp]:
-    """The planes beside each of the coarse ones, shape (PLANES, BESIDE)."""
-    normals = hemisphere(PLANES)
-    return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]

@@ -9,10 +9,12 @@ highest summit. Crossland's criterion has the deviatoric path and the hydrostati
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.ascent import climb, swap_instants
@@ -145,6 +147,56 @@ def _distinct(normal: FloatArray) -> np.ndarray:
         closeness = np.abs((summits[:late] * summits[late]).sum(axis=-1))
         distinct[late] = (closeness < 1.0 - 1e-12).all(axis=0)
     return distinct.ravel()
+
+
+#: Planes of a look at many histories, about 13° apart, and how many are beside each of them.
+LOOK_PLANES, BESIDE = 128, 6
+#: Histories of that look at a time.
+LOOK_BLOCK = 16
+
+
+@dataclass(frozen=True)
+class CoarsePlanes:
+    """Planes from which to climb.
+
+    Attributes
+    ----------
+    normal
+        Shape (k, 3).
+    beside
+        Shape (k, b): numbers of the planes beside each.
+    """
+
+    normal: FloatArray
+    beside: NDArray[np.intp]
+
+    @staticmethod
+    def everywhere() -> CoarsePlanes:
+        """Return planes of all orientations."""
+        return CoarsePlanes(hemisphere(LOOK_PLANES), _beside())
+
+    def some(self, which: NDArray[np.bool_]) -> CoarsePlanes:
+        """Some of the planes."""
+        number = np.where(which, np.cumsum(which) - 1, -1)
+        beside = number[self.beside[which]]
+        own = np.arange(len(beside))[:, None]
+        return CoarsePlanes(self.normal[which], np.where(beside < 0, own, beside))
+
+    def swt(self, stress: FloatArray, ν: float, criterion: Criterion) -> NDArray[np.float32]:
+        """swt of histories, (m, T, 6), on the planes, shape (m, k)."""
+        single = self.normal.astype(np.float32)
+        swt = np.empty((len(stress), len(single)), dtype=np.float32)
+        for first in range(0, len(stress), LOOK_BLOCK):
+            part = slice(first, first + LOOK_BLOCK)
+            swt[part] = swt_on_planes(stress[part].astype(np.float32), single, ν, 1.0, criterion)
+        return swt
+
+
+@lru_cache(maxsize=1)
+def _beside() -> NDArray[np.intp]:
+    """The planes beside each of the coarse ones, shape (LOOK_PLANES, BESIDE)."""
+    normals = hemisphere(LOOK_PLANES)
+    return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]
 
 
 #: Lengths below this share of a path are none.

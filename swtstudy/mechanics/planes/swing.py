@@ -46,7 +46,7 @@ class Swing(ABC):
 
     @abstractmethod
     def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
     ) -> FloatArray:
         """The tensor of which it is made, from the stress, both of shape (…, 6)."""
 
@@ -125,7 +125,7 @@ class NormalStrain(Swing):
         return strain
 
     def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
     ) -> FloatArray:
         return strain_history(stress, poisson_ratio, young_modulus)
 
@@ -167,7 +167,7 @@ class ShearStress(Swing):
         return np.stack([np.zeros_like(b), c, -b])
 
     def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
     ) -> FloatArray:
         return stress
 

@@ -8,7 +8,7 @@ from swtstudy.mechanics.points import FloatArray
 
 
 def strain_history(
-    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float = 1.0
+    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
 ) -> FloatArray:
     """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
 
@@ -17,7 +17,7 @@ def strain_history(
     stress
         Shape (..., 6).
     poisson_ratio, young_modulus
-        ν, E; ν may be an array that can be broadcast to (..., 1).
+        ν, E; they may be arrays that can be broadcast to (..., 1).
     """
     strain = (1.0 + poisson_ratio) * stress
     strain[..., :3] -= poisson_ratio * stress[..., :3].sum(axis=-1, keepdims=True)

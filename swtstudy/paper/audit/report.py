@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
-from swtstudy.mechanics.line.surface_maximum import SAFE_POISSON_RATIO
+from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import TOLERANCE, VERDICTS, AuditedPoint
 from swtstudy.points.canonical import COLUMNS, ROW, Definitions, Table, code_of, describe_point, value_of
