@@ -32,9 +32,8 @@ NEAR = 0.05
 #: Cosine of the turn, 6°, between planes of one ridge at neighbouring angles. 11°: 2e-3 low at a point of
 #: tests/mechanics/test_surface_circle.py.
 ALIKE = 0.995
-#: Where swt falls by this share to the next angle it has its maximum on the line. So much may a place be
-#: lower than the highest one once it has instants of its own. A third: 1e-3 low at a point of
-#: tests/mechanics/test_surface_circle.py.
+#: So much may a place be lower than the highest one once it has instants of its own. A third: 1e-3 low at a
+#: point of tests/mechanics/test_surface_circle.py.
 FALLS = 0.01
 #: Offsets at which each round looks, in a width that is the angles' step at first, and half as much in the
 #: next one. Half of the rounds: 1e-4 to 1e-3 low at 50 points.
@@ -92,17 +91,15 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
     if rows.size:
         line = found.swt[rows]
-        # What is known of the line is known of one side of it.
-        known = np.where(nowhere, np.nan, np.where(found.position < 0.0, np.pi, 0.0))[rows]
-        top = _highest(scene.take(rows), r[rows], line, known)
+        top = _highest(scene.take(rows), r[rows], line)
         surface[rows] = np.where(top > (1.0 + HIGHER) * line, top, line)
     return surface
 
 
-def _highest(scene: Scene, r: FloatArray, line: FloatArray, known: FloatArray) -> FloatArray:
-    """Largest swt on circles of radius r, shape (n,), ``line`` at least, which is known at an angle."""
+def _highest(scene: Scene, r: FloatArray, line: FloatArray) -> FloatArray:
+    """Largest swt on circles of radius r, shape (n,), ``line`` at least."""
     highest, width = line.copy(), ANGLES[1]
-    places = _first_places(scene, r, line, known)
+    places = _first_places(scene, r, line)
     if not places.angle.size:
         return highest
     scene = scene.take(places.circle)
@@ -153,13 +150,13 @@ def _climb(
     return swt.reshape(-1, k), normal.reshape(-1, k, 3)
 
 
-def _first_places(scene: Scene, r: FloatArray, line: FloatArray, known: FloatArray) -> _Places:
+def _first_places(scene: Scene, r: FloatArray, line: FloatArray) -> _Places:
     """Places of circles at which swt may be largest, and above the line."""
     look = Look.at(scene, r[:, None], FIRST_STEPS, DIGITS)
     stress, tensor = _circle(scene, look.history, np.broadcast_to(ANGLES, (len(scene), ANGLES.size)))
     swt, normal = _summits(scene, stress, tensor)
     chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), line)[:, None]) & (swt > 0.0)
-    chosen &= _on_top(swt, normal) & ~_known(swt, normal, known)
+    chosen &= _on_top(swt, normal)
     at = circle, angle = np.nonzero(chosen)
     swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])
     # Of two summits close to one another, each by instants of its own, a coarse plane leads to one.
@@ -190,13 +187,6 @@ def _on_top(swt: FloatArray, normal: FloatArray) -> NDArray[np.bool_]:
     on_top[:, 1:] &= ~alike | (swt[:, 1:] >= swt[:, :-1])
     on_top[:, :-1] &= ~alike | (swt[:, :-1] >= swt[:, 1:])
     return on_top
-
-
-def _known(swt: FloatArray, normal: FloatArray, known: FloatArray) -> NDArray[np.bool_]:
-    """Which summits are those of the line: on planes through y at its angle, from which swt falls."""
-    beside = np.pad(swt, ((0, 0), (1, 1)))
-    falls = np.maximum(beside[:, :-2], beside[:, 2:]) < (1.0 - FALLS) * swt
-    return (known[:, None] == ANGLES) & falls & (1.0 - normal[..., 1] ** 2 > ALIKE**2)
 
 
 def _around_extremes(scene: Scene, look: Look, whole: History, places: _Places) -> History:
