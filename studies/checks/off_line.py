@@ -151,6 +151,9 @@ def shortfalls(task: tuple[str, int, bool]) -> tuple[str, bool, Array]:
                 low.append(np.nan)
                 continue
             scene = scene_of(points.take(np.array([k])))
+            if solved.s[k] <= solved.s_error[k]:
+                # s that is nothing but rounding has no place.
+                x = float(scene.largest_radius[0])
             with np.errstate(all="ignore"):
                 if in_body:
                     low.append(1.0 - body_maximum(scene, float(x))[0].swt / dense_body(scene, float(x)))
