@@ -146,6 +146,13 @@ def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
     assert float(solved.s_surface) > 1.001 * float(solved.s)
 
 
+def test_circles_do_not_know_of_one_another():
+    phases = [0.6, 0.601, 0.602]
+    together = swtstudy.solve(**(NARROW_SLIP | {"phase": phases})).s_surface
+    alone = [float(swtstudy.solve(**(NARROW_SLIP | {"phase": phase})).s_surface) for phase in phases]
+    np.testing.assert_allclose(together, alone, rtol=1e-12)
+
+
 def test_the_line_is_enough_for_more_compressible_bodies():
     solved = swtstudy.solve(**(NARROW_SLIP | {"poisson_ratio": [0.0, 0.3]}))
     np.testing.assert_array_equal(solved.s_surface, solved.s)
