@@ -137,7 +137,8 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     if has_units(dataset):
         given = read_contact(dataset.attrs[CONTACT])
         units = ", ".join(filter(None, vars(given.units).values()))
-        yield from [("units", units)] if units else []
+        if units:
+            yield "units", units
         for material in dict.fromkeys(given.materials):
             yield "material", _constants(material)
         for torsion in dict.fromkeys(given.shear_materials):

@@ -15,6 +15,7 @@ import click
 
 from swtstudy.cli.options import examples, study_completion, with_width
 from swtstudy.runner.suite import run_and_draw
+from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -167,7 +168,6 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     from swtstudy.archive.attributes import read_failures
     from swtstudy.archive.describe import relative_errors
     from swtstudy.points.validity import validity_lines
-    from swtstudy.vocabulary.wording import number_words
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"

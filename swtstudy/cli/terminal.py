@@ -86,8 +86,7 @@ def aligned(lines: list[list[str]]) -> list[str]:
          0  0.142857
     1.5708      0.15
     """
-    left = [column[-1][-1:].isalpha() and column[-1] != "nan" for column in zip(*lines, strict=True)]
-    return _set(lines, left)
+    return _set(lines, _of_words(lines))
 
 
 def _blocks(head: list[str], rows: list[list[str]], width: int) -> Iterator[list[str]]:
@@ -104,6 +103,11 @@ def _blocks(head: list[str], rows: list[list[str]], width: int) -> Iterator[list
 
 def _upright(head: list[str], rows: list[list[str]]) -> list[str]:
     return _set([list(line) for line in zip(head, *rows, strict=True)], [True, *[False] * len(rows)])
+
+
+def _of_words(lines: list[list[str]]) -> list[bool]:
+    """Which columns have words, by their last lines."""
+    return [column[-1][-1:].isalpha() and column[-1] != "nan" for column in zip(*lines, strict=True)]
 
 
 def _set(lines: list[list[str]], left: Sequence[bool]) -> list[str]:
@@ -154,12 +158,11 @@ def _table(rows: list[list[str]], width: int) -> list[list[str]]:
 
 def _broken(rows: list[list[str]], column: int, width: int) -> list[list[str]]:
     """The lines of each row, with the cells of one column broken to a width."""
-    left = [each[-1][-1:].isalpha() for each in zip(*rows, strict=True)]
     parts = [textwrap.wrap(row[column], width) or [""] for row in rows]
     cells = [
         [part if k == column else each * (number == 0) for k, each in enumerate(row)]
         for row, own in zip(rows, parts, strict=True)
         for number, part in enumerate(own)
     ]
-    lines = iter(_set(cells, left))
+    lines = iter(_set(cells, _of_words(rows)))
     return [[next(lines) for _ in own] for own in parts]

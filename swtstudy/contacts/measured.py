@@ -20,7 +20,7 @@ from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.wording import number_words, place_words
+from swtstudy.vocabulary.wording import place_words, plain_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -94,27 +94,24 @@ def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
     table = rows(Units(*(f"the unit of {kind}" for kind in UNIT_KINDS)))
     for name, each in _given(grid).items():
         if name not in _AT_REST:
-            yield "given", name, ", ".join(map(_value, each)), table[name].meaning
+            yield "given", name, ", ".join(map(plain_words, each)), table[name].meaning
     for name, meaning in _AT_REST.items():
         found = np.unique(getattr(contact, name))
-        yield "at rest", name, " to ".join(map(_value, dict.fromkeys((found[0], found[-1])))), meaning
+        yield "at rest", name, " to ".join(map(plain_words, dict.fromkeys((found[0], found[-1])))), meaning
     yield from _margins(grid)
     if grid.dims not in ((), ("body",)):
         return
     for name, value in contact.parameters(grid.bulk_stress_body + 1).items():
         if PARAMETERS[name].scale:
-            yield "without units", name, _value(value), PARAMETERS[name].notation
+            yield "without units", name, plain_words(value), PARAMETERS[name].notation
 
 
 def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
     """Say how far the contacts are from where the model ends, as far as that is known without solving."""
     for name, values in margins(unique_points(grid), grid).items():
         if name != "bulk_shift" and np.isfinite(values).any():
-            yield "margin", name, f"up to {_value(float(np.nanmax(values)))}", ATTRIBUTES[name]["comment"]
-
-
-def _value(value: Any) -> str:
-    return number_words(value, 6) if isinstance(value, float) else str(value)
+            largest = plain_words(float(np.nanmax(values)))
+            yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]
 
 
 #: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
-from swtstudy.vocabulary.wording import flag_words, number_words, numbers_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -224,7 +224,7 @@ def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str,
             continue
         value: Any = dataset[dim].values[number]
         unit = dataset[dim].attrs.get("units", "1")
-        named = flag_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
+        named = coordinate_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
         words.append(f"{dim} = {named}" + (f" {unit}" if unit not in ("1", "rad", "") else ""))
     return f" at {', '.join(words)}" if words else ""
 

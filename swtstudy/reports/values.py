@@ -21,8 +21,7 @@ from swtstudy.figures.quantity_words import flag_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import dims_beside, to_table
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import flag_words as value_words
-from swtstudy.vocabulary.wording import number_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -132,7 +131,7 @@ def value_text(name: str, value: Any, attributes: Mapping[Any, Any] = _NONE) -> 
         return "–"
     if name not in AXES or isinstance(value, bool):
         return number_words(value).replace("-", "−") if isinstance(value, float) else str(value)
-    words = value_words(name, value, attributes)
+    words = coordinate_words(name, value, attributes)
     if AXES[name].units == "rad" and "π" not in words and value:
         words = f"{value / math.pi:.3g}π"
     return words.replace("-", "−") if _is_number(value, attributes) else words

@@ -11,7 +11,7 @@ from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import listed, number_words
+from swtstudy.vocabulary.wording import listed, plain_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -167,10 +167,6 @@ def _row(
     return (
         kind,
         name,
-        listed([*map(_value, values)], _LISTED) + unit,
+        listed([*map(plain_words, values)], _LISTED) + unit,
         row.described + (f"; figure: {role}" if role else ""),
     )
-
-
-def _value(value: Value) -> str:
-    return number_words(value, 6) if isinstance(value, float) else str(value)

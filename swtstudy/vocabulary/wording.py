@@ -111,6 +111,17 @@ def number_words(value: float, digits: int = 4) -> str:
     return f"{float(text):.0f}" if power and 0 <= int(power) < _PLAIN else raised(text)
 
 
+def plain_words(value: Any) -> str:
+    """A value of any kind: a float as `number_words` to six digits, others as Python says them.
+
+    Examples
+    --------
+    >>> plain_words(2e7), plain_words("pad")
+    ('2·10⁷', 'pad')
+    """
+    return number_words(value, _EXACT) if isinstance(value, float) else str(value)
+
+
 def raised(text: str) -> str:
     """A number as computers write it with a power of ten as people do; other words as they are.
 
@@ -157,12 +168,12 @@ def listed(words: Sequence[str], most: int) -> str:
     return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
 
 
-def flag_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
     """`value_words`, or the name that the attributes of a coordinate have for the value, as of a body.
 
     Examples
     --------
-    >>> flag_words("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad test_piece"})
+    >>> coordinate_words("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad test_piece"})
     'test piece'
     """
     if "flag_meanings" not in attributes or isinstance(value, str):
@@ -183,7 +194,7 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     symbol = "" if alone else f"{parameter_words(name, attributes)} = "
     units = attributes.get("units", "1")
     units = "" if units in ("1", "rad", "") else f" {units}"
-    return symbol + as_text(flag_words(name, value, attributes) + units)
+    return symbol + as_text(coordinate_words(name, value, attributes) + units)
 
 
 def pi_words(multiple: Fraction) -> str:

@@ -14,7 +14,7 @@ from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import gather
 from swtstudy.mechanics.numerics.roots import parabola_maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes, swt_of_history
-from swtstudy.mechanics.planes.ascent import ActiveForms, Rows, climb_by
+from swtstudy.mechanics.planes.ascent import ROUGH_STEP, ActiveForms, Rows, climb_by
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swing import Swing
 from swtstudy.mechanics.planes.weights import normal_weights
@@ -95,8 +95,6 @@ CANDIDATES = 4
 RIVALS = 0.9
 #: Cosine of the angle, 2°, between summits that are one. 6°: 1.03 times as much is missing.
 ALIKE = 0.9995
-#: Last step of a climb, rad: its square is the error. 1e-9: twice the steps.
-LAST_STEP = 3e-3
 
 
 def planes_like(stress: FloatArray, ν: float, criterion: Criterion) -> CoarsePlanes:
@@ -196,5 +194,5 @@ def _climb(
         swt = own.value(tension[row, top], 0.5 / unit * (curve[row, high] - curve[row, low]))
         return swt, histories[history, top], change
 
-    swt, normal = climb_by(active, flat, criterion.take(np.zeros(len(flat), dtype=np.intp)), LAST_STEP)
+    swt, normal = climb_by(active, flat, criterion.take(np.zeros(len(flat), dtype=np.intp)), ROUGH_STEP)
     return swt.reshape(start.shape[:2]), normal.reshape(start.shape)

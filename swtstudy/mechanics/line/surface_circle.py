@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
-from swtstudy.mechanics.planes.ascent import climb, swap_instants
+from swtstudy.mechanics.planes.ascent import ROUGH_STEP, climb, swap_instants
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.history import History, circle_stress
@@ -42,8 +42,6 @@ OFFSETS, ROUNDS = np.linspace(-1.0, 1.0, 5), 4
 HIGHER = 1e-4
 #: Angles closer than this, rad, are one.
 SAME_ANGLE = 1e-9
-#: Last step of the climbs at the first angles, rad: its square is the error.
-LAST_STEP = 3e-3
 #: Steps of a smooth stretch of the cycle in the first look and around a place, and digits of tables. The
 #: first halved: 1e-2 low at a point of tests/mechanics/test_surface_circle.py; the second: 2e-2. Two digits
 #: less: 1e-4 to 1e-3 at 19 points.
@@ -129,11 +127,11 @@ def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> NDArray[n
     meets = (np.diff(some.circle) == 0) & (np.diff(some.angle) < SAME_ANGLE)
     meets &= np.abs((some.normal[1:] * some.normal[:-1]).sum(axis=-1)) > ALIKE
     kept = ~np.append(meets, False) & (swt[order] >= (1.0 - FALLS) * highest[some.circle])
-    return np.sort(order[kept])
+    return order[kept]
 
 
 def _circle(scene: Scene, history: History, angle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Stress and the tensor of the swing at angles (n, k) on the circles, shape (n, k, T, 6)."""
+    """Stress and the tensor of the swing at angles (n, k), or (1, k) of all circles, shape (n, k, T, 6)."""
     history = history.take((np.arange(len(scene)), 0))
     stress = circle_stress(history, scene.poisson_ratio, scene.friction, angle)
     ν = scene.poisson_ratio[:, None, None, None]
@@ -153,7 +151,7 @@ def _climb(
 def _first_places(scene: Scene, r: FloatArray, line: FloatArray) -> _Places:
     """Places of circles at which swt may be largest, and above the line."""
     look = Look.at(scene, r[:, None], FIRST_STEPS, DIGITS)
-    stress, tensor = _circle(scene, look.history, np.broadcast_to(ANGLES, (len(scene), ANGLES.size)))
+    stress, tensor = _circle(scene, look.history, ANGLES[None])
     swt, normal = _summits(scene, stress, tensor)
     chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), line)[:, None]) & (swt > 0.0)
     chosen &= _on_top(swt, normal)
@@ -161,8 +159,8 @@ def _first_places(scene: Scene, r: FloatArray, line: FloatArray) -> _Places:
     swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])
     # Of two summits close to one another, each by instants of its own, a coarse plane leads to one.
     criterion = scene.criterion.take(circle)
-    other, turned = climb(*some, swap_instants(*some, normal, criterion), criterion, LAST_STEP)
-    is_other = np.abs((turned * normal).sum(axis=-1)) < np.cos(2.0 * LAST_STEP)
+    other, turned = climb(*some, swap_instants(*some, normal, criterion), criterion, ROUGH_STEP)
+    is_other = np.abs((turned * normal).sum(axis=-1)) < np.cos(2.0 * ROUGH_STEP)
     places = _Places(circle, ANGLES[angle], normal)
     new = np.flatnonzero(is_other & (other >= (1.0 - FALLS) * swt))
     return _Places.joined([places, replace(places.take(new), normal=turned[new])])
@@ -176,7 +174,7 @@ def _summits(scene: Scene, stress: FloatArray, tensor: FloatArray) -> tuple[Floa
         coarse = planes.swt(own, float(ν), criterion.take(np.array([row])))
         normal[row], swt[row] = planes.normal[coarse.argmax(axis=1)], coarse.max(axis=1)
     at = np.nonzero(swt > 0.0)
-    swt[at], normal[at] = climb(stress[at], tensor[at], normal[at], criterion.take(at[0]), LAST_STEP)
+    swt[at], normal[at] = climb(stress[at], tensor[at], normal[at], criterion.take(at[0]), ROUGH_STEP)
     return swt, normal
 
 

@@ -24,6 +24,8 @@ from swtstudy.mechanics.points import FloatArray
 LARGEST_STEP = 0.2
 #: Last step of a climb, rad: the height's relative error is its square. 1e-11 or 1e-7: 2e-16.
 SMALLEST_STEP = 1e-9
+#: The same where it only says where to look next. 1e-9: twice the steps.
+ROUGH_STEP = 3e-3
 #: Steps of a climb at most. Half or twice: no change in 16 values of bodies.
 LARGEST_ITERATIONS = 40
 #: Instants that may take the place of an active one. Half or twice: no change in 16 values of bodies.
