@@ -14,7 +14,7 @@ from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 if TYPE_CHECKING:
     from swtstudy.points.records import Records
-    from swtstudy.runner.work import Work
+    from swtstudy.runner.workload import Workload
     from swtstudy.study.definition import Study
 
 
@@ -90,7 +90,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """Describe in lines what a run would do."""
     from swtstudy.points.unique import loads
-    from swtstudy.runner.work import assess
+    from swtstudy.runner.workload import assess
 
     work = assess(study, target)
     missing, todo = work.missing, work.todo
@@ -121,7 +121,7 @@ def _quantities(study: Study) -> Iterator[str]:
         yield f"  quantities         {', '.join(asked)}"
 
 
-def _again(work: Work) -> Iterator[str]:
+def _again(work: Workload) -> Iterator[str]:
     """Which of the points to be computed are known in part."""
     if work.incomplete.any():
         yield f"  without s          {int(work.incomplete.sum())} of them lack quantities alone"
@@ -131,12 +131,12 @@ def _again(work: Work) -> Iterator[str]:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
 
 
-def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
+def _time(work: Workload, rtol: float, workers: int) -> Iterator[str]:
     """Estimate the time of a run from a few points that are solved."""
     from swtstudy.points.unique import duration
     from swtstudy.runner.chunk import solve_points
     from swtstudy.runner.collector import CHUNK_SECONDS
-    from swtstudy.runner.work import estimate
+    from swtstudy.runner.workload import estimate
 
     timed: list[int] = []
 

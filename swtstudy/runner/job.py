@@ -15,7 +15,7 @@ from swtstudy.points.unique import rough_seconds, weights
 from swtstudy.runner.chunk import Solver, chunks
 from swtstudy.runner.collector import Collector
 from swtstudy.runner.engine import Pool, WorkerError, solve
-from swtstudy.runner.work import Work, assess
+from swtstudy.runner.workload import Workload, assess
 from swtstudy.study.definition import Study, require_study
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.quantities import Request
@@ -113,7 +113,7 @@ class Job:
             raise kind(f"{reason}; {_saved(self.work, self.path)}; {advice}") from error
 
 
-def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
+def _finished(work: Workload, study: Study, path: Path) -> xr.Dataset | None:
     """The archive, if it is that of exactly this study and nothing is left to do."""
     from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
 
@@ -128,14 +128,14 @@ def _finished(work: Work, study: Study, path: Path) -> xr.Dataset | None:
     return archive
 
 
-def _words(work: Work) -> str:
+def _words(work: Workload) -> str:
     """The action of a run in the past tense, for the history."""
     words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
     more = int(work.incomplete.sum())
     return f"{words}, and quantities that {more} others lacked" if more else words
 
 
-def _log_known(work: Work) -> None:
+def _log_known(work: Workload) -> None:
     if work.outdated:
         _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
     if work.coarse:
@@ -147,14 +147,14 @@ def _log_known(work: Work) -> None:
         _log.info("%d of %d distinct points are already computed", known, len(work.records))
 
 
-def _saved(work: Work, path: Path) -> str:
+def _saved(work: Workload, path: Path) -> str:
     # A run fills its records in place.
     saved = len(work.records) - work.todo
     return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
 
 
 def _compute(
-    work: Work, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
+    work: Workload, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
 ) -> Records:
     """The records, with the missing points computed."""
     from swtstudy.archive.attributes import versions

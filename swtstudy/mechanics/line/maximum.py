@@ -17,7 +17,7 @@ from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import joined_pieces, resolved
 from swtstudy.mechanics.line.look import Accuracy, Resolution
 from swtstudy.mechanics.line.positions import Pieces, Positions
-from swtstudy.mechanics.line.round import CHANGE_SHARE, climb_to_tops, looked_at_once_more
+from swtstudy.mechanics.line.rounds import CHANGE_SHARE, climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.tip import arrival, told_by_fronts

@@ -1,4 +1,4 @@
-"""The work that is left of a study: the points it needs, which are known, and how long the rest takes.
+"""The work that is left for a study: the points it needs, which are known, and how long the rest takes.
 
 That is estimated from the timing of a few of its points.
 """
@@ -21,7 +21,7 @@ from swtstudy.vocabulary.version import SOLVER_VERSION
 
 
 @dataclass(frozen=True)
-class Work:
+class Workload:
     """The points that a study needs, and which of them are known.
 
     Attributes
@@ -80,7 +80,7 @@ class Work:
                 yield some & (of == one).all(axis=1), Asked(names, known)
 
 
-def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
+def assess(study: Study, path: Path, retry_failed: bool = False) -> Workload:
     """Find the work that is left of a study whose archive is at `path`; this computes no point."""
     from swtstudy.archive.parts import known_records
 
@@ -91,7 +91,7 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     items, of = wanted(study.grid, study.asked, points)
     dropped = _dropped(points.table, known, records, items)
     records = records.without_others(items)
-    return Work(points, records, items, of, dropped, outdated, coarse)
+    return Workload(points, records, items, of, dropped, outdated, coarse)
 
 
 def _dropped(table: Table, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
