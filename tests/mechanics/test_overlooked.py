@@ -182,6 +182,42 @@ CASES = [
         "4/3",
         0.619554970,
     ),
+    # Three values of a long piece that lie on a line, nearly, with a maximum between them.
+    (
+        {
+            "normal_amplitude": 0.71563319,
+            "tangential_amplitude": 0.03542148,
+            "phase": 1.49453514,
+            "poisson_ratio": 0.19743758,
+            "friction": 0.43937444,
+        },
+        "3/2",
+        0.055160962,
+    ),
+    (
+        {
+            "normal_force_amplitude": 0.0378307691,
+            "tangential_force_amplitude": 0.0019378632,
+            "phase": 1.7205948439,
+            "poisson_ratio": 0.4805703566,
+            "friction": 0.4812704608,
+        },
+        "3/2",
+        0.00092925965,
+    ),
+    # The looks at so few instants see 2.6 % less than there is, and a lower maximum beside it almost whole.
+    (
+        {
+            "normal_amplitude": 0.28882399,
+            "tangential_amplitude": 0.05966799,
+            "phase": 0.46816385,
+            "poisson_ratio": 0.28311975,
+            "friction": 0.90458089,
+            "bulk_stress_mean": -5.5e-14,
+        },
+        "4/3",
+        0.13289101,
+    ),
 ]
 
 

@@ -128,9 +128,10 @@ def strain_cycles(scene: Scene, position: FloatArray, double_angle: FloatArray) 
         place and plane for each of `POWERS` where the sum is larger by `GAIN`; each in descending order.
     """
     split = scene.split_at_breakpoints()
-    positions, _ = resolved(scene, joined_pieces(scene, Pieces.of(split)))
     home = _at(split, _off_edge(scene, np.abs(position)), np.sign(position), double_angle)
     largest = home[:, :1]
+    # A sum may be largest where swt is half as high.
+    positions, _ = resolved(scene, joined_pieces(scene, Pieces.of(split)), 0.5 * largest[:, 0])
     home = home / largest
     best = sums(home)
     worse = _closer(split, positions, largest, _higher(split, positions, largest, best))

@@ -32,9 +32,12 @@ CLOSE_SHARE = 0.01
 #: Roundings by which a position may be off. None: s is 8e-3 low in a slip zone of 1e-11
 #: (tests/mechanics/test_stability.py).
 ROUNDINGS = 8.0
-#: Steps with which a piece begins, and steps at most; a piece whose first values are below this share of
-#: the largest needs no more.
-STEPS, MOST_STEPS, LOW = 2, 256, 0.5
+#: Steps with which a piece begins, and steps at most.
+STEPS, MOST_STEPS = 2, 256
+#: What three values leave unseen: so many times their misfit from a line (once: results/margins.md), and
+#: in a long piece this share of the largest swt at least. None: 0.13 at a point of
+#: tests/mechanics/test_overlooked.py.
+OF_FIRST, IN_LONG = 8.0, 0.7
 #: A layer is thin if it is shorter than this share of a piece. Without: 1.4e-4 at a point of
 #: tests/mechanics/test_overlooked.py.
 THIN = 1.0 / 12.0
@@ -98,16 +101,19 @@ def _seen(
     return swt, angle, highest
 
 
-def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
-    """Positions that resolve swt in all pieces as far as it may be largest there, and what is seen."""
-    found = list(_nested(scene, pieces))
+def resolved(scene: Scene, pieces: Pieces, least: FloatArray | float = np.inf) -> tuple[Positions, Seen]:
+    """Positions that resolve swt in all pieces as far as it may be largest there, and what is seen.
+
+    With ``least``, shape (n,), the first values of a piece that may be as high as that are not enough.
+    """
+    found = list(_nested(scene, pieces, np.broadcast_to(least, len(scene))))
     piece, share = (np.concatenate([part[k] for part in found]) for k in range(2))
     order = np.lexsort((share, piece))
     piece, share, seen = piece[order], share[order], Seen.joined([part[2] for part in found]).take(order)
-    # Between places that are nearly as high a maximum may hide in what instants leave unseen.
+    # Where swt may be nearly as high, a maximum may hide in what instants leave unseen.
     point = pieces.point[piece]
-    least = (1.0 - CLOSE_SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
-    high = np.flatnonzero((seen.swt >= least[:, None]).any(axis=1))
+    enough = (1.0 - CLOSE_SHARE) * largest_of_rows(point, seen.swt.max(axis=1))[point]
+    high = np.flatnonzero((seen.highest >= enough[:, None]).any(axis=1))
     closer = look_at(scene, pieces, piece[high], share[high], CLOSER)
     # What either look shows is there, and what either cannot exclude may be.
     before = seen.take(high)
@@ -117,7 +123,9 @@ def resolved(scene: Scene, pieces: Pieces) -> tuple[Positions, Seen]:
     return Positions.of(pieces, piece, np.pi * share), seen
 
 
-def _nested(scene: Scene, pieces: Pieces) -> Iterator[tuple[NDArray[np.intp], FloatArray, Seen]]:
+def _nested(
+    scene: Scene, pieces: Pieces, least: FloatArray
+) -> Iterator[tuple[NDArray[np.intp], FloatArray, Seen]]:
     """Places, as pieces and shares of their angles, and what is seen there: ever closer ones."""
     steps, going = STEPS, np.arange(len(pieces.point))
     # The last piece of a point has its end, too; the others end where the next one begins.
@@ -133,7 +141,8 @@ def _nested(scene: Scene, pieces: Pieces) -> Iterator[tuple[NDArray[np.intp], Fl
     rounding = np.sqrt(ROUNDINGS * np.spacing(pieces.high) / (pieces.high - pieces.low))
     while True:
         np.maximum.at(largest, pieces.point[going], values.max(axis=(1, 2)))
-        within &= _open_gaps(values, largest[pieces.point[going]], rounding[going])
+        owner, long = pieces.point[going], pieces.are_long[going]
+        within &= _open_gaps(values, largest[owner], least[owner], rounding[going], long)
         open_ = within.any(axis=1)
         going, values, within = going[open_], values[open_], within[open_]
         if not going.size or steps == MOST_STEPS:
@@ -148,19 +157,22 @@ def _nested(scene: Scene, pieces: Pieces) -> Iterator[tuple[NDArray[np.intp], Fl
         values, within, steps = finer, np.repeat(within, 2, axis=1), 2 * steps
 
 
-def _open_gaps(values: FloatArray, top: FloatArray, rounding: FloatArray) -> NDArray[np.bool_]:
-    """Between which values of pieces, (m, k + 1, sides), more are needed, shape (m, k); ``top`` of (m,)."""
+def _open_gaps(
+    values: FloatArray, top: FloatArray, least: FloatArray, rounding: FloatArray, long: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Between which values of pieces, (m, k + 1, sides), more are needed, shape (m, k); others of (m,)."""
     unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))[:, None]
+    are_first = values.shape[1] == STEPS + 1
+    if are_first:
+        # So few values say little, and less in a long piece.
+        unseen = np.maximum(OF_FIRST * unseen, np.where(long, IN_LONG * top, 0.0)[:, None])
     highest = np.maximum(values[:, :-1], values[:, 1:]).max(axis=2) + unseen
     of_piece, top = highest.max(axis=1, keepdims=True), top[:, None]
-    if values.shape[1] == STEPS + 1:
-        # So few values predict nothing yet.
-        return np.broadcast_to(of_piece > LOW * top, highest.shape)
-    least = (1.0 - SHARE) * top
+    enough = (1.0 - SHARE) * top
     # Only a piece that is nearly known can be parted into gaps.
-    anywhere = (unseen > SHARE * top) & (of_piece > least)
+    anywhere = (unseen > SHARE * top) & (of_piece > enough) | are_first & (of_piece > least[:, None])
     close = np.maximum(CLOSE_SHARE, rounding)[:, None]
-    return np.asarray(anywhere | ((unseen > close * top) & (highest > least)))
+    return np.asarray(anywhere | ((unseen > close * top) & (highest > enough)))
 
 
 def _predicted(values: FloatArray) -> FloatArray:

@@ -203,7 +203,7 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     Of a load whose second half mirrors the first, those at x ≥ 0 alone.
     """
     split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(CANDIDATE_TOLERANCE)
-    positions, seen = resolved(scene, Pieces.of(split))
+    positions, seen = resolved(scene, Pieces.of(split), least)
     climb = Climb.start(split, positions, seen, accuracy.search, least)
     climb = climb_to_tops(split, positions, climb, accuracy)
     position, swt, angle = looked_at_once_more(split, positions, climb, accuracy)

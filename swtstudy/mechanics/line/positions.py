@@ -128,6 +128,13 @@ class Pieces:
         """Shape (P,): which are the last of their points."""
         return np.append(np.diff(self.point) > 0, True)
 
+    @property
+    def are_long(self) -> NDArray[np.bool_]:
+        """Shape (P,): the innermost of each point, and those as long as the mean of its others, nearly."""
+        length, innermost = self.high - self.low, np.append(True, np.diff(self.point) > 0)
+        others = np.bincount(self.point, np.where(innermost, 0.0, length)) / np.bincount(self.point)
+        return np.asarray(innermost | (length >= others[self.point]))
+
     def layers(self, thin: float) -> tuple[NDArray[np.intp], FloatArray]:
         """Where thin layers of pieces end: what happens in a short piece makes one in a long neighbour, too.
 
