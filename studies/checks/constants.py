@@ -1,6 +1,7 @@
 """What each tuning constant of the mechanics is good for: s and time with it halved, doubled or taken away.
 
-``python studies/checks/constants.py [part of a name ...] [--points a profile]`` writes results/constants.md.
+``python studies/checks/constants.py [part of a name ...] [--points a profile]`` writes results/constants.md:
+all that the code says of constants, their tests among it, and what other values of those so named do.
 A constant's module is compiled with another value of it, in a process of its own, so that all that is made
 from it follows.
 """
@@ -10,6 +11,7 @@ from __future__ import annotations
 import argparse
 import ast
 import itertools
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -28,7 +30,6 @@ KINDS |= {
     "_path": "loop",
     "polygon": "loop",
     ".control.": "force",
-    "bulk": "bulk",
 }
 KINDS |= {
     "nonlocal": "means",
@@ -47,35 +48,25 @@ OTHERS = {
     "look.SETTLED": ("1.0",),
     "surface_circle.ANGLES": ("v[::2]",),
     "surface_circle.DIGITS": ("3.5",),
-    "first_look.CANDIDATE_SHARE": ("0.95",),
-    "first_look.HIDDEN_SHARE": ("2.0",),
-    "first_look.JUMP": ("10 * v",),
-    "first_look.SIDE_BY_SIDE": ("0.0",),
-    "first_look.TWIN": ("0.0",),
     "paraboloid.APPROACH_COUNT": ("5",),
     "growth.NODES_PER_OSCILLATION": ("v / 2",),
     "look.REACH": ("0.125",),
-    "maximum.SCAN_RESOLUTION": ("Resolution(1, 0, 3.5)", "Resolution(2, 0, 2.5)"),
     "maximum.SHARES": ("v[2:]", "(0.9,)"),
-    "maximum.NEIGHBOURS": ("4 * v",),
     "positions.INNERMOST": ("10 * v",),
     "positions.INNERMOST_OF_LOST": ("20 * v",),
-    "positions.SPREAD_PER_OSCILLATION": ("0",),
-    "positions.SPREAD_PER_WAVE": ("0",),
     "roots.LARGEST_STEP_COUNT": ("10",),
     "roots.LAST_STEP": ("100 * v",),
-    "round.CHANGE_SHARE": ("v / 10", "10 * v"),
-    "round.CORNER_CHANGE_SHARE": ("0.03",),
-    "round.LEAST_ROUND_COUNT": ("1",),
-    "round.OFFSETS": ("v / 1.5",),
-    "round.POLYNOMIAL_SHARE": ("v / 10",),
-    "round.TIE": ("0.0",),
-    "round.WALKING": ("v / 2",),
+    "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
+    "rounds.CORNER_CHANGE_SHARE": ("0.03",),
+    "rounds.LEAST_ROUND_COUNT": ("1",),
+    "rounds.OFFSETS": ("v / 1.5",),
+    "rounds.POLYNOMIAL_SHARE": ("v / 10",),
+    "rounds.TIE": ("0.0",),
+    "rounds.WALKING": ("v / 2",),
     "singular_edge.FINER": ("v[:1]", "v[1:]"),
     "stretches.PER_INTERVAL": (),
     "tip.OF_EDGE": ("Slowness(1e-9, 1e-7, 10.0)", "Slowness(1e-5, 1e-3, 10.0)"),
     "tip.OF_FRONT": ("Slowness(1e-12, 1e-9, 30.0)", "Slowness(1e-7, 1e-5, 10.0)"),
-    "value.STARTS": ("v[:1]", "v / 2", "2 * v"),
     "wavy.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),
     "body_maximum.DEPTHS": ("v[::2]",),
@@ -102,6 +93,23 @@ def constants() -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
                 elif others is None and isinstance(number, float):
                     others = ("v / 100", "100 * v") if number < 1e-5 else ("v / 2", "2 * v")
                 yield module, name, text, others or ()
+
+
+def comments() -> Iterator[str]:
+    """A row for each statement that gives constants a value: their module and names, values, and comment."""
+    for file in sorted(MECHANICS.rglob("*.py")):
+        module = ".".join(file.relative_to(MECHANICS).with_suffix("").parts)
+        said, goes_on = "", False
+        for line in file.read_text(encoding="utf-8").splitlines():
+            found = re.match(r"([A-Z][A-Z_0-9, ]*)(?:: [^=]+)? = (.*)", line)
+            if line.startswith("#: "):
+                said = f"{said} {line[3:]}" if goes_on else line[3:]
+            elif not found:
+                said = ""
+            # One comment may stand for several statements.
+            elif said and not set(found[1].split(", ")) & {*DEFINITIONS}:
+                yield f"| {module}.{found[1]} | {found[2].replace('|', '/')} | {said} |"
+            goes_on = line.startswith("#: ")
 
 
 class Sample:
@@ -152,10 +160,14 @@ def main() -> None:
             cells = samples[kind].row(module, constant, expression)
             lines.append(f"| {name} = {text} | {expression} | {cells} |")
             print(lines[-1], flush=True)
+    listed = "What the code says of each constant, its test or its measurement where it has one:\n\n"
+    listed += "| constant | value | what it is |\n|---|---|---|\n" + "\n".join(comments())
     title = f"Relative errors and changes of s at rtol = {RTOL:.0e}, {count} points of each source; "
     title += "times are over that of the constants as they are, and vary as much as its own rows.\n\n"
     given.results.mkdir(exist_ok=True)
-    (given.results / "constants.md").write_text(title + HEADER + "\n".join(lines) + "\n", "utf-8")
+    (given.results / "constants.md").write_text(
+        f"{listed}\n\n{title}{HEADER}" + "\n".join(lines) + "\n", "utf-8"
+    )
 
 
 if __name__ == "__main__":
