@@ -50,6 +50,7 @@ def test_s_need_not_be_finite_where_it_is_not_computed_or_the_regime_says_so(sma
     dataset.s[0, 2], dataset.regime[0, 2] = np.nan, 4
     dataset.s[0, 3], dataset.regime[0, 3] = np.inf, 4
     dataset.s[0, 4] = 0.0
+    dataset.s[0, 5], dataset.regime[0, 5] = 0.0, 5
     save(dataset, path)
     assert np.isfinite(open_results(path).s).sum() == 14
 
@@ -128,6 +129,7 @@ def test_coordinates_are_those_of_a_study(small, tmp_path):
         (dataset.assign_coords(profile="rounded_punch"), "flat_radius: found nothing"),
         (dataset.assign_coords(profile="qaraboloid"), r"profile: found 'qaraboloid' \(no such profile\)"),
         (dataset.assign(run=dataset.run[0]), r"run: found dimensions \('phase',\)"),
+        (dataset.assign(s=dataset.s[0]), rf"status: found .*\n{path}: run: found dimensions"),
         (dataset.assign(regime=dataset.regime.astype(str)), "regime: found values of type"),
     ):
         changed.to_netcdf(path)

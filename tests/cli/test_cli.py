@@ -262,7 +262,10 @@ def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
     assert "to be computed     8" in result.output
     assert re.search(r"from \d+ points? timed", result.output)
     assert not (tmp_path / "results").exists()
-    assert "already computed   8" in call("plan", study, "--results", finished).output
+    study.write_text(study.read_text().replace("hue =", "panels ="))
+    done = call("plan", study, "--results", finished).output
+    assert "points             18 in 2 panels" in done
+    assert "already computed   8" in done
 
 
 def test_info_says_what_an_archive_is(finished):
@@ -630,7 +633,7 @@ def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
     def refuse(*_):
         raise MemoryError("Unable to allocate 4.85 GiB")
 
-    monkeypatch.setattr("swtstudy.runner.work.assess", refuse)
+    monkeypatch.setattr("swtstudy.runner.workload.assess", refuse)
     result = call("plan", "figure3")
     assert result.exit_code == 2
     assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"

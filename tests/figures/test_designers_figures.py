@@ -44,6 +44,7 @@ def test_lives_stand_upright_under_their_amplitude(results):
         np.testing.assert_allclose(line.get_xdata(), 1e5 * friction / AMPLITUDE**4)
     assert cycles.get_xscale() == "log"
     assert cycles.get_ylim() == (0.1, 1.0)
+    assert cycles.get_shared_y_axes().joined(cycles, s)
     assert [axes.get_xlabel() for axes in (cycles, s)] == [
         "rounds to a crack, $N$",
         r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",

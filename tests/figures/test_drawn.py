@@ -400,7 +400,7 @@ def test_slip_map(axes):
     axes.lines[0].set_visible(False)  # the edge of the contact
     canvas.draw()
     seen = np.asarray(canvas.buffer_rgba())
-    for r, row in ((0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
+    for r, row in ((0.02, 0), (0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
         for column in (1, 2):
             across, up = axes.transData.transform((column + 0.3, r))
             colour = seen[seen.shape[0] - 1 - round(up), round(across)] / 255.0

@@ -22,10 +22,13 @@ def test_curves(indenter: oracle.Indenter) -> None:
     f = oracle.integral(indenter.f_slope, indenter.flat_radius, float(x[at]))
     assert height[at] == pytest.approx(f - 1.0, abs=1e-5)
     np.testing.assert_array_equal(height, height[::-1])
+    assert (sketch.get_xlabel(), sketch.get_ylabel()) == ("$x/a_H$", r"$-z/\delta_0$")
     depth, pressure = (line.get_data() for line in springs.lines if len(line.get_xdata()) > 2)
     # Both coordinates begin where the surfaces meet.
     arrows = [each for each in sketch.texts if each.get_text() == "" and each.xy[0] * each.xy[1] == 0.0]
     assert [each.xyann for each in arrows[:2]] == [(0.0, 0.0), (0.0, 0.0)]
+    (push,) = [each for each in sketch.texts if each.get_text() == "" and each.xy[1] == each.xyann[1] > 0.0]
+    assert sketch.get_xlim()[0] < push.xyann[0] < push.xy[0] < 0.0
     k = 900
     assert depth[1][k] == pytest.approx(indenter.depth(float(depth[0][k])), abs=1e-9)
     edge = springs.lines[1].get_xdata()[0]

@@ -5,9 +5,12 @@ import pytest
 from curves import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
+from matplotlib.mathtext import MathTextParser
 
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.evaluate import quantity
+from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import QUANTITIES
 
 PHASE = np.linspace(0, np.pi, 13)
 FRICTION = np.array([0.1, 0.2, 0.4])
@@ -33,6 +36,11 @@ def dataset():
     for name, values in found.data_vars.items():
         values.attrs = dict(ATTRIBUTES[name])
     return found
+
+
+def test_every_symbol_is_a_formula():
+    for row in (*PARAMETERS.values(), *QUANTITIES.values()):
+        assert MathTextParser("path").parse(f"${row.symbol}$").width > 0
 
 
 @pytest.mark.parametrize("name", WORDS)

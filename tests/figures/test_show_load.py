@@ -70,6 +70,9 @@ def test_a_smooth_loop_without_units_is_drawn_too() -> None:
     rows = "normal = [[1, 0.5, 0]]\ntangential = [[1, 0.3, 1]]\n"
     text = f'title = "t"\nfixed.load = "mine"\n[loads.mine]\n{rows}'
     course, path = draw_load(Study.from_text(text), "mine").axes
+    pulled = text.replace("[loads", "fixed.bulk_stress_amplitude = 0.2\n[loads") + "bulk = [[1, 0.4, 0]]\n"
+    bulk = draw_load(Study.from_text(pulled), "mine").axes[0].get_lines()[2]
+    assert bulk.get_ydata().max() == pytest.approx(0.2 * 0.4, rel=1e-4)
     assert course.get_lines()[0].get_ydata().max() == pytest.approx(1.5, rel=1e-4)
     assert path.get_lines()[0].get_ydata().max() == pytest.approx(0.3, rel=1e-4)
     assert (path.get_xlabel(), course.get_legend().get_texts()[0].get_text()) == ("normal load", "normal")

@@ -21,7 +21,7 @@ from swtstudy.mechanics.line.counted import FewCycles, few
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.solver import scenes, solve_points
-from swtstudy.runner.work import assess
+from swtstudy.runner.workload import assess
 from swtstudy.units.life import UNCOUNTED
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
@@ -110,7 +110,7 @@ def test_a_nested_cycle_is_that_of_the_closed_form_at_the_edge_where_it_is_worse
     assert (number[0][np.isfinite(number[0])] == 1.0).all()
 
 
-def dense_swt(scene, swt):
+def dense_swt(scene, swt, planes=45):
     """swt of the cycles, over a largest one, at many places on both sides and planes, shape (h, k)."""
     top = float(scene.largest_radius[0])
     r = top * np.sqrt(np.linspace(0.05, 1.2, 100))
@@ -119,9 +119,9 @@ def dense_swt(scene, swt):
     look = Look.at(scene, np.maximum(r, 0.01)[None], 8, 5.0)
     found = []
     for side in (1.0, -1.0):
-        planes = scene.planes(look.history, side)
-        for angle in 2.0 * np.pi * np.arange(45) / 45:
-            stress, strain = (v[0] for v in planes.on_plane(np.full((1, r.size), angle)))
+        history = scene.planes(look.history, side)
+        for angle in 2.0 * np.pi * np.arange(planes) / planes:
+            stress, strain = (v[0] for v in history.on_plane(np.full((1, r.size), angle)))
             cycles = closed_cycles(strain, stress)
             own = scene.criterion.value(cycles.tension, cycles.amplitude) / swt
             found.append(own[own.max(axis=1) > 0.4])
@@ -153,6 +153,17 @@ def test_no_place_and_plane_has_much_more_damage() -> None:
                     more.append(own / at_home)
     # The critical place and plane of the largest swt alone would not do.
     assert max(more) > 1.2
+
+
+def test_a_place_with_the_largest_sum_of_swt_is_among_them() -> None:
+    """That sum is the damage at the shortest lives; the critical place has less of it."""
+    batch = take(random_points(5, 30), [7])
+    solution, share, number = cycles_of(batch, 1e-2)
+    ((_, scene),) = scenes(batch)
+    upright = dense_swt(scene.split_at_breakpoints(), solution.s[0], planes=1).sum(axis=1).max()
+    found = np.nansum(share * number, axis=2)[0]
+    assert upright > 1.05 * found[0]
+    assert found.max() > 0.99 * upright
 
 
 @pytest.mark.parametrize("seed", [1, 2])

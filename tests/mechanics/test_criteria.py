@@ -231,6 +231,8 @@ def test_crosslands_sphere() -> None:
         centre, radius = smallest_sphere(cloud)
         away = np.linalg.norm(cloud - centre, axis=1)
         assert away.max() == pytest.approx(radius)
+        for scale in (1e-9, 1e9):
+            assert smallest_sphere(scale * cloud)[1] == pytest.approx(scale * radius)
         on = cloud[away >= radius * (1.0 - 1e-9)]
         # The smallest has its centre between the points on it.
         assert len(on) >= min(count, 2)

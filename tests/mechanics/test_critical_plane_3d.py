@@ -10,6 +10,8 @@ from scipy.spatial.transform import Rotation
 import swtstudy
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history, swt_on_planes
+from swtstudy.mechanics.planes.ascent import swap_instants
+from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.planes.weights import symmetric_tensor
 
 POISSON = 0.3
@@ -139,3 +141,12 @@ def test_hemisphere_has_no_plane_twice():
     normals = hemisphere(256)
     closeness = np.abs(normals @ normals.T) - 2 * np.eye(256)
     assert closeness.max() < np.cos(np.radians(4))
+
+
+def test_a_swing_has_no_sign():
+    """The plane to go on from is the same with all strains turned round."""
+    stress = rough_histories(np.random.default_rng(5), 60)
+    _, normal = swt_of_history(stress, POISSON)
+    strain = SWT.swing.tensor(stress, POISSON, 1.0)
+    own, turned = (swap_instants(stress, sign * strain, normal, SWT) for sign in (1.0, -1.0))
+    np.testing.assert_allclose(own, turned, atol=1e-12)

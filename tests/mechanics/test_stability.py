@@ -207,7 +207,7 @@ def test_points_that_are_looked_at_one_by_one_have_the_same_values(monkeypatch: 
     some = points(phase=np.linspace(0.1, 3.0, 6), normal_amplitude=0.5)
     together = solve_points(some)
     monkeypatch.setattr(first_look, "LOOK_SIZE", 1)
-    monkeypatch.setattr("swtstudy.mechanics.line.round.PART_SIZE", 1)
+    monkeypatch.setattr("swtstudy.mechanics.line.rounds.PART_SIZE", 1)
     alone = solve_points(some)
     assert np.ptp(together.s) > 0.1 * together.s.max()
     np.testing.assert_allclose(alone.s, together.s, rtol=1e-10)

@@ -146,6 +146,17 @@ def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
     assert float(solved.s_surface) > 1.001 * float(solved.s)
 
 
+def test_only_places_that_meet_on_one_circle_and_one_ridge_are_one():
+    along_x, along_y, _ = np.eye(3)
+    places = surface_circle._Places(
+        circle=np.array([0, 0, 0, 0, 1]),
+        angle=np.array([0.2, 0.5, 0.5, 0.9, 0.9]),
+        normal=np.stack([along_x, along_x, along_x, along_y, along_y]),
+    )
+    kept = surface_circle._leading(places, np.array([1.0, 0.999, 1.0, 1.0, 1.0]), np.ones(2))
+    assert kept.tolist() == [0, 2, 3, 4]
+
+
 def test_circles_do_not_know_of_one_another():
     phases = [0.6, 0.601, 0.602]
     together = swtstudy.solve(**(NARROW_SLIP | {"phase": phases})).s_surface

@@ -12,7 +12,7 @@ from scipy.integrate import quad
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
-from swtstudy.mechanics.indenter.slope_fit import exact_slope, spline
+from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_slope, spline
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.vocabulary.mistakes import StudyError
 
@@ -66,7 +66,11 @@ def test_g_is_abels_transform_of_the_spline(face: float) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::scipy.integrate.IntegrationWarning")
-@pytest.mark.parametrize("one", [table("wavy_paraboloid", 60), worn()], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "one",
+    [table("wavy_paraboloid", 60), pytest.param(worn(), marks=pytest.mark.slow)],
+    ids=lambda one: one.name,
+)
 def test_integrals_of_the_pieces(one: TabulatedProfile) -> None:
     """Pressure, tractions and load of the pieces as they are, over all of them and within one."""
     profile = make_profile(one, {}, np.array([1.5]))
@@ -183,6 +187,19 @@ def test_the_largest_depth_of_a_table() -> None:
     )
 
 
+def test_beyond_its_end_a_table_goes_on_as_it_ends() -> None:
+    """Here the last piece is wider than the one before it."""
+    r = np.linspace(0.0, 2.0, 30)
+    f = spline(r, 0.5 * r * r + 0.2 * np.maximum(r - 1.6, 0.0) ** 2, 0.0)
+    pieces = SlopePieces.of(f, 1e-4)
+    assert pieces.start[-1] == 2.0
+    assert np.diff(pieces.start, 2)[-1] > 0.0
+    ξ = np.array([2.0 - 1e-9, 2.0 + 1e-9])
+    slope, over_radius = (pieces.value(c, ξ, pieces.piece(ξ)) for c in (pieces.slope, pieces.over_radius))
+    np.testing.assert_allclose(slope, exact_slope(f, np.full(2, 2.0)), rtol=1e-4)
+    np.testing.assert_allclose(over_radius * ξ, slope, rtol=1e-4)
+
+
 R = np.linspace(0.0, 2.0, 20)
 
 
@@ -201,6 +218,7 @@ R = np.linspace(0.0, 2.0, 20)
             "pad.height: found no one-dimensional array of finite numbers",
         ),
         (R, 0.0 * R, 0.0, "found a flat face alone"),
+        (R, np.maximum(R - R[-6], 0.0), 0.0, "allowed: at least 6 points beside it"),
         (R, R**2, -1.0, "pad.smoothing: found -1.0; allowed: a number ≥ 0"),
         ("no", R**2, 0.0, "pad.radius: found no one-dimensional"),
     ],

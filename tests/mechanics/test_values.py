@@ -111,6 +111,11 @@ def test_the_aligned_textbook_method_agrees_at_random_points(profile: str) -> No
     assert 1.0 - 7e-3 < ratio < 1.0 + 7e-4
 
 
+def test_under_a_constant_normal_load_the_turns_of_the_tangential_one_are_enough() -> None:
+    few, many = (textbook_s(points(normal_amplitude=0.0), 100, steps, 20, 18).s for steps in (4, 40))
+    assert few == pytest.approx(many, rel=1e-9)
+
+
 def test_fixed_grids_stay_below_and_come_closer() -> None:
     # The cusp at a(δ0 − δA) falls between positions: a grid only sees it to the root of the spacing.
     point = points(normal_amplitude=0.1)

@@ -20,7 +20,7 @@ from swtstudy.mechanics.line.maximum import candidates
 from swtstudy.mechanics.planes.through_y import coarse_swt
 from swtstudy.mechanics.quantities import worst_means
 from swtstudy.mechanics.solver import scenes, solve_points
-from swtstudy.runner.work import assess
+from swtstudy.runner.workload import assess
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}

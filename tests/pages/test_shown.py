@@ -20,7 +20,7 @@ import swtstudy
 from swtstudy import Study, open_results
 from swtstudy.archive.netcdf import save
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.runner.work import assess
+from swtstudy.runner.workload import assess
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
 SHELL = [page for page in shown.PAGES if any(b.language == "sh" for b in shown.blocks_of(page))]

@@ -106,7 +106,7 @@ def of_face(rounded: float, truncated: float, coupled: float = 0.0) -> xr.Datase
         return np.exp(slope * flat_radius) * (2 + np.cos(phase * (1 + coupled * flat_radius)))
 
     profiles = ["rounded_punch", "truncated_paraboloid"]
-    return made_up(s, profile=profiles, flat_radius=[0.0, 1.0, 2.0], phase=PHASES)
+    return made_up(s, profile=profiles, flat_radius=[0.0, 0.5, 1.0, 2.0], phase=PHASES)
 
 
 def test_the_face_of_the_punch():

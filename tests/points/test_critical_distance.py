@@ -24,7 +24,7 @@ from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, Estimate, NonlocalS
 from swtstudy.points.unique import unique_points
 from swtstudy.runner import chunk
 from swtstudy.runner.chunk import chunks
-from swtstudy.runner.work import estimate
+from swtstudy.runner.workload import estimate
 from swtstudy.units.variables import variables
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"

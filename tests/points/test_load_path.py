@@ -188,6 +188,8 @@ def test_a_normal_load_that_almost_stops_while_all_sticks(rtol: float) -> None:
 def test_a_function_with_corners_is_no_harmonic_sum() -> None:
     with pytest.raises(StudyError, match="harmonics beyond the order 64"):
         LoadPath.sampled("mine", lambda t: (np.sin(t), np.abs(np.sin(t))))
+    with pytest.raises(StudyError, match=r"beyond the order 64, of up to 0\.01"):
+        LoadPath.sampled("mine", lambda t: (np.sin(t), np.sin(64 * t) + 0.01 * np.sin(65 * t)))
     for wrong in (lambda t: t, lambda t: (t[:5], t), lambda t: (np.nan * t, t)):
         with pytest.raises(StudyError, match="course of mine: found"):
             LoadPath.sampled("mine", wrong)

@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.archive.parts import PartsWriter, read_parts
 from swtstudy.mechanics.points import Solution
 from swtstudy.points.canonical import COLUMNS, ROW
-from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
+from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join, look_up
 
 
 def some(count: int, status: int = COMPUTED, message: str = "", **quantities: float) -> Records:
@@ -35,6 +35,20 @@ def test_records_are_joined_with_the_quantities_of_all() -> None:
     assert part.message.tolist() == ["", "why"]
     assert part.status.tolist() == [COMPUTED, FAILED]
     np.testing.assert_array_equal(part.quantities["stick_radius"], [0.5, np.nan])
+
+
+def test_missing_points_are_of_no_run() -> None:
+    known = some(2)
+    assert join([Records.missing(known.table), known]).run.tolist() == [-1, -1, 0, 0]
+    for candidates, found in (([True, False], [0, -1]), ([False, False], [-1, -1])):
+        assert look_up(known.table, known, np.array(candidates)).tolist() == found
+
+
+def test_a_run_in_two_parts_began_with_the_first_of_them() -> None:
+    part = some(1)
+    (run,) = part.runs
+    parts = [replace(part, runs=(replace(run, started=day),)) for day in ("2025-03-02", "2025-03-01", "")]
+    assert [run.started for run in join(parts).runs] == ["2025-03-01"]
 
 
 def test_parts_hold_the_points_as_a_matrix(tmp_path: Path) -> None:

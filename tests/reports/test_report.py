@@ -26,10 +26,10 @@ from swtstudy.cli import main
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
-from swtstudy.reports.parts import embedded, section
-from swtstudy.reports.sections import tiles
-from swtstudy.reports.site import write_reports
-from swtstudy.reports.values import place_html, symbol_html
+from swtstudy.reports.parts import derived, embedded, section
+from swtstudy.reports.sections import settings_section, tiles
+from swtstudy.reports.site import entry, write_reports
+from swtstudy.reports.values import about, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
@@ -151,6 +151,8 @@ def test_the_sentence_is_that_of_the_extrema() -> None:
     assert said
     for words, place in zip(said.groups(), (most.at_minimum, most.at_maximum), strict=True):
         assert np.pi * read_multiple(words) == pytest.approx(float(place), rel=5e-3)
+    dataset.attrs.pop("figure")  # whose picture takes a while
+    assert entry(dataset, "figure3").sentence == sentences(dataset)[0]
 
 
 def test_the_phase_is_the_first_lever_and_others_go_by_their_ratio() -> None:
@@ -165,6 +167,8 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
     assert extremes == {"best": float(dataset.SWT.min()), "worst": float(dataset.SWT.max())}
     assert all("SWT by" in re.sub("<[^>]*>", "", each) for each in sentences(dataset)[:3])
     assert "400 N" in sentences(dataset)[0]
+    constants = settings_section(dataset).body.partition("Strain-life constants")[2]
+    assert re.findall(">([^<]*)</td>", constants)[:4] == ["young modulus", "73100 MPa", "strength", "927 MPa"]
 
 
 @pytest.mark.parametrize(
@@ -193,6 +197,22 @@ def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_pag
     assert list(table.regime) == list(whole.regime.astype(str))
     assert list(table.s_error) == pytest.approx(list(whole.s_error), rel=0.06)
     assert {"phase", "normal_amplitude", "critical_x"} <= {*table}
+
+
+def test_ratios_that_a_figure_shows_go_with_the_table(small: xr.Dataset) -> None:
+    layout = FigureLayout(x="phase", y=("s", "s/s(phase=0)"))
+    found = derived(small, layout, ["normal_amplitude", "phase"])
+    assert list(found) == ["s/s(phase=0)", "s/s(phase=0)_error"]
+    s = small.s.transpose("normal_amplitude", "phase").values
+    np.testing.assert_allclose(found["s/s(phase=0)"], (s / s[:, :1]).ravel(), rtol=1e-5)
+    assert found["s/s(phase=0)_error"][::3] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize(("count", "spelled"), [(60, 60), (61, 0)])
+def test_scripts_are_given_the_words_of_few_values(small: xr.Dataset, count: int, spelled: int) -> None:
+    many = small.isel(phase=[0] * count)
+    (phase,) = (dim for dim in about(many, table_of(many))["dims"] if dim["name"] == "phase")
+    assert (phase["size"], phase["words"]) == (count, ["0"] * spelled)
 
 
 @pytest.mark.slow
@@ -296,6 +316,16 @@ def test_bodies_are_called_by_their_names() -> None:
     assert "The body moves SWT by 1.4 times at QA = 10: least for test piece, greatest for pad." in words
 
 
+def test_the_page_of_a_figure_of_the_paper_holds_it_against_the_paper(without_points: None) -> None:
+    dataset = swtstudy.open_results(RESULTS / "figure3.nc")
+    dataset.attrs.pop("figure")
+    text = page(dataset, "figure3").partition('id="paper"')[2]
+    (paper,) = pd.read_html(StringIO(text[: text.index("</section>")]))
+    assert [*paper.columns] == ["place", "the paper says", "found", "holds"]
+    assert len(paper) > 2
+    assert {*paper.holds} == {"yes"}
+
+
 @pytest.mark.parametrize("name", ["figure4", "sensitivity", "life"])
 def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) -> None:
     text = page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)
@@ -335,7 +365,9 @@ def test_validity_is_shown_where_results_have_it(
 ) -> None:
     assert "Where the model holds" not in small_page
     bare = small.drop_attrs(deep=False).assign_attrs({k: v for k, v in small.attrs.items() if k != "figure"})
+    bare.attrs.pop("study")
     text = page(bare.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
+    assert re.search(r"</table></div>\n<h3>To cite</h3>", text)  # and nothing to make it again
     assert (
         "beyond first yield at all 6 points: largest von Mises stress over the yield strength up to 1.5"
         in text

@@ -9,11 +9,13 @@ from click.testing import CliRunner
 from real import ALLOY, ALUMINIUM
 
 import swtstudy
-from swtstudy import Study, StudyError, physical
+from swtstudy import LoadPath, Study, StudyError, physical
 from swtstudy.cli import main
 from swtstudy.figures.evaluated import draw_fit, fit_lines
 from swtstudy.results import fitting
 
+#: Each round has two cycles.
+LOOP = [[0, 1], [0, -1], [0, 0.9], [0, -0.9]]
 STUDY = f"""
 title = "Tests of a rig"
 {ALLOY}[fixed]
@@ -22,6 +24,9 @@ poisson_ratio = 0.33
 radius = 50
 friction = 0.5
 normal_force = 200
+load = "two"
+[loads.two]
+vertices = {LOOP}
 """
 #: Three tests, and the distance with which their lives are made.
 FORCES, LOADS, MADE_WITH = (30.0, 55.0, 80.0), (150.0, 200.0, 300.0), 0.06
@@ -36,7 +41,7 @@ def rig(tmp_path_factory):
     for force, load in zip(FORCES, LOADS, strict=True):
         contact = physical(
             young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=load,
-            tangential_force_amplitude=force,
+            tangential_force_amplitude=force, load=LoadPath("two", LOOP),
         )  # fmt: skip
         solved = contact.solve(1e-3, critical_distance=MADE_WITH, constants=ALUMINIUM)
         lives.append(float(solved.cycles_volume[0]))
@@ -68,6 +73,13 @@ class Law:
         friction = 0.5 if friction is None else friction
         pull = np.log10(self.forces)[:, None]
         return 6.0 + 2.0 * np.log10(distances) - self.power * pull * np.log10(friction) - pull
+
+
+def test_lives_of_a_fit_are_by_counted_cycles(rig):
+    file, lives = rig
+    grid, _ = fitting._read(file, {name: values[:1] for name, values in table(lives).items()}, 0)
+    found = fitting._lives(grid, "cycles_volume", np.array([MADE_WITH]), None)
+    assert found.item() == pytest.approx(np.log10(lives[0]), rel=1e-6)
 
 
 def test_noise_has_the_interval_of_linear_regression(rig, monkeypatch):
@@ -186,7 +198,9 @@ def test_the_critical_distance_of_a_threshold_and_a_fatigue_limit(caplog):
 
 def test_a_threshold_of_other_units_is_warned_of():
     """3.5 MPa√m are 110.7 MPa√mm: taken for the latter ℓ is a thousandth."""
-    with pytest.warns(UserWarning, match="1 MPa√m is 31.62 MPa√mm"):
+    with pytest.warns(
+        UserWarning, match=r"at one load ratio, which load_ratio would .*1 MPa√m is 31\.62 MPa√mm"
+    ):
         Study.from_text(with_material("threshold_stress_intensity_range = 3.5", RANGES[1]))
 
 

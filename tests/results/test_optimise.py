@@ -7,7 +7,7 @@ import stand_in
 import swtstudy
 from swtstudy import StudyError, optimise
 from swtstudy.points.values import NUMERIC
-from swtstudy.results.least import least, planes_from, probes
+from swtstudy.results.least import Planes, least, lowest_of, planes_from, probes
 from swtstudy.results.objective import Objective
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -111,6 +111,16 @@ def test_the_neighbourhood_is_along_each_parameter(found, valley):
     assert best.normal_amplitude == 0.9
     beyond = best.nearby.sel(parameter="normal_amplitude").where(best.step > 1e-9, drop=True)
     assert np.isnan(beyond).all()
+
+
+@pytest.mark.parametrize("distance", [1.0, 1e-5])
+def test_the_lowest_point_of_planes_is_where_they_meet(distance):
+    """|x − ¼| + 2 |y + ¼|, in distances from the centre."""
+    slopes = np.array([[1.0, 2.0], [1.0, -2.0], [-1.0, 2.0], [-1.0, -2.0]])
+    centre, lowest = np.array([0.5, 0.5]), np.array([0.25, -0.25])
+    tops = Planes(np.tile(centre, (4, 1)), 3.0 - slopes @ lowest * distance, slopes)
+    first, _ = lowest_of(tops, centre, 5.0, distance)
+    np.testing.assert_allclose((first - centre) / distance, lowest, atol=1e-6)
 
 
 def test_the_same_seed_gives_the_same_to_the_bit(monkeypatch):

@@ -110,7 +110,9 @@ def test_extrema_are_values_of_s_and_places_of_the_dimension(waves):
 
 
 def test_extrema_say_what_they_are():
-    found = swtstudy.solve(phase=[0, 1, 2], rtol=1e-2).swt.extrema("phase")
+    dataset = swtstudy.solve(phase=[0, 1, 2], rtol=1e-2)
+    found = dataset.swt.extrema("phase")
+    assert dataset.swt.extrema("phase", "critical_angle").minimum.attrs["units"] == "degree"
     names = {name: values.attrs["long_name"] for name, values in found.data_vars.items()}
     assert names == {
         "minimum": "minimum of s",

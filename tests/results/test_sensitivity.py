@@ -63,6 +63,7 @@ def test_the_indices_of_a_function_whose_indices_are_known(indices):
     of_s = indices.sel(quantity="s")
     assert of_s.first_order.dims == ("normal_amplitude", "parameter")
     assert of_s.parameter.values.tolist() == ["friction", "poisson_ratio", "tangential_amplitude"]
+    assert of_s.total.attrs["comment"] == "share of the variance by this parameter, alone and with others"
     # 1,024 points have a standard error of 0.02 to 0.05: the widths of the confidence intervals.
     for place in range(2):
         assert of_s.first_order[place].values == pytest.approx(FIRST, abs=0.03)
@@ -170,6 +171,9 @@ def test_the_table_has_what_the_paper_says(indices):
     assert f"| {float(of_s.first_order[1]):.3f} |" in line
     assert SAYS["poisson_ratio"] in line
     assert "## critical_x, normal_amplitude = 0.5" in lines
+    turned = indices.drop_vars("phase").rename(normal_amplitude="phase")
+    turned = turned.assign_coords(phase=("phase", [0.0, np.pi / 2], {"units": "rad"}))
+    assert "## s, phase = π/2" in table(turned, of_paper=False).splitlines()
     # Of a parameter that it does not have it says nothing.
     other = table(
         indices.assign_coords(parameter=["friction", "poisson_ratio", "walker_exponent"]), of_paper=True

@@ -26,8 +26,8 @@ from swtstudy.runner.chunk import Chunk
 from swtstudy.runner.collector import CHUNK_SECONDS, Pace, ProgressBar
 from swtstudy.runner.engine import LOST_WORKER, WorkerError, solve
 from swtstudy.runner.run import run_several
-from swtstudy.runner.work import estimate
 from swtstudy.runner.workers import LocalPool, _clean_start
+from swtstudy.runner.workload import estimate
 
 WIDE = """
 title = "Enough for workers"
@@ -285,7 +285,7 @@ def test_an_estimate_is_the_seconds_of_a_kind_times_its_points():
     table, timed = points.table, []
     slow = partial(timed_by_ratio, timed)
     missing = np.ones(len(table), bool)
-    patched = mock.patch.multiple("swtstudy.runner.work", solve_chunk=slow, _BUDGET=100.0)
+    patched = mock.patch.multiple("swtstudy.runner.workload", solve_chunk=slow, _BUDGET=100.0)
     with patched:
         assert estimate(points, missing, 1e-3, None) == pytest.approx(5 * 1.0 + 5 * 2.0)
         missing[:3] = False
@@ -302,11 +302,15 @@ def test_a_plan_times_no_more_points_than_its_budget_allows():
     )
     points, timed, told = unique_points(Study.from_text(text).grid), [], []
     every = np.ones(len(points.table), bool)
-    with mock.patch("swtstudy.runner.work.solve_chunk", partial(timed_by_ratio, timed)):
+    with mock.patch("swtstudy.runner.workload.solve_chunk", partial(timed_by_ratio, timed)):
         seconds = estimate(points, every, 1e-3, None, lambda result: told.append(len(result)))
     assert sum(told) <= 2
     weight = weights(points.table)
     assert seconds == pytest.approx(50.0 * weight.sum() / weight[points.table["q"] == 1].sum())
+    # Of quick points each ratio has its share of the budget.
+    quick = partial(timed_by_ratio, [], second=0.04)
+    with mock.patch("swtstudy.runner.workload.solve_chunk", quick):
+        assert estimate(points, every, 1e-3, None) == pytest.approx(0.04 * (50 * 1.0 + 50 * 2.0))
 
 
 def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
@@ -323,15 +327,15 @@ def test_a_loop_of_many_vertices_is_timed_by_one_of_fewer():
         seconds = float(len(chunk) * 1e-4 * k * np.log(k))
         return that_took(seconds, chunk.table)
 
-    with mock.patch("swtstudy.runner.work.solve_chunk", solve):
+    with mock.patch("swtstudy.runner.workload.solve_chunk", solve):
         seconds = estimate(points, np.ones(2, bool), 1e-3, None)
     assert 100 < max(counts) <= 200
     assert seconds == pytest.approx(2 * 1e-4 * 1600 * np.log(1600))
 
 
-def timed_by_ratio(timed, chunk, rtol, solver):
+def timed_by_ratio(timed, chunk, rtol, solver, second=1.0):
     """Records that took q seconds a point."""
-    return that_took(float(chunk.table["q"].sum()), chunk.table)
+    return that_took(second * float(chunk.table["q"].sum()), chunk.table)
 
 
 def that_took(seconds, table):

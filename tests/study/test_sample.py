@@ -316,6 +316,9 @@ def test_a_histogram_counts_and_has_percentiles(results):
         top = max(path.get_extents().y1 for path in (patch.get_path() for patch in axes.patches))
         counts, _ = np.histogram(values, np.histogram_bin_edges(results.s.values, "auto"))
         assert top == counts.max()
+    (axes,) = draw(results.isel(profile=0), FigureLayout("sample", y=("regime",), kind="histogram")).axes
+    ticks = dict(zip([label.get_text() for label in axes.get_xticklabels()], axes.get_xticks(), strict=True))
+    assert {words: ticks[words] for words in ("stick", "no equilibrium")} == {"stick": 0, "no equilibrium": 5}
     plt.close("all")
 
 
@@ -387,6 +390,7 @@ def test_wrong_samples_are_named(text, words):
         ("phase = 1", "sample.ranges.phase: found 1; allowed: both ends"),
         ("phase = [2, 1]", "sample.ranges.phase: found the bounds 2 and 1; allowed: the lower bound first"),
         ("friction = [0, 11]", "sample.ranges.friction.high: found 11 .out of range."),
+        ("friction = [-1, 1]", "sample.ranges.friction.low: found -1 .out of range.; allowed: a number in"),
         ("phas = [0, 1]", "sample.ranges.phas: found unknown parameter 'phas'; allowed: did you mean phase"),
         ("profile = ['paraboloid']", "sample.ranges.profile: found profile, which is not a number"),
         ("frequency_ratio = [1, 2]", "which is not a number; allowed: an axis, or points from a file"),

@@ -268,6 +268,11 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
             "figure.vertical",
             "single value",
         ),
+        (
+            FIGURE.replace("hue", "vertical") + 'kind = "heatmap"\nregimes = true',
+            "figure.regimes",
+            'False for kind = "heatmap"',
+        ),
         (FIGURE + 'y = "s/s(friction=0.2)"', "figure.y", "not on that axis"),
         (FIGURE + 'y = "s/s(normal_amplitude=0)"', "figure.y", "not an axis"),
         (FIGURE + 'y = "s/s(friction=-1)"', "figure.y", "out of range"),

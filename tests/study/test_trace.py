@@ -43,6 +43,11 @@ def test_the_noise_is_that_of_the_mean_of_both_sides() -> None:
     assert np.std(left) == pytest.approx(noise, rel=0.25)
 
 
+def test_a_trace_may_go_either_way() -> None:
+    x, z = trace("flat", 1e-4, 0.004)
+    np.testing.assert_allclose(folded(-x, z, level=True)[1], folded(x, z, level=True)[1], atol=1e-11)
+
+
 def test_a_trace_is_a_profile_of_a_contact(tmp_path: Path) -> None:
     x, z = trace("sphere", 2e-5, 0.004)
     rows = "\n".join(f"{a!r};{b!r}".replace(".", ",") for a, b in zip(x.tolist(), z.tolist(), strict=True))

@@ -11,7 +11,7 @@ from real import ALLOY
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
-from swtstudy.runner.work import assess
+from swtstudy.runner.workload import assess
 
 RIG = f"""
 title = "Blocks"
