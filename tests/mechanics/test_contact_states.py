@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from scenes import points
 
+from swtstudy.mechanics.body.histories import Histories, SpringCells
 from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
@@ -12,6 +14,7 @@ from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
+from swtstudy.mechanics.stress.scene import scene_of
 
 PROFILES = {
     "paraboloid": {},
@@ -66,3 +69,17 @@ def test_touch_down_leaves_no_ground_of_rounding():
     one = (np.array([v]) for v in (1.5, 0.1, 1.0088946151077967))
     memory = solve_cycle(BimodalLoad(*one, 1, 2)).memory
     assert (memory.stop[np.isfinite(memory.start) & (memory.slope == GROWTH)] > 1e-3).all()
+
+
+@pytest.mark.parametrize("cells", [60, 960])
+def test_cells_that_are_merged_beside_a_face_have_no_gradient_of_rounding(cells):
+    """Next to the edge of a face, ends of cells are as near to one another as roundings."""
+    scene = scene_of(points("truncated_paraboloid", 0.3, 0.4, 0.75, 5 / 6, 1.0, flat_radius=0.5))
+    cycle, place = scene.cycle, np.array([[0.56], [0.0], [0.0]])
+    instant = 0.5 * (cycle.begin + cycle.end)
+    stress = Histories(scene, *place, SpringCells.of(scene, cells, 0.56)).stress(instant)[0]
+    line = SurfaceLine(cycle, scene.coordinate, place[:1], 9.0)
+    every = np.arange(instant.size)[None]
+    history = line.history(Nodes(every, instant, every[None]))
+    expected = np.stack(stresses(history, scene.poisson_ratio, scene.friction, 1.0), axis=-1)[0, 0]
+    np.testing.assert_allclose(stress[:, [0, 1, 2, 4]], expected, rtol=0, atol=1e-4)

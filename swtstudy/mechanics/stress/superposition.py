@@ -107,9 +107,9 @@ class SlopeCells:
         mass = (self.intercept + self.gradient * middle) * width
         moment = mass * offset + self.gradient * width**3 / 12.0
         mean, moment = (np.add.reduceat(v, kept[:-1], axis=1) / np.diff(ends) for v in (mass, moment))
-        gradient = np.where(
-            np.diff(kept) > 1, 12.0 * moment / np.diff(ends) ** 2, self.gradient[:, kept[:-1]]
-        )
+        wide = np.diff(ends) > NARROW * ends[-1]
+        merged = np.where(wide, 12.0 * moment / np.diff(ends) ** 2, 0.0)
+        gradient = np.where(np.diff(kept) > 1, merged, self.gradient[:, kept[:-1]])
         if ends[0] == 0.0:
             gradient[:, 0] = 2.0 * mean[:, 0] / ends[1]
         return SlopeCells(ends, mean - gradient * centre, gradient)
