@@ -244,6 +244,17 @@ def test_the_report_counts_every_point():
     assert "differ by 2e-05 (median), 4e-05 (99 %), 4e-05 (largest)." in text
 
 
+def test_two_routes_to_nothing_do_not_differ():
+    nothing = made_up_point(s=0.0, s_surface=0.0, s_body=0.0, s_all_planes=0.0)
+    rows = np.zeros(2, ROW)
+    rows["phase"] = 0.0, 1.0
+    both = audit_dataset(rows, [nothing, made_up_point(s_all_planes=1.0 + 2e-5)], {}).assign_attrs(
+        title="two"
+    )
+    assert "differ by 2e-05 (median), 2e-05 (99 %), 2e-05 (largest)." in report(both)
+    assert "two routes" not in report(both.isel(sample=[0]))
+
+
 def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
     off = {"s_body": 1.08, "s_surface": 1.05, "position": np.array([0.8, 0.6, 0.0])}
     audited = [made_up_point(), made_up_point(regime="gross_slip"), *[made_up_point(**off)] * 3]
