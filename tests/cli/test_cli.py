@@ -436,7 +436,7 @@ def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
     twin.write_text(study.read_text())
     result = call("run", study, twin, "--results", tmp_path / "results")
     assert result.exit_code == 2
-    assert "the same name as" in result.stderr
+    assert f"{twin}: found the same name as {study}; allowed: names that differ" in result.stderr
 
 
 @pytest.mark.parametrize(

@@ -169,6 +169,7 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
     assert "400 N" in sentences(dataset)[0]
     constants = settings_section(dataset).body.partition("Strain-life constants")[2]
     assert re.findall(">([^<]*)</td>", constants)[:4] == ["young modulus", "73100 MPa", "strength", "927 MPa"]
+    assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
 
 
 @pytest.mark.parametrize(
