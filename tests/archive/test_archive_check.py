@@ -63,7 +63,7 @@ BAD_ATTRIBUTES = [
     ("figure", '{"x": null}', "attribute figure: found '{\"x\": null}'"),
     ("figure", '{"x": null, "y": ["s"]}', "attribute figure"),
     ("figure", '{"x": "phase", "y": ["s/t"]}', "attribute figure: .*not a quantity"),
-    ("figure", '{"x": "phase", "y": [], "kind": "lines"}', "attribute figure: .*y: found an empty list"),
+    ("figure", '{"x": "phase", "y": [], "kind": "lines"}', r"attribute figure: .*\(y: found an empty list"),
     ("figure", '{"x": "phase", "y": ["s"], "kind": ["lines"]}', "attribute figure"),
     ("history", None, r"not an archive of swtstudy \(no history\)"),
     ("history", 3, "attribute history: found 3; allowed: a text"),

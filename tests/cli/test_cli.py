@@ -258,6 +258,7 @@ def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
 def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
     result = call("plan", study, "--results", tmp_path / "results")
     assert result.exit_code == 0, result.output
+    assert "points             18\n" in result.output
     assert "distinct points    8 (10 saved by symmetry)" in result.output
     assert "to be computed     8" in result.output
     assert re.search(r"from \d+ points? timed", result.output)
@@ -436,7 +437,7 @@ def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
     twin.write_text(study.read_text())
     result = call("run", study, twin, "--results", tmp_path / "results")
     assert result.exit_code == 2
-    assert "the same name as" in result.stderr
+    assert f"{twin}: found the same name as {study}; allowed: names that differ" in result.stderr
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 import sys
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 import stand_in
@@ -9,6 +10,7 @@ from made_up import PANELS
 from swtstudy import Study, run
 from swtstudy.figures.draw import draw
 from swtstudy.figures.style import STYLE, save_figure
+from swtstudy.figures.surfaces import _colours
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.wording import value_words
@@ -145,6 +147,14 @@ def test_a_heat_map_has_a_cell_for_each_point(surface):
     assert mesh.get_array().shape == (3, 2)
     assert mesh.get_array().mask.sum() == 1
     assert [tick.get_text() for tick in figure.axes[0].get_yticklabels()] == ["0", "0.25", "0.5"]
+
+
+@pytest.mark.parametrize(("scale", "turned"), [("cividis", "cividis_r"), ("cividis_r", "cividis")])
+def test_long_lives_are_dark_as_a_small_s_is(surface, scale, turned):
+    life = surface.s.isel(phase=0).assign_attrs(surface.s.attrs | {"symbol": "N"})
+    with mpl.rc_context({"image.cmap": scale}):
+        assert _colours(surface.s) == scale
+        assert _colours(life) == turned
 
 
 @pytest.mark.parametrize(

@@ -231,7 +231,9 @@ def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
     arrow = next(text for text in inset.texts if text.get_text() == "")
     assert np.subtract(arrow.xy, arrow.xyann) == pytest.approx([0.6 * cosine, -0.6 * sine])
     assert arrow.xyann == pytest.approx(0.42 / 0.85 * plane[1])
-    assert [text.get_text() for text in inset.texts if text.get_text()] == [f"{angle:.1f}°".replace("-", "−")]
+    (number,) = (text for text in inset.texts if text.get_text())
+    assert number.get_text() == f"{angle:.1f}°".replace("-", "−")
+    assert number.get_position() == (-1.3, -0.5)  # beside the body, at half of its depth
 
 
 def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):

@@ -133,6 +133,7 @@ def test_every_slider_is_within_what_is_allowed():
     # It has none with the criterion of the sliders.
     numbers -= {"normal_sensitivity"}
     assert set(SLIDERS) == numbers
+    assert {SLIDERS[name][:2] for name in ("phase", "bulk_stress_phase")} == {(0.0, 2.0 * np.pi)}
     for name, (low, high, step, begin) in SLIDERS.items():
         each = PARAMETERS[name]
         assert each.lower <= low < low + step <= begin + step <= high + step <= each.upper + step

@@ -129,6 +129,15 @@ def test_panels_side_by_side(rows, count, width, across):
     else:
         assert sheet.size[0] == WIDTHS[width]
         assert sheet.size[1] <= 23.0 / CM
+    # On a screen a scale has its own room.
+    assert sheet.figure(beside=1.0).get_figwidth() == pytest.approx(sheet.size[0] + (width is None))
+
+
+@pytest.mark.parametrize(("share", "numbered"), [("row", [True, False]), ("none", [True, True])])
+def test_panels_with_an_axis_in_common_have_its_numbers_once(share, numbered):
+    sheet = Sheet(1, 2)
+    panels = sheet.panels(sheet.figure(), share_y=share)[0]
+    assert [one.yaxis.get_tick_params()["labelleft"] for one in panels] == numbered
 
 
 def test_letters_of_print_unless_the_user_wants_others():

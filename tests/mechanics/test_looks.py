@@ -13,7 +13,7 @@ from swtstudy.mechanics.events.stretches import _places, meet
 from swtstudy.mechanics.line import first_look
 from swtstudy.mechanics.line.climb import of_extremes
 from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
-from swtstudy.mechanics.line.look import Look, _falling
+from swtstudy.mechanics.line.look import Look, _falling, reach
 from swtstudy.mechanics.line.positions import Pieces
 from swtstudy.mechanics.stress.scene import scene_of
 
@@ -159,6 +159,14 @@ def test_stretches_meet_at_one_instant_and_over_the_end_of_the_cycle():
     end = np.array([1.0, period, 1.0, 0.0, 1.0])
     begin = np.array([1.0, 0.0, period - 1.0, period, 1.1])
     assert meet(end, begin).tolist() == [True, True, False, True, False]
+
+
+def test_a_curve_may_rise_beside_the_end_of_a_stretch():
+    """1 + 0.1 k − 0.11 k² after the end, whose vertex is 0.01/0.44 above it."""
+    curve = np.array([0.0, 0.5, 1.0, 0.99, 0.76, 0.31])
+    inside = np.array([True, True, False, True, True, True])
+    for some, where in ((curve, inside), (curve[::-1], inside[::-1])):
+        assert reach(some, where) == pytest.approx(1.0 + 0.01 / 0.44)
 
 
 def test_a_curve_falls_at_once_from_a_corner_but_not_from_a_smooth_maximum():

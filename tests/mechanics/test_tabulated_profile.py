@@ -146,6 +146,11 @@ def test_without_a_face_the_heights_begin_at_the_axis() -> None:
     assert spline(np.append(-0.1, r) + 0.1, np.append(0.0, r**4), 0.0).x[0] > 0.1
 
 
+def test_heights_that_are_smoothed_begin_at_0() -> None:
+    r = np.linspace(0.0, 1.0, 40)
+    assert spline(r, r * r + 1e-3 * np.sin(50.0 * r), 1e-3)(0.0) == 0.0
+
+
 @pytest.mark.parametrize("name", ["", " ", 3])
 def test_a_table_without_a_name_is_refused(name: object) -> None:
     with pytest.raises(StudyError, match=f"^name: found {name!r}; allowed: a text that is not empty"):

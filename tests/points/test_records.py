@@ -44,6 +44,15 @@ def test_missing_points_are_of_no_run() -> None:
         assert look_up(known.table, known, np.array(candidates)).tolist() == found
 
 
+def test_of_equal_points_that_with_most_quantities_is_found_then_the_latest() -> None:
+    none, one = some(1), some(1, stick_radius=0.5)
+    (run,) = one.runs
+    one = replace(one, runs=(replace(run, quantities=("stick_radius",)),))
+    for parts, found in (((none, one, none), 1), ((one, none, one), 2)):
+        known = join(parts)
+        assert look_up(none.table, known, np.ones(3, bool)).tolist() == [found]
+
+
 def test_a_run_in_two_parts_began_with_the_first_of_them() -> None:
     part = some(1)
     (run,) = part.runs

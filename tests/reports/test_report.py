@@ -27,7 +27,7 @@ from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import page
 from swtstudy.reports.parts import derived, embedded, section
-from swtstudy.reports.sections import settings_section, tiles
+from swtstudy.reports.sections import settings_section, sureness_section, tiles
 from swtstudy.reports.site import entry, write_reports
 from swtstudy.reports.values import about, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
@@ -169,6 +169,7 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
     assert "400 N" in sentences(dataset)[0]
     constants = settings_section(dataset).body.partition("Strain-life constants")[2]
     assert re.findall(">([^<]*)</td>", constants)[:4] == ["young modulus", "73100 MPa", "strength", "927 MPa"]
+    assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
 
 
 @pytest.mark.parametrize(
@@ -242,6 +243,15 @@ def test_every_symbol_is_html(row: object) -> None:
     text = symbol_html(row.symbol)  # type: ignore[attr-defined]
     assert not set(text) & set("\\{}^_$")
     checked(text)
+
+
+def test_what_is_sure_has_regimes_where_points_have_one(
+    small: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    body = sureness_section(small, []).body
+    assert "<h3>Regimes</h3>" in body
+    monkeypatch.setattr("swtstudy.reports.sections.regime_counts", lambda _: {})
+    assert sureness_section(small, []).body == re.sub("\\n<h3>Regimes.*?</ul>", "", body)
 
 
 @pytest.mark.slow

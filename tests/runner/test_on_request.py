@@ -248,7 +248,9 @@ def test_bad_ones_of_solve_are_named() -> None:
         swtstudy.solve(quantitys=["dissipation"])
 
 
-def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
+def test_the_command_line_prints_and_plans_them(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     answer = CliRunner().invoke(
         main,
         ["solve", "--quantities", "dissipation,contact_radius", "--normal-amplitude", "0", "--rtol", "1e-2"],
@@ -266,7 +268,9 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path) -> None:
     assert "quantities         dissipation" in planned
     assert "to be computed     4" in planned
     assert "4 of them lack quantities alone" in planned
-    run(Study.from_toml(file), plain, workers=1)
+    with caplog.at_level("INFO"):
+        run(Study.from_toml(file), plain, workers=1)
+    assert "4 points are computed, but lack quantities that the study asks" in caplog.messages
     assert "quantities     dissipation" in CliRunner().invoke(main, ["info", str(plain)]).output
 
 

@@ -12,6 +12,7 @@ from real import UNITS
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
 from swtstudy.study.signal import harmonics, mean_over, scatter
+from swtstudy.units.loads import mean_of_loads
 
 RIG = f"""
 title = "A rig"
@@ -177,6 +178,8 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
     found = run(Study.from_text(text, "s", tmp_path), tmp_path / "rig.nc")
     pure = {"normal": [(1, 20, 0.3)], "tangential": [(1, 60, 0), (3, 9, np.pi / 2)]}
     loop = LoadPath.harmonic_sum("pure", **pure, bulk=[(0, 5, np.pi / 2), (1, 30, -0.2)], mean_normal=200.0)
+    assert mean_of_loads({"friction"}, [loop]) == "normal_force"
+    assert mean_of_loads({"normal_amplitude"}, [loop]) == "depth"
     same = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
     np.testing.assert_allclose(found.SWT, swtstudy.physical(**same, load=loop).solve().SWT, rtol=5e-3)
 
@@ -193,6 +196,7 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
         ("period = 7", "loads.rig.period: found 7, and a record of 5; allowed: a whole cycle at least"),
         ("period = -1", "loads.rig.period: found -1; allowed: a positive number"),
         ("harmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less than half"),
+        ("recorded_cycles = 2\nharmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less"),
         ("harmonics = 65", "loads.rig.harmonics: found 65; allowed: a whole number, 1 to 64"),
         ('columns = "Ft"', "loads.rig.columns: found 'Ft'; allowed: a table of headers, such as"),
         ('columns = { norml = "a" }', "loads.rig.columns.norml: found 'norml'; allowed: did you mean normal"),

@@ -43,6 +43,15 @@ def test_the_noise_is_that_of_the_mean_of_both_sides() -> None:
     assert np.std(left) == pytest.approx(noise, rel=0.25)
 
 
+def test_one_grain_of_dust_in_the_middle_does_not_shift_all_heights() -> None:
+    x, z = trace("flat", 0.0, 0.0)
+    dust = np.where(np.abs(x - 0.13) < 0.003, 1e-3, 0.0)
+    assert 0.0 < dust.sum() < 3e-3
+    _, height, _ = folded(x, z, level=True)
+    shifted = folded(x, z + dust, level=True)[1] - height
+    assert np.abs(shifted[10:]).max() < 1e-4
+
+
 def test_a_trace_may_go_either_way() -> None:
     x, z = trace("flat", 1e-4, 0.004)
     np.testing.assert_allclose(folded(-x, z, level=True)[1], folded(x, z, level=True)[1], atol=1e-11)
