@@ -129,8 +129,7 @@ def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], s
 
 def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
     """Caption of a figure: its quantities and parameters in symbols."""
-    names = [y if "/" in y else symbol_of(dataset[y]) for y in layout.y]
-    words = f"{', '.join(escape(each) if '/s(' in each else each for each in names)}"
+    words = ", ".join(escape(y) if "/" in y else symbol_of(dataset[y]) for y in layout.y)
     mark = "a line" if layout.kind in LINE_KINDS else "a colour"
     along = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
     parts = [

@@ -25,7 +25,7 @@ import swtstudy
 from swtstudy.cli import main
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
-from swtstudy.reports.page import page
+from swtstudy.reports.page import _caption, page
 from swtstudy.reports.parts import derived, embedded, section
 from swtstudy.reports.sections import settings_section, sureness_section, tiles
 from swtstudy.reports.site import entry, write_reports
@@ -274,6 +274,12 @@ def test_what_a_study_says_of_its_figure_is_beneath_it(small: xr.Dataset) -> Non
     text = page(small.assign_attrs(figure=layout.to_json()), "small")
     (caption,) = re.findall("<figcaption>(.*?)</figcaption>", text.partition('id="figure"')[2])[:1]
     assert "&lt;b&gt;Not&lt;/b&gt; as in the paper." in caption
+
+
+@pytest.mark.parametrize("y", ["s/s(load=<b>)", "s / s( load = <b> )"])
+def test_a_name_in_a_quantity_of_a_figure_is_text(small: xr.Dataset, y: str) -> None:
+    layout = replace(FigureLayout.from_json(small.attrs["figure"]), y=(y,))
+    assert _caption(small, layout).startswith(y.replace("<b>", "&lt;b&gt;"))
 
 
 def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
