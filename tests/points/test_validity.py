@@ -12,6 +12,7 @@ from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
 from swtstudy.points.validity import outside, validity_lines
+from swtstudy.solving import solve_grid
 
 #: Forces of a rig: constant load, so that all is in closed form.
 RIG = f"""
@@ -179,6 +180,15 @@ def test_a_whole_grid_without_a_value_says_why():
     assert "while the normal force is 0" in validity_lines(apart)[0]
     sharp = swtstudy.solve(rtol=1e-2, profile="truncated_paraboloid", flat_radius=0.5, friction=2.0)
     assert validity_lines(sharp) == ("s is not finite: swt grows without bound towards an edge",)
+
+
+def test_a_point_of_a_sample_has_its_number():
+    study = Study.from_text(
+        'title = "t"\n[fixed]\nnormal_force_amplitude = 0\nfriction = 0.3\n'
+        "[sample.points]\ntangential_force_amplitude = [0.5, 1.2]"
+    )
+    (line,) = validity_lines(solve_grid(study.grid, 1e-2))
+    assert line.endswith("1 of 2 points: tangential_force_amplitude 1.2 exceeds 1, in μ F_N at sample = 1")
 
 
 def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):
