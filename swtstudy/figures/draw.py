@@ -104,9 +104,6 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
         except StudyError as error:
             found += error.mistakes
             continue
-        except ValueError as error:
-            found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
-            continue
         sizes = {str(name): size for name, size in values.sizes.items()}
         strange = [name for name in sizes if name not in (*AXES, SAMPLE)]
         if strange or values.dtype.kind not in "fiub":

@@ -159,6 +159,11 @@ def test_bodies_have_names(tmp_path):
     assert grid_of(found).body_names == ("test piece", "pad")
     line = found.assign(radius_ratio=found.radius_ratio + 0.2 * (found.body == 2)).swt.validity()[-1]
     assert line.endswith("body = pad")
+    assert found.swt.to_table().body.tolist() == ["test_piece", "pad"] * 2
+    first = found.swt.slice(body="test piece")
+    assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
+    with pytest.raises(StudyError, match=r"body: found 'rod' .*; allowed: test piece, pad"):
+        found.swt.slice(body="rod")
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0
