@@ -182,6 +182,20 @@ def test_a_whole_grid_without_a_value_says_why():
     assert validity_lines(sharp) == ("s is not finite: swt grows without bound towards an edge",)
 
 
+def test_a_maximum_off_the_line_is_said():
+    """A bulk stress that presses: the line has the less tension."""
+    found = swtstudy.solve(rtol=1e-2, bulk_stress_mean=[0.0, -0.3], tangential_amplitude=0.5)
+    plain, above = (found.s_surface / found.s).values
+    assert plain == 1.0
+    assert above > 1.1
+    words = f"1 of 2 points: s_surface is up to {above:.3g} times as large at bulk_stress_mean = -0.3"
+    assert validity_lines(found) == (f"s is not the largest value at {words}",)
+    assert outside(found, found.s).values.tolist() == [False, True]
+    assert not outside(found, found.s_surface).any()
+    (line,) = validity_lines(found.assign(s=found.s * [1, 0], s_error=found.s_error * [1, 0]))
+    assert line.endswith("s is 0, and s_surface is not, at bulk_stress_mean = -0.3")
+
+
 def test_a_point_of_a_sample_has_its_number():
     study = Study.from_text(
         'title = "t"\n[fixed]\nnormal_force_amplitude = 0\nfriction = 0.3\n'
