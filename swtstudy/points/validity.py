@@ -95,11 +95,22 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
             lines.append(f"{limit.words}{_where(out)}: {found}{f',{place}' if place else ''}")
         else:
             within.append(found)
+    within += _unknown(dataset)
+    return (*lines, *(within if inside else ()))
+
+
+def _unknown(dataset: xr.Dataset) -> Iterator[str]:
+    """What nothing is known of: yield without a strength, shifts of the stick zones of most profiles."""
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
         words = "whether that yields is unknown without a yield_strength"
-        within.append(f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";"))
-    return (*lines, *(within if inside else ()))
+        yield f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";")
+    if "bulk_shift_ratio" in dataset:
+        slips = dataset.regime.values == REGIMES.index("partial_slip")
+        lost = slips & np.isnan(_over_points(dataset, dataset.bulk_shift_ratio))
+        if lost.any():
+            words = "known of the paraboloid and the cylinder alone"
+            yield f"shift of the stick zone by bulk strain unknown{_where(lost)}: {words}"
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
