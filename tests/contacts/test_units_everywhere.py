@@ -54,6 +54,10 @@ def test_the_stress_field_is_in_lengths_and_stresses(rig):
     """Hertz's pressure, in MPa, at places in mm."""
     a, p0 = rig.contact_radius, rig.peak_pressure
     x = np.array([0.0, 0.5 * a])
+    with pytest.raises(StudyError, match=r"z: found -0.1; allowed: depths z ≥ 0"):
+        rig.stress_field(x, 0.0, -0.1)
+    with pytest.raises(StudyError, match="x: found 'a'; allowed: finite positions, which are lengths"):
+        rig.swt_field("a", 0.0, 0.0)
     field = rig.stress_field(x, 0.0, 0.0, time=0.0)
     np.testing.assert_allclose(field.x, x, rtol=1e-12)
     np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
