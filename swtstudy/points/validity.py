@@ -100,7 +100,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
 
 
 def _unknown(dataset: xr.Dataset) -> Iterator[str]:
-    """What nothing is known of: yield without a strength, shifts of the stick zones of most profiles."""
+    """Lines on what is not known: yield without a strength, shifts of the stick zones of most profiles."""
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
         words = "whether that yields is unknown without a yield_strength"
@@ -183,7 +183,7 @@ def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
 
 
 def _above_line(dataset: xr.Dataset) -> xr.DataArray:
-    """Which points have a maximum off the line y = 0, so that s, and what is made of it, is too low."""
+    """Points with a maximum off the line y = 0, so that s, and all that is made of it, is too low."""
     if "s_surface" not in dataset or "s_error" not in dataset:
         return xr.zeros_like(dataset.s, bool)
     return dataset.s_surface > dataset.s + dataset.s_error

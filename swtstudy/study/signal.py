@@ -100,7 +100,7 @@ def harmonics(phase: FloatArray, values: FloatArray, highest: int) -> tuple[Floa
 
 
 def determined(phase: FloatArray, highest: int) -> bool:
-    """Whether samples tell harmonics apart: cycles that are all sampled at the same phases count as one."""
+    """Return whether samples tell harmonics apart: cycles sampled at the same phases count as one."""
     base = _waves(phase, highest)
     return bool(np.linalg.eigvalsh(base.T @ base / len(phase))[0] > LEAST_EIGENVALUE)
 
