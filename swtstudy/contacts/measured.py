@@ -199,6 +199,9 @@ class Measured:
         """Places in lengths as those in a_H that the mechanics is asked for."""
         import xarray as xr
 
+        from swtstudy.fields.one_point import read_places
+
+        read_places(**given, allowed="finite positions, which are lengths")  # as they are given
         length = self.contact.length_scale
         return {
             name: (value if isinstance(value, xr.DataArray | float | int) else np.asarray(value)) / length

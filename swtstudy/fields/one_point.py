@@ -72,7 +72,13 @@ _NAMES = {
 }
 
 
-def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+#: What coordinates may be, in words.
+POSITIONS = "finite positions in a_H"
+
+
+def read_places(
+    x: object, y: object, z: object, allowed: str = POSITIONS
+) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Coordinates in a_H, broadcast against one another.
 
     Parameters
@@ -80,6 +86,8 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
     x, y, z
         Numbers; one-dimensional sequences, which span a grid with the dimensions x, y, z; or DataArrays,
         whose dimensions are kept: three DataArrays that share one dimension are a list of points.
+    allowed
+        What they may be, in words.
 
     Raises
     ------
@@ -91,7 +99,7 @@ def read_places(x: object, y: object, z: object) -> tuple[xr.DataArray, xr.DataA
     report = Report()
     for name, values in zip("xyz", (x, y, z), strict=True):
         with report:
-            arrays.append(_coordinate(name, values))
+            arrays.append(_coordinate(name, values, allowed))
     report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
@@ -122,8 +130,7 @@ def read_distances(name: str, values: object, allowed: str) -> FloatArray:
     return distances
 
 
-def _coordinate(name: str, values: object) -> xr.DataArray:
-    allowed = "finite positions in a_H"
+def _coordinate(name: str, values: object, allowed: str = POSITIONS) -> xr.DataArray:
     if isinstance(values, xr.DataArray):
         values = values.copy(data=read_numbers(name, values.values, allowed))
     else:

@@ -18,7 +18,7 @@ from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
-from swtstudy.study.figure import LINE_KINDS, FigureLayout, wrong_axes, wrong_layout
+from swtstudy.study.figure import LINE_KINDS, NO_AXIS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import axis_words
@@ -88,10 +88,9 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
         If the results come from no study, or from one without a figure.
     """
     if "figure" not in dataset.attrs:
-        raise ValueError(
-            "these results have no figure of a study; allowed: a layout of your own, "
-            f"with x one of {', '.join(map(str, dataset.dims))}"
-        )
+        known = ", ".join(str(dim) for dim in dataset.dims if dim in (*AXES, SAMPLE))
+        allowed = f"a layout of your own, with x one of {known}" if known else NO_AXIS
+        raise ValueError(f"these results have no figure of a study; allowed: {allowed}")
     layout = FigureLayout.from_json(dataset.attrs["figure"])
     hue, panels = (None if name not in dataset.dims else name for name in (layout.hue, layout.panels))
     return replace(layout, hue=hue, panels=panels)
@@ -104,9 +103,6 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
             values = quantity(dataset, y)
         except StudyError as error:
             found += error.mistakes
-            continue
-        except ValueError as error:
-            found.append(Mistake("figure.y", f"{y!r} ({error})", "a quantity of these results"))
             continue
         sizes = {str(name): size for name, size in values.sizes.items()}
         strange = [name for name in sizes if name not in (*AXES, SAMPLE)]

@@ -102,7 +102,7 @@ def read_grid(
     good_fixed, good_axes = read_values(fixed, axes, report, others, samples, known)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
-    check_amplitudes(good, report)
+    check_amplitudes((*fixed, *axes, *samples), good, report)
     check_shapes_given(fixed, {**axes, **samples}, good, report)
     check_forces((*fixed, *axes, *samples), good, report)
     check_criteria((*fixed, *axes, *samples), good, report)

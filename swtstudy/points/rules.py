@@ -71,14 +71,25 @@ AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude
 LARGEST_LOAD = 1e9
 
 
-def check_amplitudes(good: Mapping[str, Sequence[Any]], report: Report) -> None:
-    """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations."""
+def check_amplitudes(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
+    """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations.
+
+    Parameters
+    ----------
+    given
+        Names of all parameters that are given, soundly or not.
+    good
+        Sound values.
+    """
     loads = values_taken("load", good)
     if len({isinstance(load, Definition) for load in loads}) < 2:
         return
-    given = {*good} | replaced_by(good)
+    names = {*given}
+    names |= replaced_by(names)
+    if any(is_plane(profile) for profile in values_taken("profile", good)):
+        names |= {*PAIRS.values()}  # forces alone have a meaning: check_forces asks for them
     scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
-    for name in (each for each in PARAMETERS if each in scaling and each not in given):
+    for name in (each for each in PARAMETERS if each in scaling and each not in names):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
         report.of(name, "nothing", allowed)
 

@@ -80,7 +80,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     inside
         Whether to say, too, how far all points are from the limits that they are inside of.
     """
-    lines = [*_without_s(dataset), *_lives(dataset)]
+    lines = [*_without_s(dataset), *_off_line(dataset), *_lives(dataset)]
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -95,11 +95,22 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
             lines.append(f"{limit.words}{_where(out)}: {found}{f',{place}' if place else ''}")
         else:
             within.append(found)
+    within += _unknown(dataset)
+    return (*lines, *(within if inside else ()))
+
+
+def _unknown(dataset: xr.Dataset) -> Iterator[str]:
+    """Lines on what is not known: yield without a strength, shifts of the stick zones of most profiles."""
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
         words = "whether that yields is unknown without a yield_strength"
-        within.append(f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";"))
-    return (*lines, *(within if inside else ()))
+        yield f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";")
+    if "bulk_shift_ratio" in dataset:
+        slips = dataset.regime.values == REGIMES.index("partial_slip")
+        lost = slips & np.isnan(_over_points(dataset, dataset.bulk_shift_ratio))
+        if lost.any():
+            words = "known of the paraboloid and the cylinder alone"
+            yield f"shift of the stick zone by bulk strain unknown{_where(lost)}: {words}"
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
@@ -121,6 +132,8 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     limits = {
         limit.short: dataset[limit.variable] > limit.largest for limit in LIMITS if limit.variable in dataset
     }
+    if values.name != "s_surface":
+        limits["the line y = 0"] = _above_line(dataset)
     if _is_life(dataset, str(values.name)):
         limits["known lives"] = values.copy(data=_beyond(values.values))
     for each in limits.values():
@@ -167,6 +180,25 @@ def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
     if unit in ("1", ""):
         return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
     return f": {name} {force:.4g} {unit} exceeds μ F_N = {force / worst:.4g} {unit}{place}"
+
+
+def _above_line(dataset: xr.Dataset) -> xr.DataArray:
+    """Points with a maximum off the line y = 0, so that s, and all that is made of it, is too low."""
+    if "s_surface" not in dataset or "s_error" not in dataset:
+        return xr.zeros_like(dataset.s, bool)
+    return dataset.s_surface > dataset.s + dataset.s_error
+
+
+def _off_line(dataset: xr.Dataset) -> Iterator[str]:
+    """Points at which s is not the largest value."""
+    out = _above_line(dataset).values
+    if out.any():
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = np.where(out, dataset.s_surface.values / dataset.s.values, 0.0)
+        worst = factor.max()
+        times = f"s_surface is up to {_number(worst)} times as large"
+        found = times if np.isfinite(worst) else "s is 0, and s_surface is not,"
+        yield f"s is not the largest value{_where(out)}: {found}{_place(dataset, factor)}"
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:

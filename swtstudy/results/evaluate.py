@@ -19,7 +19,7 @@ from swtstudy.study.figure import QUANTITY, reference
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
-from swtstudy.vocabulary.wording import value_words
+from swtstudy.vocabulary.wording import coordinate_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -67,24 +67,33 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name = str(there.name)
     value: Value
+    raw = _flag(there.attrs, raw)
     try:
         # A name is known by its place in the results, whatever it stood for.
         named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
         sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
         value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
     except ValueError as error:
-        report(name, f"{literal(raw)} ({error})", AXES[name].allowed)
+        allowed = _listed(there) if "flag_meanings" in there.attrs else AXES[name].allowed
+        report(name, f"{literal(raw)} ({error})", allowed)
         return 0
-    known = np.atleast_1d(there.values).tolist()
-    index = index_of(value, known, tolerance)
+    index = index_of(value, np.atleast_1d(there.values).tolist(), tolerance)
     if index is None:
-        report(name, f"{literal(raw)}, which is not in these results", _listed(name, known))
+        report(name, f"{literal(raw)}, which is not in these results", _listed(there))
         return 0
     return index
 
 
-def _listed(name: str, values: list[float | str]) -> str:
-    words = [value_words(name, value) for value in values]
+def _flag(attributes: Mapping[Any, Any], raw: object) -> object:
+    """The number of what has a name, such as a body; anything else as it is."""
+    meanings = str(attributes.get("flag_meanings", "")).split()
+    word = "_".join(raw.split()) if isinstance(raw, str) else ""
+    return int(attributes["flag_values"][meanings.index(word)]) if word in meanings else raw
+
+
+def _listed(there: xr.DataArray) -> str:
+    values = np.atleast_1d(there.values).tolist()
+    words = [coordinate_words(str(there.name), value, there.attrs) for value in values]
     if len(words) > _LISTED:
         words = [*words[: _LISTED // 2], "…", *words[-_LISTED // 2 :], f"({len(values)} values)"]
     return ", ".join(words)
@@ -109,7 +118,11 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
     --------
     quantity_error : its estimated error.
     """
-    place = reference(y)
+    try:
+        place = reference(y)
+    except ValueError as error:
+        allowed = f"a data variable of these results, or {QUANTITY}"
+        raise StudyError([Mistake("figure.y", f"{literal(y)} ({error})", allowed)]) from None
     if place is None:
         name = y.strip()
         if name not in dataset.data_vars:
@@ -193,7 +206,7 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
         for column, values in _columns(name, dataset[name], beside):
             whole = values.broadcast_like(rows) if dims else values
             flat = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
-            columns[column] = _as_words(flat, values.attrs.get("flag_meanings"))
+            columns[column] = _as_words(flat, values.attrs)
     return pd.DataFrame(columns).rename_axis("point")
 
 
@@ -228,12 +241,14 @@ def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
     return found.drop_attrs(deep=False).assign_attrs(long_name=dataset[name].attrs.get("long_name", name))
 
 
-def _as_words(flat: NDArray, meanings: str | None) -> NDArray:
+def _as_words(flat: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
     """Flags by their meanings."""
     import pandas as pd
 
-    if meanings is None:
+    if "flag_meanings" not in attributes:
         return flat
     # xarray's operations leave NaN where a flag is missing.
-    codes = np.where(np.isfinite(flat), flat, -1).astype(int)
-    return pd.Categorical.from_codes(codes, meanings.split())
+    codes = np.full(flat.shape, -1)
+    for code, flag in enumerate(np.atleast_1d(attributes["flag_values"])):
+        codes[flat == flag] = code
+    return pd.Categorical.from_codes(codes, attributes["flag_meanings"].split())

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import Path
@@ -14,7 +15,7 @@ import numpy as np
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.solving import solve_grid
-from swtstudy.study.definition import study_from, tables_of
+from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
@@ -250,33 +251,56 @@ def _labelled(
 def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[PhysicalGrid, FloatArray]:
     """The tests as a sample of the study's contacts, and the lives that were observed, shape (n,)."""
     columns = _columns(tests)
-    lives = [plain_number(value) for value in columns.pop(LIFE, ())]
     report = Report()
-    if not lives:
-        found = f"the columns {', '.join(columns)}"
-        report("tests", found, f"a column {LIFE}, the rounds to a crack")
-    if not all(0.0 < life < math.inf for life in lives):
-        wrong = next(k for k, life in enumerate(lives) if not 0.0 < life < math.inf)
-        report("tests", f"{LIFE} {lives[wrong]:g} of test {wrong + 1}", "positive numbers")
-    if 0 < len(lives) <= parameters:
-        report("tests", f"{len(lives)} tests", f"{parameters + 1} at least")
-    if not columns:
-        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
+    lives = _observed(columns.pop(LIFE, []), columns, parameters, report)
+    grid = None
+    if columns:
+        with report:
+            grid = _with_tests(Path(study), str(study), columns).grid
     report.refuse()
-    path = Path(study)
-    raw = tables_of(path)
-    kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
-    own = columns.keys() | {DISTANCE}
-    kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}
-    kept["sample"] = {"points": columns}
-    found_study = study_from(kept, "", str(study), path.parent)
-    grid = found_study.grid
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
         raise StudyError([Mistake("", "neither", allowed, str(study))])
     if grid.dimension("friction") and parameters > 1:
         raise StudyError([Mistake("friction", "a column of the tests", "one value to fit, from the study")])
     return grid, np.array(lives)
+
+
+def _observed(
+    given: Sequence[object], columns: Iterable[str], parameters: int, report: Report
+) -> list[float]:
+    """The lives in their column; what is wrong with it, or that there is no other one, is reported."""
+    lives = [plain_number(value) for value in given]
+    if not lives:
+        report("tests", f"the columns {', '.join(columns)}", f"a column {LIFE}, the rounds to a crack")
+    wrong = [k for k, life in enumerate(lives) if not 0.0 < life < math.inf]
+    if wrong:
+        more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
+        report("tests", f"{LIFE} {literal(given[wrong[0]])} of test {wrong[0] + 1}{more}", "positive numbers")
+    if 0 < len(lives) <= parameters:
+        report("tests", f"{len(lives)} tests", f"{parameters + 1} at least")
+    if not columns:
+        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
+    return lives
+
+
+def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study:
+    """The study with the tests as its sample; mistakes in these are named as theirs."""
+    raw = tables_of(path)
+    kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
+    own = columns.keys() | {DISTANCE}
+    kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}
+    kept["sample"] = {"points": columns}
+    try:
+        return study_from(kept, "", source, path.parent)
+    except StudyError as error:
+        raise StudyError(map(_of_tests, error.mistakes)) from None
+
+
+def _of_tests(mistake: Mistake) -> Mistake:
+    """A mistake in a study; one in its sample is one in the tests."""
+    key = re.sub(r"\bsample(\.points)?\b", "tests", mistake.key)
+    return mistake if key == mistake.key else replace(mistake, key=key, source="")
 
 
 def _columns(tests: object) -> dict[str, list[Any]]:

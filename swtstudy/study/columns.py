@@ -103,11 +103,14 @@ def read_columns(
     """
     source = str(path)
     try:
-        text = read_text(path, LARGEST_TABLE)
+        text = io.StringIO(read_text(path, LARGEST_TABLE), newline=None).read()  # lines end as \n, \r\n or \r
     except (OSError, ValueError) as error:
         found = getattr(error, "strerror", None) or str(error)
         raise StudyError([Mistake("", found, "a CSV file in UTF-8 that can be read", source)]) from None
-    line, header = _header(text, form)
+    try:
+        line, header = _header(text, form)
+    except csv.Error as error:
+        raise StudyError([Mistake("", str(error), "a CSV file that can be read", source)]) from None
     if wrong := _wrong_header(header, names, optional, form):
         raise StudyError([Mistake(f"line {line}", *wrong, source)])
     names = [*names, *(name for name in optional if form.header(name) in header)]

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
 
@@ -20,8 +20,10 @@ _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)
 SAMPLE_KINDS = ("scatter", "histogram")
 #: Kinds of lines: over x, or x upright over the quantity, as S–N curves are drawn.
 LINE_KINDS = ("lines", "life")
+#: Kinds of surfaces over x and vertical.
+SURFACES = ("contour", "heatmap")
 #: Kinds of figures: lines, a surface over x and vertical, or those of a sample.
-KINDS = (*LINE_KINDS, "contour", "heatmap", *SAMPLE_KINDS)
+KINDS = (*LINE_KINDS, *SURFACES, *SAMPLE_KINDS)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
@@ -143,7 +145,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     """Find mistakes in what is combined with the kind of figure."""
     kind = f'kind = "{layout.kind}"'
-    surface = layout.kind in ("contour", "heatmap")
+    surface = layout.kind in SURFACES
     if surface and layout.vertical is None:
         yield "figure.vertical", "nothing", f"the name of an axis ({kind} needs it)"
     elif not surface and layout.vertical is not None:
@@ -170,6 +172,10 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield "figure.validity", "True", f"False for {kind}"
 
 
+#: What is allowed in the place of the name of an axis where there is none.
+NO_AXIS = "no figure of a single point: a parameter with several values is an axis"
+
+
 def wrong_axes(
     layout: FigureLayout, sizes: Mapping[str, int | None], of: str
 ) -> Iterator[tuple[str, str, str]]:
@@ -186,14 +192,18 @@ def wrong_axes(
     """
     for role, name in layout.roles():
         if name not in sizes:
-            yield f"figure.{role}", f"{literal(name)}, not an axis of {of}", nearest(name, sizes)
+            allowed = nearest(name, sizes) if sizes else NO_AXIS
+            yield f"figure.{role}", f"{literal(name)}, not an axis of {of}", allowed
         elif layout.kind == "contour" and role in ("x", "vertical") and sizes[name] == 1:
             yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
-    roles = dict(layout.roles())
-    for name in sizes:
-        if name not in roles.values() and name in (*AXES, SAMPLE):
-            allowed = "every axis as x, hue, vertical or panels, or with a single value"
-            yield "figure", f"no place for the axis {name}", allowed
+    names = [name for _, name in layout.roles()]
+    lacks_vertical = layout.kind in SURFACES and layout.vertical is None
+    placed = {name if name in sizes else meant(name, sizes) for name in names} - {None}
+    lacking = [name for name in sizes if name not in placed and name in (*AXES, SAMPLE)]
+    # A place whose mistake is said already may be that of an axis without one.
+    for name in lacking if len(lacking) > len(names) + lacks_vertical - len(placed) else ():
+        allowed = "every axis as x, hue, vertical or panels, or with a single value"
+        yield "figure", f"no place for the axis {name}", allowed
 
 
 def check_figure(

@@ -19,6 +19,9 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number,
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
+#: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
+#: count seven times as much.
+LEAST_EIGENVALUE = 0.01
 
 
 def period_of(time: FloatArray, recorded_cycles: int) -> float:
@@ -89,13 +92,23 @@ def harmonics(phase: FloatArray, values: FloatArray, highest: int) -> tuple[Floa
     fit
         Shape (k,).
     """
-    order = np.arange(1, highest + 1)
-    waves = np.outer(phase, order)
-    base = np.concatenate([np.ones((len(phase), 1)), np.sin(waves), np.cos(waves)], axis=1)
+    base = _waves(phase, highest)
     found = np.linalg.lstsq(base, values, rcond=None)[0]
     sine, cosine = found[1 : highest + 1], found[highest + 1 :]
-    rows = np.stack([order, np.hypot(sine, cosine), np.arctan2(cosine, sine)], axis=1)
+    rows = np.stack([np.arange(1, highest + 1), np.hypot(sine, cosine), np.arctan2(cosine, sine)], axis=1)
     return np.concatenate([[[0.0, found[0], 0.5 * np.pi]], rows]), base @ found
+
+
+def determined(phase: FloatArray, highest: int) -> bool:
+    """Return whether samples tell harmonics apart: cycles sampled at the same phases count as one."""
+    base = _waves(phase, highest)
+    return bool(np.linalg.eigvalsh(base.T @ base / len(phase))[0] > LEAST_EIGENVALUE)
+
+
+def _waves(phase: FloatArray, highest: int) -> FloatArray:
+    """Shape (k, 2 · highest + 1): one, sines and cosines."""
+    waves = np.outer(phase, np.arange(1, highest + 1))
+    return np.concatenate([np.ones((len(phase), 1)), np.sin(waves), np.cos(waves)], axis=1)
 
 
 #: The loads of a signal, one that it may have, and the time.
@@ -210,10 +223,14 @@ class Signal:
         """The samples within the whole cycles, by column."""
         return self.values[: self._used].T
 
+    @property
+    def phase(self) -> FloatArray:
+        """φ of each sample within the whole cycles, rad, from 0 on."""
+        return 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
+
     @cached_property
     def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
-        phase = 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
-        return [harmonics(phase, column, self.highest) for column in self._whole]
+        return [harmonics(self.phase, column, self.highest) for column in self._whole]
 
     @property
     def _harmonic(self) -> Loop:
@@ -357,7 +374,9 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
-    if 2 * highest + 1 > samples * count + 1e-9:
+    signal = Signal(name, time, values, period, count, bool(given.get("absolute")), highest)
+    if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
-        raise StudyError([Mistake("harmonics", found, "less than half as many as samples")])
-    return Signal(name, time, values, period, count, bool(given.get("absolute")), highest)
+        allowed = "less than half as many as samples at different phases of the cycle"
+        raise StudyError([Mistake("harmonics", found, allowed)])
+    return signal

@@ -67,6 +67,10 @@ def read_trace(
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
     radius, mean, noise = folded(position, height, level)
+    if -mean.min() > mean.max():
+        found = f"heights that fall by {-mean.min():.3g} from the middle to the sides"
+        allowed = "heights that grow away from the other body: with the other sign"
+        raise StudyError([Mistake("", found, allowed, str(own))])
     smoothing = noise if smoothing is None else smoothing
     return TabulatedProfile(own.stem if name is None else name, radius, mean, smoothing, geometry)
 

@@ -309,7 +309,8 @@ def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[st
         report("material.file", f"{literal(file)} ({reason})", _FILE)
         return []
     known = [name for name, table in materials.items() if isinstance(table, dict)]
-    wrong = [name for name in dict.fromkeys(map(str, names)) if name not in known]
-    for name in wrong:
-        report("material.name", literal(name), f"a material in {file}: {nearest(name, known)}")
-    return [] if wrong or others else [materials[name] for name in names]
+    wrong = {str(name or ""): name for name in names if str(name or "") not in known}
+    for word, name in wrong.items():
+        found = "nothing" if name is None else literal(name)
+        report("material.name", found, f"a material in {file}: {nearest(word, known)}")
+    return [] if wrong or others else [materials[str(name)] for name in names]

@@ -57,7 +57,7 @@ def read_contacts(
     check_lengths(profiles, everything, report)
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     _check_given(everything, good, own, report)
-    check_amplitudes(good, report)
+    check_amplitudes(everything, good, report)
     check_criteria(everything, good, report)
     _check_units_of_criteria(good, given, report)
     check_shapes_given(single, {**axes, **samples}, good, report, own)
@@ -204,6 +204,7 @@ def _check_given(
         report.of("body", literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = {name for load in loops for name in load.scaled_by}
+    mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
     if all(load.normal_ends == (0.0, 0.0) for load in loops):
         scaling.discard("normal_amplitude")  # it scales nothing
     profiles = good.get("profile", ())
@@ -214,7 +215,7 @@ def _check_given(
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = next(force for force, other in PAIRS.items() if other == name)
         needed = own[name].default is None or name in scaling
-        if name in everything or force in everything or not needed:
+        if name in everything or force in everything or not needed or (name in scaling and mixed):
             continue
         allowed = f"{own[name].allowed}; or {force}"
         if name in scaling:

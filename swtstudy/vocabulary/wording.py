@@ -78,12 +78,15 @@ def value_words(name: str, value: float | str) -> str:
     ('73100', '5·10⁻⁷')
     >>> value_words("normal_force", 143.75), value_words("phase", 1.23456789)
     ('143.75', '1.235')
+    >>> value_words("sample", 3)
+    '3'
     """
     if isinstance(value, str):
         return value.replace("_", " ")
-    if AXES[name].kind == "ratio":
+    row = AXES.get(name)  # none of the points of a sample, nor of what xarray may have joined along
+    if row is not None and row.kind == "ratio":
         return str(_fraction(value, 64) or f"{value:.4g}")
-    if AXES[name].units == "rad" and value:
+    if row is not None and row.units == "rad" and value:
         multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
         if multiple is not None:
             return pi_words(multiple)

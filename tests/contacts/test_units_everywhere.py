@@ -54,6 +54,10 @@ def test_the_stress_field_is_in_lengths_and_stresses(rig):
     """Hertz's pressure, in MPa, at places in mm."""
     a, p0 = rig.contact_radius, rig.peak_pressure
     x = np.array([0.0, 0.5 * a])
+    with pytest.raises(StudyError, match=r"z: found -0.1; allowed: depths z ≥ 0"):
+        rig.stress_field(x, 0.0, -0.1)
+    with pytest.raises(StudyError, match="x: found 'a'; allowed: finite positions, which are lengths"):
+        rig.swt_field("a", 0.0, 0.0)
     field = rig.stress_field(x, 0.0, 0.0, time=0.0)
     np.testing.assert_allclose(field.x, x, rtol=1e-12)
     np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
@@ -159,6 +163,11 @@ def test_bodies_have_names(tmp_path):
     assert grid_of(found).body_names == ("test piece", "pad")
     line = found.assign(radius_ratio=found.radius_ratio + 0.2 * (found.body == 2)).swt.validity()[-1]
     assert line.endswith("body = pad")
+    assert found.swt.to_table().body.tolist() == ["test_piece", "pad"] * 2
+    first = found.swt.slice(body="test piece")
+    assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
+    with pytest.raises(StudyError, match=r"body: found 'rod' .*; allowed: test piece, pad"):
+        found.swt.slice(body="rod")
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0

@@ -272,8 +272,15 @@ def test_contours_of_a_single_value_are_refused_and_cells_are_not(dataset):
     assert len(single.swt.panels("phase", vertical="friction", kind="heatmap").axes) == 2
 
 
+def test_a_single_point_has_no_figure(dataset):
+    point = dataset.isel({dim: 0 for dim in dataset.s.dims}).drop_attrs(deep=False)
+    for draw in (point.swt.figure, lambda: point.swt.panels("phase")):
+        with pytest.raises(ValueError, match="no figure of a single point"):
+            draw()
+
+
 def test_all_mistakes_of_a_layout_come_at_once(dataset):
     with pytest.raises(ValueError, match="pie") as caught:
         dataset.swt.panels("fase", "friction", kind="pie", y=["s", "speed"], title="$x^2^3$")
-    assert len(str(caught.value).splitlines()) == 5
+    assert len(str(caught.value).splitlines()) == 4
     assert isinstance(caught.value.mistakes, tuple)

@@ -12,6 +12,7 @@ from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
 from swtstudy.points.validity import outside, validity_lines
+from swtstudy.solving import solve_grid
 
 #: Forces of a rig: constant load, so that all is in closed form.
 RIG = f"""
@@ -112,6 +113,14 @@ def test_the_bulk_shift_over_the_slip_zone():
     )
 
 
+def test_a_shift_that_is_unknown_is_said_to_be():
+    profiles = {"profile": ["paraboloid", "rounded_punch"], "flat_radius": 0.5}
+    found = swtstudy.solve(rtol=1e-2, normal_amplitude=0.0, bulk_stress_amplitude=0.02, **profiles)
+    (line,) = [line for line in validity_lines(found, inside=True) if "unknown" in line]
+    assert line.startswith("shift of the stick zone by bulk strain unknown at 1 of 2 points")
+    assert validity_lines(found) == ()
+
+
 def test_the_shift_is_a_length_of_the_study():
     pulled = RIG.replace("normal_force = 200", "normal_force = 200\nbulk_stress_amplitude = 20")
     grid = Study.from_text(pulled.replace("[30, 60, 120]", "[60]")).grid
@@ -179,6 +188,29 @@ def test_a_whole_grid_without_a_value_says_why():
     assert "while the normal force is 0" in validity_lines(apart)[0]
     sharp = swtstudy.solve(rtol=1e-2, profile="truncated_paraboloid", flat_radius=0.5, friction=2.0)
     assert validity_lines(sharp) == ("s is not finite: swt grows without bound towards an edge",)
+
+
+def test_a_maximum_off_the_line_is_said():
+    """A bulk stress that presses: the line has the less tension."""
+    found = swtstudy.solve(rtol=1e-2, bulk_stress_mean=[0.0, -0.3], tangential_amplitude=0.5)
+    plain, above = (found.s_surface / found.s).values
+    assert plain == 1.0
+    assert above > 1.1
+    words = f"1 of 2 points: s_surface is up to {above:.3g} times as large at bulk_stress_mean = -0.3"
+    assert validity_lines(found) == (f"s is not the largest value at {words}",)
+    assert outside(found, found.s).values.tolist() == [False, True]
+    assert not outside(found, found.s_surface).any()
+    (line,) = validity_lines(found.assign(s=found.s * [1, 0], s_error=found.s_error * [1, 0]))
+    assert line.endswith("s is 0, and s_surface is not, at bulk_stress_mean = -0.3")
+
+
+def test_a_point_of_a_sample_has_its_number():
+    study = Study.from_text(
+        'title = "t"\n[fixed]\nnormal_force_amplitude = 0\nfriction = 0.3\n'
+        "[sample.points]\ntangential_force_amplitude = [0.5, 1.2]"
+    )
+    (line,) = validity_lines(solve_grid(study.grid, 1e-2))
+    assert line.endswith("1 of 2 points: tangential_force_amplitude 1.2 exceeds 1, in μ F_N at sample = 1")
 
 
 def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):

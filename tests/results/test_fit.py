@@ -121,7 +121,7 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
         ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 tests; allowed: 2 at least"),
         ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
-        ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life nan of test 2"),
+        ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),
         ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
         ("nowhere.csv", "tests: found 'nowhere.csv' "),
         (3, "tests: found 3; allowed: a CSV file"),
@@ -130,6 +130,16 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
 def test_wrong_tables_are_named(rig, tests, words):
     with pytest.raises(StudyError, match=words):
         swtstudy.fit(rig[0], tests)
+
+
+def test_all_mistakes_of_a_table_are_named_as_its_own(rig):
+    wrong = {"normal_force": [-5, 200, 300], "colour": [1, 2, 3], "life": [0, "no", 1e5]}
+    with pytest.raises(StudyError) as caught:
+        swtstudy.fit(rig[0], {"tangential_force_amplitude": FORCES, **wrong})
+    life, force, colour = str(caught.value).splitlines()
+    assert life == "tests: found life 0 of test 1; 1 more like it; allowed: positive numbers"
+    assert force.startswith("tests.normal_force: found -5 (out of range) at [0]; allowed: a positive force")
+    assert colour.startswith("tests.colour: found unknown parameter 'colour'")
 
 
 def test_wrong_requests_are_named(rig, tmp_path):

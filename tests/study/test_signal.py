@@ -196,7 +196,10 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
         ("period = 7", "loads.rig.period: found 7, and a record of 5; allowed: a whole cycle at least"),
         ("period = -1", "loads.rig.period: found -1; allowed: a positive number"),
         ("harmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less than half"),
-        ("recorded_cycles = 2\nharmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less"),
+        (
+            "recorded_cycles = 2\nharmonics = 2",
+            "loads.rig.harmonics: found 2 with 6 samples; allowed: less than half as many as samples at diff",
+        ),
         ("harmonics = 65", "loads.rig.harmonics: found 65; allowed: a whole number, 1 to 64"),
         ('columns = "Ft"', "loads.rig.columns: found 'Ft'; allowed: a table of headers, such as"),
         ('columns = { norml = "a" }', "loads.rig.columns.norml: found 'norml'; allowed: did you mean normal"),

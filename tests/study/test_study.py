@@ -238,6 +238,21 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
 
 
 @pytest.mark.parametrize(
+    ("figure", "key"),
+    [
+        (FIGURE.replace('x = "phase"', 'x = "phse"'), "figure.x"),
+        (FIGURE.replace('x = "phase"', 'x = "angle"'), "figure.x"),
+        (FIGURE.replace('hue = "friction"', 'hue = "phase"'), "figure.hue"),
+        (FIGURE.replace('hue = "friction"', 'kind = "contour"'), "figure.vertical"),
+    ],
+)
+def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
+    with pytest.raises(StudyError) as error:
+        Study.from_text(f'title = "t"\n{figure}')
+    assert [mistake.key for mistake in error.value.mistakes] == [key]
+
+
+@pytest.mark.parametrize(
     ("figure", "key", "found"),
     [
         (FIGURE.replace('"phase"', '"psi"'), "figure.x", "not an axis"),

@@ -48,6 +48,7 @@ def mistakes_of(text: str, folder: Path) -> list[str]:
             r"found '1{50,}… \(.*cycle.csv: line 3, tangential\); allowed: a finite number",
         ),
         (f"normal,tangential\n0,1{',' * 1000}\n", "found 1002 cells under 2 columns"),
+        ("x" * 131_073, "found field larger than field limit .* a CSV file that can be read"),
     ],
 )
 def test_columns_in_doubt_are_refused_with_the_line(tmp_path: Path, content: str, words: str) -> None:
@@ -56,9 +57,10 @@ def test_columns_in_doubt_are_refused_with_the_line(tmp_path: Path, content: str
     assert re.match(f"s: loads.mine.file: {words}", line), line
 
 
-def test_other_columns_and_a_comma_at_the_end_are_left_alone(tmp_path: Path) -> None:
+@pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"])
+def test_other_columns_and_a_comma_at_the_end_are_left_alone(tmp_path: Path, end: bytes) -> None:
     (tmp_path / "cycle.csv").write_bytes(
-        b"\xef\xbb\xbftime, Remark,tangential,normal,\r\n0,a,1,0,\r\n\r\n1,b,-1,0,\r\n2,c,0,1,\r\n"
+        b"\xef\xbb\xbftime, Remark,tangential,normal,\n0,a,1,0,\n\n1,b,-1,0,\n2,c,0,1,\n".replace(b"\n", end)
     )
     (loop,) = Study.from_text(LOOP, "s", tmp_path).grid.values("load")
     assert loop == LoadPath("mine", [[0, 1], [0, -1], [1, 0]])

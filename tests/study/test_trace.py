@@ -73,6 +73,14 @@ def test_a_trace_is_a_profile_of_a_contact(tmp_path: Path) -> None:
         read_trace(tmp_path / "few.csv")
 
 
+def test_a_trace_upside_down_is_named(tmp_path: Path) -> None:
+    x, z = trace("sphere", 2e-5, 0.004)
+    rows = "\n".join(f"{a!r},{-b!r}" for a, b in zip(x.tolist(), z.tolist(), strict=True))
+    (tmp_path / "cap.csv").write_text(f"position,height\n{rows}\n")
+    with pytest.raises(StudyError, match=r"cap.csv: found heights that fall by .* with the other sign"):
+        read_trace(tmp_path / "cap.csv")
+
+
 def test_a_study_reads_a_trace_beside_tables_in_a_form_of_their_own(tmp_path: Path) -> None:
     x, z = trace("sphere", 2e-5, 0.004)
     rows = "\n".join(f"{a!r};{b!r}".replace(".", ",") for a, b in zip(x.tolist(), z.tolist(), strict=True))

@@ -205,6 +205,7 @@ def test_materials_come_by_name_from_a_file(tmp_path):
             'file = "materials.toml"\nname = "wek"',
             "material.name: found 'wek'; allowed: a material in",
         ),
+        ('file = "materials.toml"', "material.name: found nothing; allowed: a material in materials.toml"),
         ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (No such file"),
         ('name = "weak"', "material.file: found nothing; allowed: a TOML file with a table"),
         (

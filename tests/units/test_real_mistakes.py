@@ -1,7 +1,7 @@
 """Studies in units of the user's own: what is wrong in them."""
 
 import pytest
-from real import STUDY
+from real import STUDY, UNITS
 
 from swtstudy import Study, StudyError
 
@@ -137,3 +137,30 @@ def test_constants_of_a_material_need_units():
     text = 'title = "t"\n[material]\nstrength = 1\n'
     with pytest.raises(StudyError, match=r"material: found constants without \[units\]"):
         Study.from_text(text)
+
+
+@pytest.mark.parametrize(
+    ("fixed", "keys"),
+    [
+        ("", ["fixed.normal_amplitude", "fixed.tangential_amplitude"]),
+        ('tangential_force_amplitude = "x"', ["fixed.normal_amplitude", "fixed.tangential_force_amplitude"]),
+        ('profile = "cylinder"', ["fixed.normal_force_amplitude, fixed.tangential_force_amplitude"]),
+    ],
+)
+def test_an_amplitude_of_a_loop_beside_sines_is_asked_for_once(fixed, keys):
+    text = f"""title = "t"
+[loads.up]
+vertices = [[0.1, 1], [0, -1]]
+[axes]
+load = ["harmonic", "up"]
+{UNITS}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 200
+{fixed}
+"""
+    with pytest.raises(StudyError) as error:
+        Study.from_text(text)
+    assert sorted(mistake.key for mistake in error.value.mistakes) == keys
