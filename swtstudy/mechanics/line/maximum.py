@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import joined_pieces, resolved
-from swtstudy.mechanics.line.look import Accuracy, Resolution
+from swtstudy.mechanics.line.look import Accuracy, Look, Resolution
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounds import CHANGE_SHARE, climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray, Rows
@@ -32,6 +32,8 @@ SLOWNESS = 3.0
 #: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
 #: has more digits than r. A hundredth and a hundred times: about 1e-7.
 REACH = 1e-8
+#: Rounding of a plane's normal stress, over the parts that it is the sum of.
+PARTS = 4.0 * float(np.finfo(float).eps)
 #: Step to the slope of a coordinate, over the distance from a face's edge or the centre, and in roundings.
 SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
 
@@ -91,9 +93,9 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         slow = error > accuracy.tolerance * found.swt[doubtful]
         found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
     rows = np.flatnonzero(found.swt > 0.0)
-    found.error[rows] = np.maximum(
-        found.error[rows], _of_rounding(scene.take(rows), found.take(rows), accuracy)
-    )
+    if rows.size:
+        of_rounding = _of_rounding(scene.take(rows), found.take(rows), accuracy)
+        found.error[rows] = np.maximum(found.error[rows], of_rounding)
     return found
 
 
@@ -111,7 +113,21 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    return np.asarray(rounding * size if is_product else rounding)
+    of_both = rounding * size if is_product else rounding
+    return np.maximum(of_both, _of_tension(scene, found, rounding, accuracy.search))
+
+
+def _of_tension(scene: Scene, found: Maximum, rounding: FloatArray, resolution: Resolution) -> FloatArray:
+    """How much of swt a tension within rounding makes, shape (n,): all, where a bulk stress presses."""
+    look = Look.at(scene, np.abs(found.position)[:, None], resolution.nodes, resolution.digits)
+    planes = scene.planes(look.history, np.sign(found.position)[:, None, None])
+    curves = planes.criterion.curves(*planes.on_plane(found.double_angle[:, None]))
+    tension, up, down = (curve.max(axis=-1)[:, 0] for curve in curves)
+    # On a plane the parts of a pressure cancel.
+    rounding = rounding + PARTS * np.abs(planes.stress).sum(axis=0).max(axis=-1)[:, 0]
+    low = np.maximum(tension, 0.0)
+    criterion = scene.criterion
+    return np.asarray(criterion.of_maxima(low + rounding, up, down) - criterion.of_maxima(low, up, down))
 
 
 def reach_of_edge(profile: Profile) -> FloatArray:
