@@ -16,7 +16,6 @@ from test_values import ALIGNED
 
 import swtstudy
 from swtstudy.mechanics import Points, Solution, solve_points
-from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.stress.scene import scene_of
@@ -168,15 +167,12 @@ def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, f
     found = solve_points(pressed)
     assert found.s[0] < 1e-4 * found.s_surface[0]
     scene, plain = scene_of(pressed), solve_points(replace(pressed, bulk_stress_mean=np.zeros(1)))
-    # s is rounding and has no place: it is the circle of the largest contact radius.
-    x, angle = np.sqrt(1.2), np.linspace(0.0, np.pi, 81)
-    swt_there = Body(scene, time_nodes(scene, 20, [x]), 60).swt(x * np.cos(angle), x * np.sin(angle), 0.0).swt
-    assert found.s_surface[0] == pytest.approx(swt_there.max(), rel=2e-3)
     body, _ = body_maximum(scene, float(found.critical_x[0]))
-    assert found.s_surface[0] <= body.swt * (1.0 + 1e-3)
+    # With friction the body's is somewhat outside of the smallest contact.
+    assert found.s_surface[0] == pytest.approx(body.swt, rel=0.03 if friction else 1e-9)
     if friction == 0.0:
         # Then it is as high as it was on the line.
-        assert body.swt == pytest.approx(float(plain.s[0]), rel=1e-2)
+        assert found.s_surface[0] == pytest.approx(float(plain.s[0]), rel=1e-2)
 
 
 def test_the_body_says_the_same_as_the_line() -> None:

@@ -146,6 +146,27 @@ def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
     assert float(solved.s_surface) > 1.001 * float(solved.s)
 
 
+@pytest.mark.parametrize(("friction", "mean"), [(0.15, -0.075), (0.05, -0.1)])
+def test_where_a_bulk_stress_presses_the_smallest_contact_has_tension_at_its_side(friction, mean):
+    """On the line s is a fourth of it, or 0."""
+    point = {
+        "normal_amplitude": 0.15,
+        "tangential_amplitude": 0.1,
+        "phase": 0.785398,
+        "poisson_ratio": 0.44,
+        "friction": friction,
+        "bulk_stress_mean": mean,
+        "walker_exponent": 0.6,
+        "frequency_ratio": "3/4",
+    }
+    solved, scene = swtstudy.solve(**point), read_scene(point)
+    r, angle = np.sqrt(0.85), np.linspace(0.0, np.pi, 181)
+    body = Body(scene, time_nodes(scene, 40, [r]), cells=60)
+    swt = body.swt(r * np.cos(angle), r * np.sin(angle), 0.0).swt
+    assert float(solved.s_surface) > 1.2 * float(solved.s)
+    assert float(solved.s_surface) == pytest.approx(swt.max(), rel=1e-3)
+
+
 def test_only_places_that_meet_on_one_circle_and_one_ridge_are_one():
     along_x, along_y, _ = np.eye(3)
     places = surface_circle._Places(

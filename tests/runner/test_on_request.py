@@ -248,9 +248,7 @@ def test_bad_ones_of_solve_are_named() -> None:
         swtstudy.solve(quantitys=["dissipation"])
 
 
-def test_the_command_line_prints_and_plans_them(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_the_command_line_prints_and_plans_them(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     answer = CliRunner().invoke(
         main,
         ["solve", "--quantities", "dissipation,contact_radius", "--normal-amplitude", "0", "--rtol", "1e-2"],

@@ -113,12 +113,14 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    of_both = rounding * size if is_product else rounding
+    of_both = np.asarray(rounding * size if is_product else rounding)
+    if scene.bulk is None:
+        return of_both
     return np.maximum(of_both, _of_tension(scene, found, rounding, accuracy.search))
 
 
 def _of_tension(scene: Scene, found: Maximum, rounding: FloatArray, resolution: Resolution) -> FloatArray:
-    """How much of swt a tension within rounding makes, shape (n,): all, where a bulk stress presses."""
+    """How much of swt a tension within rounding makes, shape (n,): all, where the bulk stress presses."""
     look = Look.at(scene, np.abs(found.position)[:, None], resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, np.sign(found.position)[:, None, None])
     curves = planes.criterion.curves(*planes.on_plane(found.double_angle[:, None]))

@@ -1,5 +1,8 @@
 """swt on the circle through the critical point of the surface line: the assumption y = 0, tested.
 
+With a bulk stress the circle of the smallest contact radius is another one: outside of the contact the radial
+tension of the pressure is largest there, and at its side the bulk stress does not press on it.
+
 The stress on the circle is made of the same building blocks as on the line, see
 `swtstudy.mechanics.stress.history`. They know only r: edge and slip fronts pass the whole circle at once, and
 one look at the cycle serves all angles. At some angles the highest planes are climbed to; what is a maximum
@@ -70,7 +73,8 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
 
     That of the line where nothing on the circle exceeds it, NaN where the maximum is at the edge of a flat
     face itself: on that circle the pressure has no bound. Where a bulk stress leaves no tension on the line,
-    or swt is largest far away, it is the circle of the largest contact radius.
+    or swt is largest far away, it is the circle of the largest contact radius. With a bulk stress the circle
+    of the smallest contact radius is looked at as well, but for profiles with a sharp edge.
 
     Parameters
     ----------
@@ -85,19 +89,23 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     flat = scene.profile.flat_radius
     at_edge = scene.profile.has_singular_edge & (flat > 0.0) & (r == flat)
     surface = np.where(at_edge, np.nan, found.swt)
-    doubtful = (scene.poisson_ratio > SAFE_POISSON_RATIO) | scene.critical_everywhere
-    rows = np.flatnonzero(doubtful & (r > 0.0) & ~at_edge)
-    if rows.size:
-        line = found.swt[rows]
-        top = _highest(scene.take(rows), r[rows], line)
-        surface[rows] = np.where(top > (1.0 + HIGHER) * line, top, line)
+    doubtful = ((scene.poisson_ratio > SAFE_POISSON_RATIO) | scene.critical_everywhere) & ~at_edge
+    circles = [r]
+    if scene.bulk is not None and not scene.profile.has_singular_edge:
+        circles.append(scene.smallest_radius)
+    for circle in circles:
+        rows = np.flatnonzero(doubtful & (circle > 0.0))
+        if rows.size:
+            known = surface[rows]
+            top = _highest(scene.take(rows), circle[rows], known)
+            surface[rows] = np.where(top > (1.0 + HIGHER) * known, top, known)
     return surface
 
 
-def _highest(scene: Scene, r: FloatArray, line: FloatArray) -> FloatArray:
-    """Largest swt on circles of radius r, shape (n,), ``line`` at least."""
-    highest, width = line.copy(), ANGLES[1]
-    places = _first_places(scene, r, line)
+def _highest(scene: Scene, r: FloatArray, known: FloatArray) -> FloatArray:
+    """Largest swt on circles of radius r, shape (n,), ``known`` at least."""
+    highest, width = known.copy(), ANGLES[1]
+    places = _first_places(scene, r, known)
     if not places.angle.size:
         return highest
     scene = scene.take(places.circle)
@@ -148,12 +156,12 @@ def _climb(
     return swt.reshape(-1, k), normal.reshape(-1, k, 3)
 
 
-def _first_places(scene: Scene, r: FloatArray, line: FloatArray) -> _Places:
-    """Places of circles at which swt may be largest, and above the line."""
+def _first_places(scene: Scene, r: FloatArray, known: FloatArray) -> _Places:
+    """Places of circles at which swt may be largest, and above what is known."""
     look = Look.at(scene, r[:, None], FIRST_STEPS, DIGITS)
     stress, tensor = _circle(scene, look.history, ANGLES[None])
     swt, normal = _summits(scene, stress, tensor)
-    chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), line)[:, None]) & (swt > 0.0)
+    chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), known)[:, None]) & (swt > 0.0)
     chosen &= _on_top(swt, normal)
     at = circle, angle = np.nonzero(chosen)
     swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])

@@ -87,6 +87,11 @@ class Scene(Rows):
         return self.coordinate.radius(self.cycle.load.largest_normal[:, None])[:, 0]
 
     @property
+    def smallest_radius(self) -> FloatArray:
+        """Smallest contact radius of each point in a_H, shape (n,); of the face where contact is lost."""
+        return self.coordinate.radius(self.cycle.load.least_normal.clip(0.0)[:, None])[:, 0]
+
+    @property
     def mirrored_half(self) -> bool:
         """True if half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
