@@ -120,7 +120,7 @@ def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray
 
 
 def _of_tension(scene: Scene, found: Maximum, rounding: FloatArray, resolution: Resolution) -> FloatArray:
-    """How much of swt a tension within rounding makes, shape (n,): all, where the bulk stress presses."""
+    """Part of swt that a tension within rounding makes, shape (n,): all, where the bulk stress presses."""
     look = Look.at(scene, np.abs(found.position)[:, None], resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, np.sign(found.position)[:, None, None])
     curves = planes.criterion.curves(*planes.on_plane(found.double_angle[:, None]))
