@@ -11,6 +11,7 @@ from folders import RESULTS
 from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, points
 
+import swtstudy
 from swtstudy.mechanics import solve_points
 
 #: Made by studies/checks/reference_values.py.
@@ -114,3 +115,14 @@ def test_s_error_next_to_a_sharp_tip_where_contact_is_lost(exponent, values, pha
     assert abs(found.s[0] - closest.s[0]) <= found.s_error[0]
     assert found.s_error[0] <= 1e-4 * found.s[0]
     assert closest.s_error[0] <= 2e-7 * closest.s[0]
+
+
+def test_a_climb_does_not_walk_off_on_rounding() -> None:
+    """Where cusps are as near to one another as rounding shows, swt between them is flat but for that."""
+    found = swtstudy.solve(
+        normal_force_amplitude=0.4,
+        tangential_force_amplitude=0.25,
+        frequency_ratio="1/2",
+        phase=6.0 * np.pi / 72.0,
+    )
+    assert float(found.s_error) < 1e-3 * float(found.s)

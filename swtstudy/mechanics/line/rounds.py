@@ -40,8 +40,9 @@ POLYNOMIAL_SHARE = 0.3
 #: The plane turns so many times faster between two values than between others where another takes over.
 #: Never: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at each rtol down to 1e-6.
 SUDDEN = 4.0
-#: Values closer than this are equal, relative. 0: no change at 128 points.
-TIE = 1e-12
+#: Values closer than this share of the tolerance are equal: the climb stays. 0: it walks off on rounding, and
+#: s_error is all of s at a point of tests/mechanics/test_s_error.py.
+TIE = 1e-3
 #: Rounds at most. Half or twice: no change at 128 points.
 LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
@@ -167,7 +168,8 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     chosen = scene.take(climb.point)
     values, angles = refine(chosen, brackets.around(c), climb.side, start, accuracy.search)
     # Equal values, as beyond the last position, count for the centre.
-    best = (values * (1.0 - TIE * np.abs(c - centre))).argmax(axis=1)
+    away = np.abs(OFFSETS) / OFFSETS[-1]
+    best = (values * (1.0 - TIE * accuracy.tolerance * away)).argmax(axis=1)
     return _Seen(chosen, brackets, c, values, angles, best)
 
 
