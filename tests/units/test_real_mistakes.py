@@ -164,3 +164,9 @@ normal_force = 200
     with pytest.raises(StudyError) as error:
         Study.from_text(text)
     assert sorted(mistake.key for mistake in error.value.mistakes) == keys
+
+
+@pytest.mark.parametrize("label", ["rad", "1", " "])
+def test_what_is_no_unit_of_stress_is_none(label: str) -> None:
+    with pytest.raises(StudyError, match=f"units.stress: found '{label}'; allowed: the name of a unit"):
+        Study.from_text(STUDY.replace('stress = "MPa"', f'stress = "{label}"'))
