@@ -194,6 +194,10 @@ def audit_of_bulk_stress() -> None:
     says("greater than s at {} of the {} points at which the line is not enough", *numbers(name, above)[1:])
     said = "The body's maximum exceeds s_surface at {} points, by up to {}%"
     says("may be too low, at {} points by up to {} %", *numbers(name, said))
+    found = xr.load_dataset(RESULTS / "audit_bulk_stress_box.nc")
+    low, beneath = found.remainder > 1e-3, found.body_z > 1e-6
+    says("at {} of them the maximum is beneath the surface", int((low & beneath).sum()))
+    says("at the others, by up to {} %, mostly", 100.0 * float(found.remainder.where(low & ~beneath).max()))
 
 
 def audit_of_criteria() -> None:
