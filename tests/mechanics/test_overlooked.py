@@ -218,6 +218,42 @@ CASES = [
         "4/3",
         0.13289101,
     ),
+    # Of the strain the largest value is in the last step before an event, beside one that is lower.
+    (
+        {
+            "normal_force_amplitude": 0.10760543,
+            "tangential_force_amplitude": 0.06234713,
+            "phase": 4.18915508,
+            "poisson_ratio": 0.45737639,
+            "friction": 0.67883343,
+        },
+        "3",
+        0.0326363367,
+    ),
+    # The instants of two other maxima look higher than they are, at first.
+    (
+        {
+            "normal_force_amplitude": 0.09124212,
+            "tangential_force_amplitude": 0.00982295,
+            "phase": 6.23998592,
+            "poisson_ratio": 0.48798972,
+            "friction": 0.498331,
+        },
+        "3",
+        0.00170785274,
+    ),
+    # Three cusps within 2e-10 of r, and the maximum at the last of them.
+    (
+        {
+            "normal_force_amplitude": 0.06642005,
+            "tangential_amplitude": 0.0011413,
+            "phase": 3.13888094,
+            "poisson_ratio": 0.14046001,
+            "friction": 0.16835856,
+        },
+        "1",
+        0.010848434154,
+    ),
 ]
 
 

@@ -147,7 +147,7 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
 
 @pytest.mark.parametrize(
     ("friction", "pull", "mean", "amplitude", "excess"),
-    [(0.0, 0.0, 0.0, 0.05, 0.499), (0.3, 0.05, 0.15, 0.15, 0.0735), (0.3, 0.2, 0.15, 0.15, 0.0)],
+    [(0.0, 0.0, 0.0, 0.05, 0.5215), (0.3, 0.05, 0.15, 0.15, 0.0745), (0.3, 0.2, 0.15, 0.15, 0.0)],
 )
 def test_beneath_a_load_that_pulsates_a_bulk_stress_is_worse(friction, pull, mean, amplitude, excess) -> None:
     """Where next to nothing rubs: what docs/theory/plane.md says."""
@@ -155,8 +155,8 @@ def test_beneath_a_load_that_pulsates_a_bulk_stress_is_worse(friction, pull, mea
     batch = plane_points("cylinder", NU, friction, 0.75, pull, **bulk)
     found = solve_points(batch)
     whole, _ = body_maximum(scene_of(batch), float(found.critical_x[0]))
-    assert whole.swt / found.s[0] - 1.0 == pytest.approx(excess, abs=2e-3)
-    assert (abs(whole.position[2]) > 3.0) == (excess > 0.0)
+    assert whole.swt / found.s[0] - 1.0 == pytest.approx(excess, abs=2e-4)
+    assert (abs(whole.position[2]) > 2.5) == (excess > 0.0)
 
 
 @pytest.mark.parametrize("name", ["cylinder", "rounded_flat"])

@@ -80,7 +80,7 @@ class SpringCells:
         circle
             Radius at which all cells are needed, in a_H; the farther from it, the fewer. Without it all are.
         """
-        slopes, branches = resolving_cells(scene.cycle, scene.coordinate, cells)
+        slopes, branches = resolving_cells(scene.cycle, scene.coordinate, cells, circle)
         memory = scene.cycle.memory.take((slice(0, 1),))
         pieces = DistinctPieces.of(memory)
         start, slope, first = pieces.start[0], pieces.slope[0], pieces.first[0]

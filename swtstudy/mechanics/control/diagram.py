@@ -39,9 +39,6 @@ INSIDE = 1e-4
 #: Last step of Newton's method in rad; its square is the error. 1e-5: 2e-10 at 144 points; 1e-11: 7e-14, 7 %
 #: slower.
 LAST_STEP = 1e-8
-#: As `Load.same_cusp`: where a load turns, rounding moves a mapped instant by 1e-8. 1e-9: two cusps for one,
-#: and off by 2e-6 and 9e-4, at 2 of 2,500 points.
-SAME_CUSP = 2e-8
 
 
 @dataclass(frozen=True)
@@ -64,10 +61,6 @@ class MappedLoad(Load):
 
     def __len__(self) -> int:
         return len(self.given)
-
-    @property
-    def same_cusp(self) -> float:
-        return SAME_CUSP
 
     def normal(self, instant: FloatArray) -> FloatArray:
         return self.map.value(self.given.normal(instant))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
-from swtstudy.mechanics.line.look import LEVEL, Look, Resolution, extremes_and_rivals, lifted
+from swtstudy.mechanics.line.look import LEVEL, Extremes, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.numerics.arrays import largest_of_rows
 from swtstudy.mechanics.planes.criterion import Criterion
@@ -138,21 +138,24 @@ def refine(
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     best = climb_over_planes(planes, double_angle, ANGLE_ROUNDS)
-    found, rival, falling = extremes_and_rivals(planes, best, look.inside)
+    extremes = Extremes.of(planes, best, look.inside)
     zoom = _Zoom(scene, look, side, resolution)
-    first = zoom.around(found, falling)
-    swt, angle = zoom.to_maximum(first, best)
-    # Two instants that the nodes cannot tell apart are both followed; neighbours have the same bracket.
-    rows = np.flatnonzero((np.abs(found - rival) > 1).any(axis=(1, 2)))
-    if rows.size:
-        again = _Zoom(scene.take(rows), look.take(rows), side[rows], resolution)
-        second, first, plane = again.around(rival[rows]), first.take(rows), best[rows]
+    samples = zoom.around(extremes.best, extremes.falling)
+    swt, angle = zoom.to_maximum(samples, best)
+    # What the nodes cannot tell from the highest instants is followed, too.
+    rows = np.arange(len(swt))
+    while (some := np.flatnonzero(extremes.rivals(samples.tops(best)).any(axis=(1, 2)))).size:
+        rows, extremes, samples, best = rows[some], extremes.take(some), samples.take(some), best[some]
+        rival = zoom.take(rows).around(extremes.best)
         # Of two instants the one around which the plane is higher.
-        here = second.tops(plane) > first.tops(plane)
-        more, at = again.to_maximum(second.or_other(here, first), plane)
-        better = more > swt[rows]
-        swt[rows] = np.where(better, more, swt[rows])
-        angle[rows] = np.where(better, at, angle[rows])
+        here = rival.tops(best) > samples.tops(best)
+        samples = rival.or_other(here, samples)
+        new = np.flatnonzero(here.any(axis=(1, 2)))
+        if new.size:
+            more, at = zoom.take(rows[new]).to_maximum(samples.take(new), best[new])
+            better = more > swt[rows[new]]
+            swt[rows[new]] = np.where(better, more, swt[rows[new]])
+            angle[rows[new]] = np.where(better, at, angle[rows[new]])
     return swt, angle
 
 
@@ -172,6 +175,10 @@ class _Zoom:
     look: Look
     side: FloatArray
     resolution: Resolution
+
+    def take(self, rows: NDArray[np.intp]) -> _Zoom:
+        """Return the zooms of some points."""
+        return replace(self, scene=self.scene.take(rows), look=self.look.take(rows), side=self.side[rows])
 
     def around(self, extremes: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> Samples:
         """Samples around instants of the look, shape (n, X, 3); for ``falling`` see `TimeBrackets.around`."""

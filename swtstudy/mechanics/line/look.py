@@ -100,31 +100,45 @@ def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np
     return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in of_swt], axis=-1)
 
 
-def extremes_and_rivals(
-    planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """As `extreme_instants`, and another instant that may be higher once it is looked at, or the same one.
+@dataclass(frozen=True)
+class Extremes(Rows):
+    """Instants at which three curves may be highest: σ_n, the swing and the swing downwards.
 
-    And whether the curves fall from the extremes to both sides, shape (…, 3, 2).
+    Attributes
+    ----------
+    best
+        Shape (…, 3).
+    falling
+        Shape (…, 3, 2): whether the curves fall from there to both sides.
+    reach
+        Shape (…, 3, T): how high the curves may be about each instant.
     """
-    found, rivals, falling = [], [], []
-    for curve in planes.criterion.curves(*planes.on_plane(angle)):
-        crests = _crests(curve, inside)
-        heights = curve.copy()
-        heights.ravel()[crests.at] = crests.lifted
-        best = heights.argmax(axis=-1)
-        _reaching(heights, crests)
-        # The rival is none of the neighbours.
-        rows, flat = np.arange(best.size), heights.reshape(best.size, -1)
+
+    best: NDArray[np.intp]
+    falling: NDArray[np.bool_]
+    reach: FloatArray
+
+    @classmethod
+    def of(cls, planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> Extremes:
+        """As `extreme_instants`."""
+        best, falling, reach = [], [], []
+        for curve in planes.criterion.curves(*planes.on_plane(angle)):
+            crests, heights = _crests(curve, inside), curve.copy()
+            heights.ravel()[crests.at] = crests.lifted
+            best.append(heights.argmax(axis=-1))
+            falling.append(_falling(curve, best[-1]))
+            _reach(heights, crests, curve, inside)
+            reach.append(heights)
+        return cls(np.stack(best, axis=-1), np.stack(falling, axis=-2), np.stack(reach, axis=-2))
+
+    def rivals(self, top: FloatArray) -> NDArray[np.bool_]:
+        """Go on to the next best instants, in place, and say which may be higher than ``top``, (…, 3)."""
+        rows, flat = np.arange(self.best.size), self.reach.reshape(self.best.size, -1)
+        # What lies about the neighbours has been seen.
         for step in (-1, 0, 1):
-            flat[rows, np.clip(best.ravel() + step, 0, curve.shape[-1] - 1)] = -np.inf
-        rival = heights.argmax(axis=-1)
-        found.append(best)
-        falling.append(_falling(curve, best))
-        # The best one may have been lifted too high.
-        least = pick(curve, best)
-        rivals.append(np.where(pick(heights, rival) > least + LEVEL * np.abs(least), rival, best))
-    return np.stack(found, axis=-1), np.stack(rivals, axis=-1), np.stack(falling, axis=-2)
+            flat[rows, np.clip(self.best.ravel() + step, 0, flat.shape[1] - 1)] = -np.inf
+        self.best[...] = self.reach.argmax(axis=-1)
+        return np.asarray(pick(self.reach, self.best) > top + LEVEL * np.abs(top))
 
 
 def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -157,9 +171,8 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
 
 def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     """Upper estimate of a curve's maximum, shape (…), and beside ends of stretches; see `lifted`."""
-    heights = _reaching(curve.copy(), _crests(curve, inside))
-    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
-    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
+    heights = curve.copy()
+    _reach(heights, _crests(curve, inside), curve, inside)
     return np.asarray(heights.max(axis=-1))
 
 
@@ -197,11 +210,12 @@ def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
     return np.asarray((middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
 
 
-def _reaching(heights: FloatArray, crests: _Crests) -> FloatArray:
-    """Heights with the smooth local maxima of the curves as high as they may really be, in place."""
+def _reach(heights: FloatArray, crests: _Crests, curve: FloatArray, inside: NDArray[np.bool_]) -> None:
+    """Put the local maxima of a curve as high as they may really be, also beside ends of stretches."""
     bend = 2.0 * crests.centre - crests.left - crests.right
     heights.ravel()[crests.at] = crests.centre + REACH * bend
-    return heights
+    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
+    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
 
 
 def _rise_beside_end(

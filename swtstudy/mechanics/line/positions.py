@@ -28,8 +28,6 @@ INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
 BEYOND = np.array([1.5, 5.0, 40.0])
 #: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
 BESIDE_FACE = 0.999
-#: A stretch between cusps shorter than this share of the range is none. 1e-14: no change; 1e-10: 2e-10.
-NO_LENGTH = 1e-12
 #: Stretches whose ends are more than this apart, as a ratio, are shared by the logarithm: they lead to a tip.
 FAR_APART = 1e4
 
@@ -47,8 +45,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     deepest = cycle.load.largest_normal[:, None]
     places = np.concatenate([deepest, edges, np.where(np.isfinite(starts), starts, 0.0)], axis=1)
     places = np.sort(places, axis=1)
-    motion = np.minimum(cycle.load.motion, 1.0)
-    new = np.diff(places, axis=1, prepend=0.0) > cycle.load.same_cusp * motion[:, None]
+    new = np.diff(places, axis=1, prepend=0.0) > 0.0
     new[:, -1] = True
     radius = coordinate.radius(packed(new, places)[0])
     largest = radius.max(axis=1, keepdims=True)
@@ -108,19 +105,15 @@ class Pieces:
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
         """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
-        # Next to a sharp tip pieces are short, but not as they lie there.
-        real = high - low > np.minimum(NO_LENGTH * (ends[:, -1:] - ends[:, :1]), 0.5 * high)
-        point, number = np.nonzero(real)
-        last = np.append(np.diff(point) > 0, True)
-        # However short a piece is left out, the next one begins there: a thin slip zone has its s at the end.
-        begin = low[point, number]
-        end = np.where(last, ends[point, -1], np.roll(begin, -1))
+        # However short a piece is: a thin slip zone has its s at the end.
+        point, number = np.nonzero(high > low)
+        begin, end = low[point, number], high[point, number]
         waves = np.ceil((end - begin) / feature_length[point]).clip(1.0).astype(np.intp)
-        wave = place_in_row(np.repeat(np.arange(waves.size), waves))
-        point, begin, end, waves = (np.repeat(v, waves) for v in (point, begin, end, waves))
-        length = (end - begin) / waves
+        each = np.repeat(np.arange(waves.size), waves)
+        wave, length = place_in_row(each), ((end - begin) / waves)[each]
+        begin, is_last = begin[each], wave == waves[each] - 1
         return cls(
-            point, begin + wave * length, np.where(wave == waves - 1, end, begin + (wave + 1) * length)
+            point[each], begin + wave * length, np.where(is_last, end[each], begin + (wave + 1) * length)
         )
 
     @property

@@ -21,9 +21,6 @@ from swtstudy.vocabulary.parameters import PAIRS
 
 #: Length of the common period in φ, rad.
 PERIOD = 2.0 * np.pi
-#: Coordinates of events nearer than this, over the amplitudes of the motion, are those of one cusp. 1e-11:
-#: 2e-15; 2e-8: 1.5e-4 too low where the tangential amplitude is 1e-4 of the normal one.
-SAME_CUSP = 1e-9
 
 
 class Load(Rows, ABC):
@@ -89,11 +86,6 @@ class Load(Rows, ABC):
     @abstractmethod
     def mirrored_half(self) -> bool:
         """True if half a period later the normal load is the same and the tangential one has changed sign."""
-
-    @property
-    def same_cusp(self) -> float:
-        """Coordinates of events nearer than this, over `motion`, are those of one cusp."""
-        return SAME_CUSP
 
     @property
     def grows_in_lines(self) -> bool:
