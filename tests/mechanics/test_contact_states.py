@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from scenes import points
 
+from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.histories import Histories, SpringCells
 from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
@@ -83,3 +85,20 @@ def test_cells_that_are_merged_beside_a_face_have_no_gradient_of_rounding(cells)
     history = line.history(Nodes(every, instant, every[None]))
     expected = np.stack(stresses(history, scene.poisson_ratio, scene.friction, 1.0), axis=-1)[0, 0]
     np.testing.assert_allclose(stress[:, [0, 1, 2, 4]], expected, rtol=0, atol=1e-4)
+
+
+def test_cells_are_halved_towards_the_circle_where_the_stress_is_wanted():
+    """A maximum at three cusps within 1e-7 of r, in cells of 4e-3: 3e-3 of swt was missing, or too much."""
+    point = points(
+        "wavy_paraboloid",
+        poisson_ratio=0.39937803,
+        friction=0.91078136,
+        normal_amplitude=0.64925636,
+        tangential_amplitude=0.00738393,
+        phase=3.19487142,
+        waviness_amplitude=0.09632214,
+        wavelength=7.4128082,
+    )
+    found = solve_points(point, 1e-6)
+    _, at_line = body_maximum(scene_of(point), float(found.critical_x[0]))
+    assert float(at_line.swt) == pytest.approx(found.s[0], rel=3e-5)

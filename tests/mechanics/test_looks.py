@@ -21,7 +21,7 @@ from swtstudy.mechanics.stress.scene import scene_of
 def _even(point):
     """Positions of points, each as far from the one before it as from the next."""
     even = np.full(len(point), True)
-    return SimpleNamespace(point=point, r=np.arange(1.0, 1.0 + len(point)), is_even=even, is_corner=~even)
+    return SimpleNamespace(point=point, is_even=even, is_corner=~even)
 
 
 def peaks(swt, highest=None):
@@ -106,7 +106,7 @@ def test_a_long_piece_has_a_position_where_the_layer_of_its_short_neighbour_ends
 def test_pieces_leave_no_gap_and_none_is_longer_than_a_wave():
     ends = np.array([[0.1, 0.1, 0.4, 0.4 + 1e-15, 2.0], [0.3, 0.4, 0.4, 0.4, 1.0]])
     pieces = Pieces.between(ends, np.array([0.4, np.inf]))
-    assert np.bincount(pieces.point).tolist() == [1 + 1 + 4, 2]
+    assert np.bincount(pieces.point).tolist() == [1 + 4, 2]
     assert np.all((pieces.high - pieces.low)[pieces.point == 0] <= 0.4 + 1e-12)
     for point, rows in enumerate(ends):
         low, high = (values[pieces.point == point] for values in (pieces.low, pieces.high))

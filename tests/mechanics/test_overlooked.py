@@ -254,6 +254,12 @@ CASES = [
         "1",
         0.010848434154,
     ),
+    # Cusps that meet but for rounding are one: the maximum lies behind the layer beside them.
+    (
+        {"normal_amplitude": 0.66, "phase": 2.443460952792061, "tangential_amplitude": 5.0 / 6.0},
+        "1",
+        0.12087874317,
+    ),
 ]
 
 

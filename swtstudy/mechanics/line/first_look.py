@@ -48,9 +48,6 @@ CLOSER = Resolution(nodes=4, zooms=0, digits=4.0)
 #: Change of 2θ to the next position, rad, from which on the plane may be another one. Never: 1e-3 at a point
 #: of tests/mechanics/test_overlooked.py.
 OTHER_PLANE = 0.08
-#: Cusps nearer to one another than this share of r nearly meet. 0: 8e-4 at a point of
-#: tests/mechanics/test_stability.py.
-MEETING = 1e-9
 #: Points times positions times intervals of the cycle that are looked at together: memory is bounded, and
 #: what is looked at stays in the processor's cache. Three times: 4 % slower.
 LOOK_SIZE = 10_000
@@ -240,11 +237,10 @@ def high_positions(
         least = largest_of_rows(point, seen.swt.max(axis=1))
     enough = least[point][:, None]
     chosen = peaks(point, seen.swt) & (seen.swt >= (1.0 - 3.0 * SHARE) * enough)
-    # Cusps that nearly meet are one neighbour.
-    new = (np.diff(point, prepend=-1) > 0) | (np.diff(positions.r, prepend=0.0) > MEETING * positions.r)
-    group, high = np.cumsum(new), np.logical_or.reduceat(chosen, np.flatnonzero(new))
-    high = np.pad(high, ((1, 1), (0, 0)))
-    beside = (high[group - 1] | high[group + 1]) & ~(positions.is_even | positions.is_corner)[:, None]
+    beside = np.zeros_like(chosen)
+    beside[1:] = chosen[:-1]
+    beside[:-1] |= chosen[1:]
+    beside &= ~(positions.is_even | positions.is_corner)[:, None]
     chosen |= peaks(point, seen.highest) & (seen.highest >= enough)
     chosen |= (flanks(point, seen) | beside) & (seen.swt >= (1.0 - SHARE) * enough)
     place, side = np.nonzero(chosen)
