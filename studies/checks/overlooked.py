@@ -80,6 +80,17 @@ def mixed(rng: np.random.Generator) -> Points:
     return replace(law(rng), control=Control(first, not first))
 
 
+def near_symmetry(rng: np.random.Generator) -> Points:
+    """Phases next to 0 or π, where cusps nearly meet, logarithmic over 1e-6–0.1."""
+    points = (law, forces, mixed)[rng.integers(3)](rng)
+    side, beside = rng.integers(2, size=(2, CHUNK))
+    away = (2 * beside - 1) * 10.0 ** rng.uniform(-6.0, -1.0, CHUNK)
+    if rng.integers(2):
+        one = np.ones(CHUNK, dtype=np.intp)
+        points = replace(points, p=one, q=one)
+    return replace(points, phase=np.pi * side + away)
+
+
 def table(rng: np.random.Generator) -> Points:
     """A worn paraboloid."""
     return replace(law(rng), profile=worn())
@@ -135,6 +146,7 @@ SCENES = {
     "bulk stress": (bulk_stress, 1_000),
     "next to no bulk stress": (next_to_no_bulk_stress, 500),
     "Walker's exponent": (walker, 1_000),
+    "phases next to 0 and π": (near_symmetry, 2_000),
 }
 
 

@@ -34,6 +34,7 @@ NAMES = (
     "wavy paraboloid",
     "power law",
     "Walker's exponent",
+    "phases next to 0 and π",
 )
 RTOL, SEED = 1e-4, 4
 
