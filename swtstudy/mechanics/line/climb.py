@@ -140,13 +140,13 @@ def refine(
     best = climb_over_planes(planes, double_angle, ANGLE_ROUNDS)
     extremes = Extremes.of(planes, best, look.inside)
     zoom = _Zoom(scene, look, side, resolution)
-    samples = zoom.around(extremes.best, extremes.falling)
+    samples = zoom.around(extremes)
     swt, angle = zoom.to_maximum(samples, best)
     # What the nodes cannot tell from the highest instants is followed, too.
-    rows = np.arange(len(swt))
-    while (some := np.flatnonzero(extremes.rivals(samples.tops(best)).any(axis=(1, 2)))).size:
+    rows, extremes = np.arange(len(swt)), extremes.next_best()
+    while (some := np.flatnonzero(extremes.may_exceed(samples.tops(best)).any(axis=(1, 2)))).size:
         rows, extremes, samples, best = rows[some], extremes.take(some), samples.take(some), best[some]
-        rival = zoom.take(rows).around(extremes.best)
+        rival, extremes = zoom.take(rows).around(extremes), extremes.next_best()
         # Of two instants the one around which the plane is higher.
         here = rival.tops(best) > samples.tops(best)
         samples = rival.or_other(here, samples)
@@ -180,9 +180,9 @@ class _Zoom:
         """Return the zooms of some points."""
         return replace(self, scene=self.scene.take(rows), look=self.look.take(rows), side=self.side[rows])
 
-    def around(self, extremes: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> Samples:
-        """Samples around instants of the look, shape (n, X, 3); for ``falling`` see `TimeBrackets.around`."""
-        return self._within(self.look.brackets(extremes, falling))
+    def around(self, extremes: Extremes) -> Samples:
+        """Samples around the best instants."""
+        return self._within(self.look.brackets(extremes.best, extremes.falling))
 
     def _within(self, brackets: TimeBrackets) -> Samples:
         history = self.look.line.history(brackets.samples())

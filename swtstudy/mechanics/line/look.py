@@ -94,12 +94,6 @@ class Look(Rows):
         return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
 
 
-def extreme_instants(planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Instants nearest to the largest σ_n, largest swing, smallest swing, shape (…, 3); see `Look.inside`."""
-    of_swt = planes.criterion.curves(*planes.on_plane(angle))
-    return np.stack([lifted(curve, inside).argmax(axis=-1) for curve in of_swt], axis=-1)
-
-
 @dataclass(frozen=True)
 class Extremes(Rows):
     """Instants at which three curves may be highest: σ_n, the swing and the swing downwards.
@@ -109,9 +103,9 @@ class Extremes(Rows):
     best
         Shape (…, 3).
     falling
-        Shape (…, 3, 2): whether the curves fall from there to both sides.
+        Shape (…, 3, 2): whether the curves fall from there to both sides, as far as that is known.
     reach
-        Shape (…, 3, T): how high the curves may be about each instant.
+        Shape (…, 3, T): how high the curves may be about each instant; −∞ where that has been seen.
     """
 
     best: NDArray[np.intp]
@@ -120,7 +114,7 @@ class Extremes(Rows):
 
     @classmethod
     def of(cls, planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> Extremes:
-        """As `extreme_instants`."""
+        """Find the highest instants of planes at 2θ; for ``inside`` see `Look.inside`."""
         best, falling, reach = [], [], []
         for curve in planes.criterion.curves(*planes.on_plane(angle)):
             crests, heights = _crests(curve, inside), curve.copy()
@@ -131,13 +125,16 @@ class Extremes(Rows):
             reach.append(heights)
         return cls(np.stack(best, axis=-1), np.stack(falling, axis=-2), np.stack(reach, axis=-2))
 
-    def rivals(self, top: FloatArray) -> NDArray[np.bool_]:
-        """Go on to the next best instants, in place, and say which may be higher than ``top``, (…, 3)."""
-        rows, flat = np.arange(self.best.size), self.reach.reshape(self.best.size, -1)
-        # What lies about the neighbours has been seen.
+    def next_best(self) -> Extremes:
+        """Return the highest instants but for these and the ones beside them."""
+        reach = self.reach.copy()
+        rows, flat = np.arange(self.best.size), reach.reshape(self.best.size, -1)
         for step in (-1, 0, 1):
             flat[rows, np.clip(self.best.ravel() + step, 0, flat.shape[1] - 1)] = -np.inf
-        self.best[...] = self.reach.argmax(axis=-1)
+        return Extremes(reach.argmax(axis=-1), np.zeros_like(self.falling), reach)
+
+    def may_exceed(self, top: FloatArray) -> NDArray[np.bool_]:
+        """True where a curve may be higher than ``top``, both of shape (…, 3)."""
         return np.asarray(pick(self.reach, self.best) > top + LEVEL * np.abs(top))
 
 

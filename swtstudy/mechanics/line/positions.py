@@ -55,8 +55,8 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     profile = coordinate.profile
     approach = profile.singular_approach
     face = profile.flat_radius[:, None]
+    least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
     if everywhere:
-        least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
         # Next to the contact the stress outside changes over the way that the edge goes.
         beyond = largest + np.append(largest - least, largest * (BEYOND - 1.0), axis=1)
         innermost = INNERMOST_OF_LOST * largest
@@ -67,8 +67,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
             face = BESIDE_FACE * face
         ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
         return np.sort(np.maximum(ends, innermost), axis=1)
-    least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None]) - face
-    share = np.clip(0.5 * least / (largest - face), INNERMOST_OF_LOST, INNERMOST)
+    share = np.clip(0.5 * (least - face) / (largest - face), INNERMOST_OF_LOST, INNERMOST)
     innermost = face + share * (largest - face)
     if approach.shape[1]:
         nearest = approach.min(axis=1, keepdims=True)
