@@ -203,7 +203,7 @@ def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tol
     neighbour = np.clip(climb.place + seen.place.astype(np.intp), 0, positions.r.size - 1)
     beyond = (np.abs(seen.place) == 1.0) & (neighbour != climb.place)
     beyond &= positions.point[neighbour] == climb.point
-    outermost = seen.is_outermost & (seen.place != climb.centre)
+    outermost = beyond | (seen.is_outermost & (seen.place != climb.centre))
     width = np.where(outermost, np.minimum(WALKING * climb.width, FIRST_WIDTH), SHRINKING * climb.width)
     small = np.maximum(vertex.remaining, rise) <= SETTLED * tolerance * vertex.top
     # What a round changes tells of further ones where the round before it had the maximum between its places.

@@ -26,8 +26,10 @@ NODES_PER_OSCILLATION = 1.6
 #: Where the tangential load moves slower than this share of the normal one, the slope turns from ±1 to that
 #: share within the square of it, beside an end of the growth. With so many nodes more for each digit beyond
 #: the fifth s was off by 2e-7 at most at 8.5 digits and shares of 2e-4 to 0.01, without them by up to 9e-6.
-#: Next to a tip, where contact is nearly lost, from the first digit on: else 1e-3 is left.
-SLOW, NODES_PER_DIGIT = 0.02, 24
+#: Next to a tip, where contact is nearly lost, from the first digit on: else 1e-3 is left. Half of them up to
+#: the second share, beyond which the turn is wide: without, 2e-6 at a point of
+#: tests/mechanics/test_overlooked.py.
+SLOW, LESS_SLOW, NODES_PER_DIGIT = 0.02, 0.08, 24
 
 #: Densities at abscissae of some ranges, see `_OverRanges`.
 Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
@@ -49,12 +51,13 @@ class GrowthIntegrals:
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
         # The tangential load may oscillate several times while the normal one rises once.
         normal, tangential = cycle.load.oscillations
-        smooth = max(4.0 * digits - 6.0, 6.0 * digits - 16.0) + NODES_PER_OSCILLATION * (tangential / normal)
+        smooth = max(4.0 * digits - 6.0, 7.0 * digits - 20.0) + NODES_PER_OSCILLATION * (tangential / normal)
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
         amplitude = cycle.load.normal_motion
-        slow = tangential * (cycle.load.motion - amplitude) < SLOW * normal * amplitude
+        share = tangential * (cycle.load.motion - amplitude) / np.maximum(normal * amplitude, 1e-300)
         more = np.where(coordinate.profile.tip, digits, max(digits - 5.0, 0.0))
-        nodes = count + slow * np.ceil(NODES_PER_DIGIT * more).astype(np.intp)
+        slow = np.where(share < SLOW, 1.0, 0.5 * (share < LESS_SLOW))
+        nodes = count + np.ceil(slow * NODES_PER_DIGIT * more).astype(np.intp)
         growths = Growths.of(cycle.memory)
         self.count = growths.begin.shape[1]
         if not self.count:
