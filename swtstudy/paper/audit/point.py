@@ -57,8 +57,8 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
     angles = np.asarray(turn * np.arange(planes))
     best, position = 0.0, np.nan
     found: list[tuple[float, float, int, float]] = []
-    for side in (1.0, -1.0):
-        swt, best_plane = _highest(scene, r, side, angles, INSTANTS)
+    sides = 1.0, -1.0
+    for side, swt, best_plane in zip(sides, *_highest(scene, r, sides, angles, INSTANTS), strict=True):
         framed = np.pad(swt, 1, constant_values=-1.0)
         peak = (swt > framed[:-2]) & (swt >= framed[2:])
         found += [(swt[k], side, k, best_plane[k]) for k in np.flatnonzero(peak).tolist()]
@@ -72,18 +72,25 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
 
 
 def _highest(
-    scene: Scene, r: FloatArray, side: float, angles: FloatArray, count: int, digits: float = DIGITS
+    scene: Scene,
+    r: FloatArray,
+    sides: tuple[float, ...],
+    angles: FloatArray,
+    count: int,
+    digits: float = DIGITS,
 ) -> tuple[FloatArray, FloatArray]:
-    """Largest swt at each r over the planes at 2θ, and 2θ of that plane, both (X,)."""
-    swt, best = np.zeros(r.size), np.zeros(r.size)
+    """Largest swt at each r over the planes at 2θ, and 2θ of that plane, both (sides, X)."""
+    swt, best = np.zeros((2, len(sides), r.size))
     size = max(BLOCK // (3 * count * scene.cycle.begin.shape[1]), 1)
     for part in (slice(first, first + size) for first in range(0, r.size, size)):
-        history = scene.planes(Look.at(scene, r[None, part], count, digits).history, side)
-        for angle in angles:
-            of_swt = history.criterion.curves(*history.on_plane(np.full((1, r[part].size), angle)))
-            value = history.criterion.of_maxima(*(curve.max(axis=-1) for curve in of_swt))[0]
-            best[part] = np.where(value > swt[part], angle, best[part])
-            swt[part] = np.maximum(value, swt[part])
+        look = Look.at(scene, r[None, part], count, digits).history
+        for k, side in enumerate(sides):
+            history = scene.planes(look, side)
+            for angle in angles:
+                of_swt = history.criterion.curves(*history.on_plane(np.full((1, r[part].size), angle)))
+                value = history.criterion.of_maxima(*(curve.max(axis=-1) for curve in of_swt))[0]
+                best[k, part] = np.where(value > swt[k, part], angle, best[k, part])
+                swt[k, part] = np.maximum(value, swt[k, part])
     return swt, best
 
 
@@ -108,7 +115,7 @@ def _closer(
         places = np.concatenate([np.linspace(low, centre, half), np.linspace(centre, high, half), within])
         places = np.unique(places)
         angles = plane + turn * np.linspace(-1.0, 1.0, CLOSER)
-        swt, planes = _highest(scene, places, side, angles, count, CLOSER_DIGITS)
+        swt, planes = (of[0] for of in _highest(scene, places, (side,), angles, count, CLOSER_DIGITS))
         k = int(swt.argmax())
         if swt[k] > best:
             best, position = float(swt[k]), float(side * places[k])
