@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
-from swtstudy.mechanics.contact.cycle import NO_SLIP
 from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.control.coordinate import ForceCoordinate
+from swtstudy.mechanics.numerics.arrays import ROUNDING
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -174,7 +174,7 @@ def edge_states(scene: Scene, nodes: TimeNodes) -> NDArray[np.int8]:
     middle = nodes_at(scene, 0.5 * (nodes.instant + ends))
     states = scene.cycle.states(middle.interval[None], middle.instant[None])
     slips = np.where(states.sign > 0.0, 2, 3)
-    state = np.where(states.front >= (1.0 - NO_SLIP) * states.edge, 1, slips)
+    state = np.where(states.front >= (1.0 - ROUNDING) * states.edge, 1, slips)
     return np.where(states.edge > 0.0, state, 0)[0].astype(np.int8)
 
 

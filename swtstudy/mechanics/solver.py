@@ -16,6 +16,7 @@ from swtstudy.mechanics.line.singular_edge import at_edge, may_be_largest, not_f
 from swtstudy.mechanics.line.surface_circle import surface_maximum
 from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.numerics.arrays import SAME
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
 from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
@@ -26,8 +27,6 @@ from swtstudy.mechanics.stress.scene import Scene
 BATCH_SIZE, BATCH_SQUARES = 3200, 120_000
 #: Relative error of tables, series and rounding, which no rtol removes (results/accuracy.md, at 1e-7).
 LEAST_ERROR = 1e-7
-#: swt closer to that far from the contact than this is no more than that, relative.
-SAME = 1e-9
 #: So many batches may share the contact solutions that are held at a time. 1 or 32: the same time and memory
 #: to 3 % and 22 MB at 1,600 points, whose loads differ.
 SHARING = 8

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places, coarse_swt
+from swtstudy.mechanics.numerics.arrays import SAME
 from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -36,8 +37,6 @@ GAIN, WALKING, LAST_WIDTH = 1e-5, 1.5, 5e-3
 #: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
 #: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
 RING = 1e-3
-#: swt closer to that far from the contact than this is no more than that, relative, as for s.
-SAME = 1e-9
 #: The plane that a bulk stress alone makes critical.
 _ALONG_X = np.array([1.0, 0.0, 0.0])
 
@@ -225,5 +224,5 @@ def _folded(places: FloatArray) -> FloatArray:
 def _cartesian(places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     r, angle, z = np.moveaxis(places, -1, 0)
     # sin π is not 0 in floating point: keep the line y = 0 a line.
-    y = np.where(np.sin(angle) < 1e-9, 0.0, r * np.sin(angle))
+    y = np.where(np.sin(angle) < SAME, 0.0, r * np.sin(angle))
     return r * np.cos(angle), y, z

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
 from swtstudy.mechanics.body.quick_planes import (
-    SAME_INSTANT,
     Peaks,
     climb_from,
     highest_coarse_planes,
@@ -26,7 +25,7 @@ from swtstudy.mechanics.body.quick_planes import (
 )
 from swtstudy.mechanics.events.stretches import front_passes
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import gather, packed
+from swtstudy.mechanics.numerics.arrays import SAME, TINY, gather, packed
 from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.points import FloatArray
@@ -37,8 +36,6 @@ MANY = 256
 #: The edge or a front passes so far from a place, in its depth, at its own instants. Four: 5 % faster, but
 #: two of 72 means over lines were 1e-3 and 4e-3 low.
 OFFSETS = np.array([-3.0, -1.5, -0.7, 0.0, 0.5, 1.0])
-#: Passages nearer to the end of an interval, rad, are at that end, or none.
-NO_PASSAGE = 1e-9
 #: A stress or strain this near to its extreme over the cycle, in its range, may have it close by, also at
 #: other places.
 HOT = 0.05
@@ -119,7 +116,7 @@ def _passages(scene: Scene, places: Places) -> tuple[FloatArray, NDArray[np.bool
     ends = np.concatenate([[0.0], cycle.end[0]])
     after = np.clip(np.searchsorted(ends, instant), 1, ends.size - 1)
     gap = np.minimum(np.abs(instant - ends[after]), np.abs(instant - ends[after - 1]))
-    return np.mod(instant, PERIOD), gap > NO_PASSAGE
+    return np.mod(instant, PERIOD), gap > SAME
 
 
 def _packed(instant: FloatArray, kept: NDArray[np.bool_]) -> FloatArray:
@@ -166,7 +163,7 @@ class LocalSwt:
         row, column = np.nonzero(hot)
         at = instant[row, column]
         # Beside an instant that is common both gaps.
-        for side in (at - SAME_INSTANT, at + SAME_INSTANT):
+        for side in (at - SAME, at + SAME):
             open_[row, np.searchsorted(self.instant, side) - 1] = True
         return open_, planes
 
@@ -180,7 +177,7 @@ class LocalSwt:
     def _scaled(self, places: Places) -> FloatArray:
         """Offsets from the circle, over a root of the distance from it, and arcs about the axis."""
         right = places.radius - self.circle
-        root = np.sqrt(np.maximum(np.hypot(right, places.depth), 1e-300))
+        root = np.sqrt(np.maximum(np.hypot(right, places.depth), TINY))
         arc = np.minimum(places.angle, np.pi - places.angle)
         return np.stack([right / root, places.depth / root, arc], axis=1)
 

@@ -28,6 +28,7 @@ from swtstudy.mechanics.body.half_sphere import (
     nested,
 )
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
+from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.parameters import DIRECTIONS
@@ -45,8 +46,6 @@ OF_SMALLER = 2e-4
 #: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
 #: many planes are alike.
 OF_LARGEST = 2e-5
-#: A value below this is none.
-TINY = 1e-300
 #: Every so many distances from the circle, and inclinations, of the first places, the outermost among them,
 #: show which part of the cycle matters; and places on lines, over the largest distance, its single ones too.
 SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)

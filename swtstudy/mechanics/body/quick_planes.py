@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import gather
+from swtstudy.mechanics.numerics.arrays import SAME, gather
 from swtstudy.mechanics.numerics.roots import parabola_maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes, swt_of_history
 from swtstudy.mechanics.planes.ascent import ROUGH_STEP, ActiveForms, Rows, climb_by
@@ -19,9 +19,6 @@ from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swing import Swing
 from swtstudy.mechanics.planes.weights import normal_weights
 from swtstudy.mechanics.points import FloatArray
-
-#: Instants nearer to one another, rad, are one.
-SAME_INSTANT = 1e-9
 
 
 class Peaks(NamedTuple):
@@ -61,8 +58,8 @@ class Peaks(NamedTuple):
         """Misfit of the parabolas at the instants beside, if that tops all peaks, (…, m)."""
         left, _, right = np.split(beside, 3, axis=-1)
         width, rise = np.diff(self.instant), np.diff(self.value)
-        slope = rise / np.maximum(width, SAME_INSTANT)
-        bend = (slope[..., 1] - slope[..., 0]) / np.maximum(width.sum(axis=-1), SAME_INSTANT)
+        slope = rise / np.maximum(width, SAME)
+        bend = (slope[..., 1] - slope[..., 0]) / np.maximum(width.sum(axis=-1), SAME)
         middle = 0.5 * (self.value[..., 1:] + self.value[..., :-1]) - 0.25 * bend[..., None] * width**2
         off = np.abs(middle - np.stack([left, right], axis=-1)).max(axis=-1)
         top = np.where(self.peaked, self.value[..., 1], -np.inf).max(axis=-1, keepdims=True)
@@ -77,7 +74,7 @@ def _neighbours(instant: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
     count = instant.shape[1]
     index = np.broadcast_to(np.arange(count), instant.shape)
     new = np.ones((len(instant), count + 1), dtype=bool)
-    new[:, 1:-1] = np.diff(instant) > SAME_INSTANT
+    new[:, 1:-1] = np.diff(instant) > SAME
     begins = np.where(new, np.arange(count + 1), count)
     after = np.minimum.accumulate(begins[:, :0:-1], axis=1)[:, ::-1]
     before = np.where(new[:, :-1], index - 1, index)

@@ -14,13 +14,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.memory import GROWTH, GrowthTimes, Memory
 from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states, stick_coordinate
 from swtstudy.mechanics.load.load import PERIOD, Load
-from swtstudy.mechanics.numerics.arrays import packed
+from swtstudy.mechanics.numerics.arrays import ROUNDING, packed
 from swtstudy.mechanics.points import FloatArray, IntArray, Rows
 from swtstudy.vocabulary.parameters import Control
-
-#: No slip in shorter intervals, rad, nor with the slip front nearer to the edge, relative. 0: stick is called
-#: slip at 79 of 4,000 points, 1e-15: at 8; 1e-11 and 1e-9: no change.
-NO_SLIP = 1e-13
 
 
 @dataclass(frozen=True)
@@ -75,8 +71,8 @@ class Cycle(Rows):
         """True where any spring slips somewhere in the cycle, shape (n,)."""
         interval = np.arange(self.begin.shape[1])
         middle = self.states(interval, 0.5 * (self.begin + self.end))
-        slips = middle.front < (1.0 - NO_SLIP) * middle.edge
-        return np.asarray((slips & (self.end - self.begin > NO_SLIP)).any(axis=1))
+        slips = middle.front < (1.0 - ROUNDING) * middle.edge
+        return np.asarray((slips & (self.end - self.begin > ROUNDING)).any(axis=1))
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""
@@ -102,10 +98,6 @@ class Cycle(Rows):
         )
 
 
-#: Growth of the contact's coordinate below which there is none: turning instants come in pairs that differ
-#: by rounding. 1e-14 or 1e-10: no change at 128 points. A coordinate below this is 0: next to a tip the
-#: ground within what rounding leaves of it would count.
-NO_GROWTH = 1e-12
 #: Room for pieces with which a march begins. Few stacks need more, however many intervals there are.
 DEPTH = 32
 
@@ -188,7 +180,7 @@ def _course(load: Load) -> _Course:
     tangential_rate, normal_rate = load.tangential_rate(middle), load.normal_rate(middle)
     forward, backward = tangential_rate > normal_rate, tangential_rate < -normal_rate
     edge = _or_none(load.normal(instant))
-    grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > NO_GROWTH)
+    grows = ~forward & ~backward & (normal_rate > 0.0) & (np.diff(edge, axis=1) > ROUNDING)
     growth = np.full(grows.shape, GROWTH)
     if load.grows_in_lines:
         np.divide(tangential_rate, normal_rate, out=growth, where=grows)
@@ -198,7 +190,8 @@ def _course(load: Load) -> _Course:
 
 
 def _or_none(coordinate: FloatArray) -> FloatArray:
-    return np.where(coordinate > NO_GROWTH, coordinate, 0.0)
+    # Next to a tip the ground within what rounding leaves of it would count.
+    return np.where(coordinate > ROUNDING, coordinate, 0.0)
 
 
 def _grow(stack: Memory, course: _Course, i: int) -> None:
@@ -231,10 +224,6 @@ def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
     keep = stack.start[row, 0] < piece.start[row, None]
     stack.start[row, 0] = np.where(keep, stack.start[row, 0], np.inf)
     stack.write((row, 0, keep.sum(axis=1)), piece.take((row,)))
-
-
-#: Excess that is rounding, in the largest normal load: 2e-16 at most for 20,000 sines that just reach T = N.
-ROUNDING = 1e-12
 
 
 def out_of_equilibrium(load: Load, control: Control) -> NDArray[np.bool_]:

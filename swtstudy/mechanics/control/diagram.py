@@ -21,10 +21,10 @@ from swtstudy.mechanics.control.coordinate import (
 from swtstudy.mechanics.control.normal_map import DepthOfForce, ForceOfDepth, NormalMap, TabledMap
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mechanics.indenter.base import Profile
-from swtstudy.mechanics.load.bimodal import NO_AMPLITUDE, BimodalLoad
+from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
-from swtstudy.mechanics.numerics.arrays import between, filled_rows
+from swtstudy.mechanics.numerics.arrays import SAME, TINY, between, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.vocabulary.choices import is_plane
@@ -36,9 +36,6 @@ LEAST_COUNT, COUNT_PER_OSCILLATION, COUNT_PER_WAVE = 8, 32, 12
 #: The first of them lies so far behind the turn, in shares of π of the cosine's angle: where contact is made
 #: the map's derivative jumps. 1e-2: 6e-3 at 1 of 144 points; 1e-6: 2e-5 there.
 INSIDE = 1e-4
-#: Last step of Newton's method in rad; its square is the error. 1e-5: 2e-10 at 144 points; 1e-11: 7e-14, 7 %
-#: slower.
-LAST_STEP = 1e-8
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,7 @@ class MappedLoad(Load):
         given, slope = self.map.inverse_and_slope(normal)
         rate, normal_rate = self.given.rates_at_touch_down(given, branch)
         normal_rate = normal_rate * slope
-        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
+        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > TINY)
         return -np.clip(ratio, -1.0, 1.0)
 
     def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
@@ -160,7 +157,7 @@ class MappedLoad(Load):
 
         begin, end = (between(low.take(row), high.take(row), where) for where in (first, last))
         zero = np.zeros(len(row))
-        roots = monotone_roots(rate, zero, Brackets.of(rate, begin, end), LAST_STEP)
+        roots = monotone_roots(rate, zero, Brackets.of(rate, begin, end), SAME)
         return filled_rows(row // m, np.mod(roots, PERIOD), n, PERIOD)
 
     def _slip_line_rate(self, sense: float, instant: FloatArray) -> FloatArray:

@@ -17,13 +17,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import ForceCoordinate
 from swtstudy.mechanics.indenter.base import Tables
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.numerics.chebyshev import EvenTable
 from swtstudy.mechanics.points import FloatArray, Rows
-
-#: Least contact radius for which derivatives are computed: they have no bound at the tip. 1e-11: no change at
-#: 144 points; 1e-4: 2e-13.
-LEAST_RADIUS = 1e-8
 
 
 class NormalMap(Rows, ABC):
@@ -81,13 +77,13 @@ class ByRadius(NormalMap):
     force: ForceCoordinate
 
     def _with_derivatives(self, load: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        return self._derivatives(np.maximum(self._radius(load), LEAST_RADIUS))
+        return self._derivatives(np.maximum(self._radius(load), SAME))
 
     def _slope_of_depth(self, radius: FloatArray, weighted_slope: FloatArray) -> FloatArray:
         """g′ at radii, nowhere 0, from the profile's `weighted_slope`."""
         b = align(self.force.profile.flat_radius, radius)
-        rise = np.sqrt(np.maximum((radius - b) * (radius + b), LEAST_RADIUS**2))
-        return np.maximum(weighted_slope / rise, LEAST_RADIUS)
+        rise = np.sqrt(np.maximum((radius - b) * (radius + b), SAME**2))
+        return np.maximum(weighted_slope / rise, SAME)
 
     def _unit(self, like: FloatArray) -> FloatArray:
         return align(self.force.unit, like)
@@ -134,7 +130,7 @@ class DepthOfForce(ByRadius):
 
     def _inverse_and_slope(self, value: FloatArray) -> tuple[FloatArray, FloatArray]:
         radius = self.force.profile.radius(value)
-        return self.force.of(radius), self._unit(radius) / np.maximum(radius, LEAST_RADIUS)
+        return self.force.of(radius), self._unit(radius) / np.maximum(radius, SAME)
 
     def _radius(self, load: FloatArray) -> FloatArray:
         return self.force.radius(load)
@@ -149,8 +145,6 @@ class DepthOfForce(ByRadius):
 #: Share of a cell next to no load at which derivatives are taken that have no bound there. 1e-5 or 0.1: no
 #: change at 61 points of mixed control.
 NEXT_TO_NONE = 1e-3
-#: Least root of a load for which derivatives by the load are computed. 1e-11 or 1e-5: no change there.
-LEAST_ROOT = 1e-8
 #: Steps of Newton's method from the inverse function to that of its table. 1 or 6: 6e-13 there.
 NEWTON_STEPS = 2
 
@@ -192,7 +186,7 @@ class RootTable:
 
     def with_slope(self, row: NDArray[np.intp], x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """y and its derivative by x."""
-        root = np.maximum(_root(x, self._power), LEAST_ROOT)
+        root = np.maximum(_root(x, self._power), SAME)
         value, slope = self._table.with_slope(row, root)
         return value, slope / (self._power * root ** (self._power - 1))
 
@@ -200,7 +194,7 @@ class RootTable:
         self, row: NDArray[np.intp], x: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """y and two derivatives by x."""
-        root = np.maximum(_root(x, self._power), LEAST_ROOT)
+        root = np.maximum(_root(x, self._power), SAME)
         value, slope, bend = self._table.with_derivatives(row, root)
         _, first, second = self._load(root)
         slope = slope / first

@@ -16,7 +16,15 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import between, count_below, filled_rows, gather, packed
+from swtstudy.mechanics.numerics.arrays import (
+    ROUNDING,
+    SAME,
+    between,
+    count_below,
+    filled_rows,
+    gather,
+    packed,
+)
 from swtstudy.mechanics.points import FloatArray, Rows
 
 
@@ -87,9 +95,6 @@ def _slip_line_passes(
     return hit, slipping.slip_line_instant(sense, goal[hit], brackets)
 
 
-#: Stretches shorter than this, in rad of the cycle, count as none; nearer than this, two of them meet. A
-#: hundredth: 2e-7 and nothing; a hundred times: nothing.
-NO_STRETCH, GAP = 1e-12, 1e-10
 #: Stretches of each interval: two events cut it.
 PER_INTERVAL = 3
 
@@ -110,7 +115,7 @@ class Stretches(Rows):
     @cached_property
     def real(self) -> NDArray[np.bool_]:
         """Shape (n, X, m): which have a length."""
-        return np.asarray(self.high - self.low > NO_STRETCH)
+        return np.asarray(self.high - self.low > ROUNDING)
 
     @cached_property
     def last_real(self) -> NDArray[np.intp]:
@@ -147,7 +152,7 @@ def stretches(cycle: Cycle, of_edge: FloatArray, of_front: FloatArray) -> Stretc
 def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
     """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)
-    return np.asarray((gap <= GAP) | (PERIOD - gap <= GAP))
+    return np.asarray((gap <= SAME) | (PERIOD - gap <= SAME))
 
 
 T = TypeVar("T", bound=np.generic)
@@ -241,7 +246,7 @@ def _places(parts: Stretches, count: int) -> Placed:
     after = np.append(parts.next_real[..., 1:], np.full((*parts.low.shape[:-1], 1), total), axis=-1)
     gap = gather(parts.low, np.minimum(after, total - 1)) - parts.high
     keep = np.repeat(parts.real[..., None], count + 1, axis=-1)
-    keep[..., -1] &= ~((after < total) & (gap <= GAP))
+    keep[..., -1] &= ~((after < total) & (gap <= SAME))
     keep = keep.reshape(*parts.low.shape[:-1], -1)
     (number,) = packed(keep, np.broadcast_to(np.arange(keep.shape[-1]), keep.shape))
     return Placed(number // (count + 1), number % (count + 1))

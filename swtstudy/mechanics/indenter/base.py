@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics import chebyshev
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import SAME, TINY, align
 from swtstudy.mechanics.points import FloatArray, IntArray, Rows
 
 #: Steps that invert the normal force fall back to bisection, so this many always suffice (10 do at 144
 #: points); the last one, relative: its square is the error. 1e-4: 1e-4 at 42 of 144; 1e-11: 5e-11.
-LARGEST_STEP_COUNT, LAST_STEP = 60, 1e-8
+LARGEST_STEP_COUNT = 60
 
 
 class Primitives(ABC):
@@ -211,10 +211,10 @@ class Profile(Rows, ABC):
             new = w + step
             middle = np.where(np.isfinite(high), 0.5 * (low + high), 2.0 * w)
             # A last step may lead out of the bracket by its rounding.
-            inside = (new >= low) & (new <= high) | (np.abs(step) <= LAST_STEP * w)
+            inside = (new >= low) & (new <= high) | (np.abs(step) <= SAME * w)
             new = np.where(inside, new, middle)
             last, w = np.abs(new - w), new
-            if np.all(last <= LAST_STEP * w):
+            if np.all(last <= SAME * w):
                 break
         return np.hypot(w, b)
 
@@ -249,7 +249,7 @@ class InnerTable:
         self.span: FloatArray | float = 0.5 * np.pi
         outside = position > largest[:, None]
         if np.any(outside):
-            share = (largest[:, None] ** 2 - self.flat**2) / np.maximum(self.gap, 1e-300)
+            share = (largest[:, None] ** 2 - self.flat**2) / np.maximum(self.gap, TINY)
             self.span = np.where(outside, np.arcsin(np.sqrt(np.minimum(share, 1.0))), self.span)[..., None]
         angle = 0.5 * self.span * (1.0 + chebyshev.nodes(count))
         radius2 = self.flat[..., None] ** 2 + self.gap[..., None] * np.sin(angle) ** 2
@@ -263,7 +263,7 @@ class InnerTable:
 
     def __call__(self, radius: FloatArray) -> FloatArray:
         gap, flat = align(self.gap, radius), align(self.flat, radius)
-        share = np.maximum(radius * radius - flat * flat, 0.0) / np.maximum(gap, 1e-300)
+        share = np.maximum(radius * radius - flat * flat, 0.0) / np.maximum(gap, TINY)
         angle = np.arcsin(np.sqrt(np.minimum(share, 1.0)))
         if isinstance(self.span, float):
             y = angle * (4.0 / np.pi) - 1.0
@@ -301,7 +301,7 @@ class OuterTable:
             self.scale = np.sqrt(np.maximum(distance, 1e-20 * largest[:, None] ** 2))
         else:
             self.scale = np.ones_like(position)
-        self.span = np.maximum(self._abscissa(largest[:, None], self.low2, self.scale), 1e-300)
+        self.span = np.maximum(self._abscissa(largest[:, None], self.low2, self.scale), TINY)
         node = self.span[..., None] * 0.5 * (1.0 + chebyshev.nodes(count))
         rise = self.scale[..., None] * np.sinh(node) if self.has_face else node
         radius = np.sqrt(self.low2[..., None] + rise * rise)

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from swtstudy.mechanics.indenter.base import OuterTable, Primitives, Profile
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import TINY, TINY_ROOT, align
 from swtstudy.mechanics.points import FloatArray
 
 
@@ -114,7 +114,7 @@ class RoundedPunch(FlatFaced):
         radius = np.sqrt(b * b + w * w)
         # One Newton step in w squares the table's error.
         error = radius * (w - b * np.arctan2(w, b)) - depth
-        slope = (2.0 * w - b * np.arctan2(w, b)) * w / np.maximum(radius, 1e-300)
+        slope = (2.0 * w - b * np.arctan2(w, b)) * w / np.maximum(radius, TINY)
         w = w - np.divide(error, slope, out=np.zeros_like(w), where=slope > 0.0)
         return np.sqrt(b * b + w * w)
 
@@ -151,7 +151,7 @@ class RoundedPunch(FlatFaced):
 
     def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
         root = np.cbrt(half_load)
-        ratio = self._face(half_load) / np.maximum(root, 1e-100)
+        ratio = self._face(half_load) / np.maximum(root, TINY_ROOT)
         return root * np.interp(1.0 / (1.0 + ratio), *_rise_by_load_table())
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:
@@ -175,7 +175,7 @@ class FacePrimitives(Primitives):
         """r, b, (r² − b²), sin α and cos α, which broadcast against the radius."""
         r, b = align(self.position, radius), align(self.flat, radius)
         gap = np.maximum((r - b) * (r + b), 0.0)
-        share = np.maximum((radius - b) * (radius + b), 0.0) / np.maximum(gap, 1e-300)
+        share = np.maximum((radius - b) * (radius + b), 0.0) / np.maximum(gap, TINY)
         share = np.where(gap > 0.0, np.minimum(share, 1.0), 0.0)
         return r, b, gap, np.sqrt(share), np.sqrt(1.0 - share)
 
@@ -204,7 +204,7 @@ class RoundedPrimitives(FacePrimitives):
 
 def rise_abscissa(b: FloatArray, depth: FloatArray) -> FloatArray:
     """1/(1 + (b²/G)^⅙), over which w is tabulated."""
-    ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(depth)), 1e-100)
+    ratio = np.cbrt(b) / np.maximum(np.sqrt(np.cbrt(depth)), TINY_ROOT)
     return np.asarray(1.0 / (1.0 + ratio))
 
 
@@ -255,7 +255,7 @@ class TruncatedParaboloid(FlatFaced):
 
     def radius(self, depth: FloatArray) -> FloatArray:
         b2, depth = self._face(depth) ** 2, np.maximum(depth, 0.0)
-        square = 2.0 * depth * depth / np.maximum(b2 + np.sqrt(b2 * b2 + 4.0 * depth * depth), 1e-300)
+        square = 2.0 * depth * depth / np.maximum(b2 + np.sqrt(b2 * b2 + 4.0 * depth * depth), TINY)
         return np.sqrt(b2 + square)
 
     @property
@@ -278,7 +278,7 @@ class TruncatedParaboloid(FlatFaced):
 
     def _rise_at_half_load(self, half_load: FloatArray) -> FloatArray:
         # The real root of the cubic w³ + (3/2) b² w = (3/2) H.
-        b = np.maximum(self._face(half_load), 1e-100)
+        b = np.maximum(self._face(half_load), TINY_ROOT)
         return np.sqrt(2.0) * b * np.sinh(np.arcsinh(1.5 * np.sqrt(2.0) * half_load / b**3) / 3.0)
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:

@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.base import InnerTable, OuterTable, Primitives, Profile
 from swtstudy.mechanics.indenter.paraboloid import FlatFaced, rise_abscissa, rise_angles
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import TINY, align
 from swtstudy.mechanics.points import FloatArray
 
 #: N_0: the mean line load over E* δ0.
@@ -213,7 +213,7 @@ class RoundedFlatPrimitives(PlanePrimitives):
 
 def _load(w: FloatArray, b: FloatArray, angle: FloatArray) -> FloatArray:
     """N, with arctan(w/b)."""
-    t = np.minimum(w / np.maximum(b, 1e-300), 1.0)
+    t = np.minimum(w / np.maximum(b, TINY), 1.0)
     square = t * t
     series = np.zeros(())
     for k in range(TERMS, 0, -1):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.numerics import chebyshev
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import TINY, align
 from swtstudy.mechanics.points import FloatArray
 
 #: Chebyshev nodes of the series over the inner springs besides one for each digit, and for each digit of the
@@ -199,7 +199,7 @@ class _FarSeries:
 
     def _pole(self, row: NDArray[np.intp], ratio: FloatArray) -> FloatArray:
         """The two terms that are taken together."""
-        offset, logarithm = self.offset[row], np.log(np.maximum(ratio, 1e-300))
+        offset, logarithm = self.offset[row], np.log(np.maximum(ratio, TINY))
         rise = np.expm1(offset * logarithm)
         difference = np.divide(-rise, offset, out=-logarithm, where=offset != 0.0)
         together = self.at_pole[row] * difference + self.rest[row] * (1.0 + rise)

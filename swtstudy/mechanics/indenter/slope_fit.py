@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 
 if TYPE_CHECKING:
@@ -111,7 +112,7 @@ def exact_load_slope(f: PPoly, radius: FloatArray) -> FloatArray:
     step = max(_SLAB // len(knots), 1)
     for begin in range(0, len(radius), step):
         ξ = radius[begin : begin + step, None]
-        ratio = np.minimum(knots / np.maximum(ξ, 1e-300), 1.0)
+        ratio = np.minimum(knots / np.maximum(ξ, TINY), 1.0)
         cosine = np.sqrt((1.0 - ratio) * (1.0 + ratio))
         result[begin : begin + step] = ξ[:, 0] * (np.arccos(ratio) @ jumps[0] + (ξ * cosine) @ jumps[1])
     return result

@@ -17,7 +17,7 @@ from swtstudy.mechanics.indenter.base import Primitives, Profile, Tables
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces
-from swtstudy.mechanics.numerics.arrays import align, gather
+from swtstudy.mechanics.numerics.arrays import TINY, align, gather
 from swtstudy.mechanics.points import FloatArray
 
 #: Gives the coefficient of a power, the same for all or one for each of what is integrated over.
@@ -88,7 +88,7 @@ class PiecePrimitives(Primitives):
     def _inside(self, w: FloatArray, slope: Coefficient) -> tuple[FloatArray, FloatArray]:
         """Antiderivatives of Σ a_k wᵏ⁺¹ and Σ a_k wᵏ⁺³ over √(ρ² − w²), k to the degree of g′."""
         rho = align(self.low, w)
-        sine = np.minimum(w / np.maximum(rho, 1e-300), 1.0)
+        sine = np.minimum(w / np.maximum(rho, TINY), 1.0)
         cosine = np.sqrt((1.0 - sine) * (1.0 + sine))
         # ∫ sinᵏ: each from the one before the last.
         power, integrals = cosine, [np.arcsin(sine), -cosine]
@@ -107,7 +107,7 @@ class PiecePrimitives(Primitives):
         gap = align(self.gap, w)
         root = np.sqrt(np.maximum(w * w - gap, 0.0))
         # ∫ wᵏ/√(w² − ρ²): each from the one before the last.
-        power, integrals = root, [np.log(np.maximum(w + root, 1e-300)), root]
+        power, integrals = root, [np.log(np.maximum(w + root, TINY)), root]
         top = len(self._over_radius)
         for k in range(2, top + 3):
             power = power * w
@@ -265,7 +265,7 @@ class TabulatedPlane(PlaneProfile, Tabulated):
         node, weight = np.polynomial.legendre.leggauss(NODES)
         w = low[..., None] + (high - low)[..., None] * (0.5 + 0.5 * node)
         load = self._pieces.value(self._pieces.depth, w, np.broadcast_to(piece[..., None], w.shape))
-        square = np.maximum(w * w + self._pieces.flat_radius**2, 1e-300)
+        square = np.maximum(w * w + self._pieces.flat_radius**2, TINY)
         return np.asarray(0.5 * (high - low) * (load * w / square * weight).sum(axis=-1) / MEAN_LOAD)
 
     def primitives(self, position: FloatArray, digits: float) -> Primitives:

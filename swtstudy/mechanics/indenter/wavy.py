@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.indenter.base import Primitives, Profile, TablePrimitives, Tables
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlaneProfile, StripTablePrimitives
 from swtstudy.mechanics.indenter.struve import struve_functions
-from swtstudy.mechanics.numerics.arrays import RowTable, align
+from swtstudy.mechanics.numerics.arrays import SAME, RowTable, align
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
@@ -149,7 +149,7 @@ class WavyParaboloid(Profile):
         for _ in range(2):
             value, slope = self._with_slope(guess)
             error = value - depth
-            step = np.divide(error, slope, out=np.zeros_like(error), where=slope > 1e-9)
+            step = np.divide(error, slope, out=np.zeros_like(error), where=slope > SAME)
             guess = np.maximum(guess - step, 0.0)
         return guess
 

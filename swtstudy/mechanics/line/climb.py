@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
-from swtstudy.mechanics.line.look import LEVEL, Extremes, Look, Resolution, lifted
+from swtstudy.mechanics.line.look import Extremes, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
-from swtstudy.mechanics.numerics.arrays import largest_of_rows
+from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
 from swtstudy.mechanics.points import FloatArray, Rows
@@ -286,7 +286,7 @@ class Climb(Rows):
         same[1:] = (key[:, 1:] == key[:, :-1]).all(axis=0)
         first = np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))
         seen = self.seen[order]
-        higher = seen > (1.0 + LEVEL) * seen[first]
+        higher = seen > (1.0 + SAME) * seen[first]
         return self.take(order[~(same & moved[order]) | higher])
 
     def twins(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.stretches import Nodes, Placed, Stretches, cosine_nodes, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.numerics.arrays import gather, pick
+from swtstudy.mechanics.numerics.arrays import SAME, gather, pick
 from swtstudy.mechanics.numerics.roots import parabola
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Rows
@@ -25,8 +25,6 @@ REACH = 0.4
 #: A curve falls at once where twice its first slope is at least this share of the fall over a step: 2 on a
 #: line. 0: 3e-4 at a point with a bulk stress; 1.5: as without graded samples.
 AT_ONCE = 0.9
-#: Values of a curve that differ by less, relative, are as high. 1e-11 or 1e-7: no change at 128 points.
-LEVEL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -135,7 +133,7 @@ class Extremes(Rows):
 
     def may_exceed(self, top: FloatArray) -> NDArray[np.bool_]:
         """True where a curve may be higher than ``top``, both of shape (…, 3)."""
-        return np.asarray(pick(self.reach, self.best) > top + LEVEL * np.abs(top))
+        return np.asarray(pick(self.reach, self.best) > top + SAME * np.abs(top))
 
 
 def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:

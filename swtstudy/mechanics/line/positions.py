@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import between, packed, place_in_row
+from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, between, packed, place_in_row
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -28,9 +28,6 @@ INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
 BEYOND = np.array([1.5, 5.0, 40.0])
 #: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
 BESIDE_FACE = 0.999
-#: A stretch between cusps shorter than this share of r is none. 0: 2e-4 at a point of
-#: tests/mechanics/test_overlooked.py; 1e-9: as much at another.
-NO_LENGTH = 1e-12
 #: Stretches whose ends are more than this apart, as a ratio, are shared by the logarithm: they lead to a tip.
 FAR_APART = 1e4
 
@@ -77,10 +74,6 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     return np.sort(np.maximum(ends, innermost), axis=1)
 
 
-#: Steps to both sides that differ by less, relative, are equal.
-EVEN = 1e-9
-
-
 @dataclass(frozen=True)
 class Pieces:
     """The P smooth pieces of the line between the cusps of n points, point by point, ascending.
@@ -107,7 +100,9 @@ class Pieces:
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
         """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
-        point, number = np.nonzero(high - low > NO_LENGTH * high)
+        # Longer ones count. All: 2e-4 at a point of tests/mechanics/test_overlooked.py; from 1e-9 of r on: as
+        # much at another.
+        point, number = np.nonzero(high - low > ROUNDING * high)
         last = np.append(np.diff(point) > 0, True)
         # However short a piece is left out, the next one begins there: a thin slip zone has its s at the end.
         begin = low[point, number]
@@ -205,7 +200,7 @@ class Positions(Rows):
     @property
     def is_even(self) -> NDArray[np.bool_]:
         """Shape (m,): whether both neighbours are equally far."""
-        return np.asarray(np.abs(np.diff(self.step)[:, 0]) <= EVEN * self.step[:, 0])
+        return np.asarray(np.abs(np.diff(self.step)[:, 0]) <= SAME * self.step[:, 0])
 
     def around(self, c: FloatArray) -> FloatArray:
         """r beside the positions, shape (m, k), at c from −1, the left neighbour, to 1, the right one."""

@@ -31,7 +31,7 @@ from swtstudy.mechanics.indenter.paraboloid import SMALLEST_FACE, TruncatedParab
 from swtstudy.mechanics.line.look import SETTLED, Accuracy, Look, lifted
 from swtstudy.mechanics.line.maximum import Maximum, reach_of_edge
 from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.planes.through_y import climb_over_planes
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -51,8 +51,6 @@ FINER = 2, 4, 8, 16
 #: The spring at r = b⁺ for the events of the cycle, by its w/b, and how exactly that is known. A hundredth or
 #: a hundred times the first, half or twice the second: no change at 32 points.
 ONSET, BESIDE = 1e-7, 0.3
-#: Where |q| is nearer to μp than this, relative, the spring at r slips. A hundred times: 3e-9.
-SLIDES = 1e-9
 #: Relative error by what is left out: of the orders ε and `ONSET`.
 LEFT_OUT = 2e-7
 
@@ -186,7 +184,7 @@ def _swt(
     look = Look.at(replace(scene, coordinate=edge), position, steps, digits)
     # The first of the three stretches of an interval ends at the onset; then T1 jumps, and the next begins.
     # Shortly before, the front passes r itself, where the pressure's logarithm ends at once: a kink, too.
-    sticks = np.abs(look.history.traction) < (1.0 - SLIDES) * look.history.pressure
+    sticks = np.abs(look.history.traction) < (1.0 - SAME) * look.history.pressure
     sticks &= np.roll(sticks, 1, axis=-1) & np.roll(sticks, -1, axis=-1)
     inside = look.inside & (look.placed.stretch % PER_INTERVAL == 0) & sticks
     planes = scene.planes(look.history, side)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.maximum import Maximum
+from swtstudy.mechanics.numerics.arrays import SAME
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.planes.ascent import ROUGH_STEP, climb, swap_instants
 from swtstudy.mechanics.planes.weights import normal_weights
@@ -43,8 +44,6 @@ FALLS = 0.01
 OFFSETS, ROUNDS = np.linspace(-1.0, 1.0, 5), 4
 #: What counts as higher than the line, relative: more than what the last round leaves.
 HIGHER = 1e-4
-#: Angles closer than this, rad, are one.
-SAME_ANGLE = 1e-9
 #: Steps of a smooth stretch of the cycle in the first look and around a place, and digits of tables. The
 #: first halved: 1e-2 low at a point of tests/mechanics/test_surface_circle.py; the second: 2e-2. Two digits
 #: less: 1e-4 to 1e-3 at 19 points.
@@ -132,7 +131,7 @@ def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> NDArray[n
     """Numbers of the places that may be as high as the highest of their circle; of those that meet one."""
     order = np.lexsort((swt, places.angle, places.circle))
     some = places.take(order)
-    meets = (np.diff(some.circle) == 0) & (np.diff(some.angle) < SAME_ANGLE)
+    meets = (np.diff(some.circle) == 0) & (np.diff(some.angle) < SAME)
     meets &= np.abs((some.normal[1:] * some.normal[:-1]).sum(axis=-1)) > ALIKE
     kept = ~np.append(meets, False) & (swt[order] >= (1.0 - FALLS) * highest[some.circle])
     return order[kept]

@@ -14,12 +14,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.harmonic_sum import even_instants
 from swtstudy.mechanics.load.load import PERIOD, Load
-from swtstudy.mechanics.numerics.arrays import align, filled_rows
+from swtstudy.mechanics.numerics.arrays import ROUNDING, TINY, align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray, Points
-
-#: Amplitudes below this do not move the normal load at all: they are lost beside 1.
-NO_AMPLITUDE = 1e-300
 
 
 @dataclass(frozen=True)
@@ -109,7 +106,7 @@ class BimodalLoad(Load):
     def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
         rate, normal_rate = self.rates_at_touch_down(normal, branch)
         # At a common turning point of both loads the ratio is bounded by 1, as everywhere in stick.
-        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
+        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > TINY)
         return -np.clip(ratio, -1.0, 1.0)
 
     def rates_at_touch_down(self, normal: FloatArray, branch: IntArray) -> tuple[FloatArray, FloatArray]:
@@ -131,7 +128,7 @@ class BimodalLoad(Load):
     def _sine(self, normal: FloatArray) -> FloatArray:
         """sin(qφ + ψ) at the instants φ at which the normal load has the value."""
         d = align(self.normal_amplitude, normal)
-        sine = np.divide(normal - 1.0, d, out=np.zeros_like(normal), where=d > NO_AMPLITUDE)
+        sine = np.divide(normal - 1.0, d, out=np.zeros_like(normal), where=d > TINY)
         return np.clip(sine, -1.0, 1.0)
 
     def _on_branch(self, sine: FloatArray, branch: IntArray) -> FloatArray:
@@ -219,7 +216,7 @@ def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray,
         The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
     """
     period = np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p
-    turns = np.floor(phase / period + 1e-12)
+    turns = np.floor(phase / period + ROUNDING)
     folded = np.maximum(phase - turns * period, 0.0)
     mirrored = (q % 2 == 1) & (turns % 2 == 1)
     return folded, mirrored
@@ -254,7 +251,7 @@ def fold_bulk_phase(
     """
     phase = phase + np.where(mirrored, np.pi, 0.0)
     period = np.where(both_ways, 1.0, 2.0) * np.pi
-    turns = np.floor(phase / period + 1e-12)
+    turns = np.floor(phase / period + ROUNDING)
     folded = np.maximum(phase - turns * period, 0.0)
     return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & (turns % 2 == 1))
 

@@ -10,16 +10,15 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics import chebyshev
+from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME
 from swtstudy.mechanics.numerics.roots import Brackets, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray
 
 #: Samples of a derivative for each harmonic between which its zeros are looked for. Four times as many find
 #: no others in 2,000 random sums of up to 6 harmonics.
 SAMPLES = 24
-#: Nodes of the inverse's series: doubled from the first to the last until the coefficients fall below this.
-LEAST_NODES, MOST_NODES, NEGLIGIBLE = 32, 256, 1e-13
-#: Last step to an instant without a series: the error is its cube.
-LAST_STEP = 1e-8
+#: Nodes of the inverse's series: doubled from the first to the last until the coefficients are rounding.
+LEAST_NODES, MOST_NODES = 32, 256
 #: Share of the largest rate below which a curve almost stops.
 SLOW = 0.1
 
@@ -128,7 +127,7 @@ class HarmonicSum:
             series = chebyshev.series(
                 self._instants(*np.broadcast_arrays(begin + (end - begin) * share, stretch))
             )
-            if np.abs(series[-2:]).max() < NEGLIGIBLE:
+            if np.abs(series[-2:]).max() < ROUNDING:
                 return series
             count *= 2
         return None
@@ -141,7 +140,7 @@ class HarmonicSum:
             return self.value(at), self.value(at, 1), self.value(at, 2)
 
         brackets = Brackets.of(curve, self.turns[stretch.ravel()], end[stretch.ravel()])
-        return monotone_roots(curve, value.ravel(), brackets, LAST_STEP).reshape(value.shape)
+        return monotone_roots(curve, value.ravel(), brackets, SAME).reshape(value.shape)
 
 
 def even_instants(order: int) -> FloatArray:

@@ -14,13 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD, Load
-from swtstudy.mechanics.numerics.arrays import align
+from swtstudy.mechanics.numerics.arrays import ROUNDING, align
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import FloatArray, IntArray
 
-#: Instants nearer to a vertex than this, over the number of sides, are the vertex: rounding is 3e-16 at most
-#: for 3 to 399 sides.
-AT_VERTEX = 1e-12
 #: Rounding of the corner's sine, in the sizes of its products: each has two differences and a product, 1.5 ε.
 STRAIGHT = 4.0 * float(np.finfo(float).eps)
 
@@ -229,7 +226,7 @@ def _side_and_share(instant: FloatArray, sides: FloatArray | np.float64) -> tupl
     """Number of the side on which each instant is, and the share of it that has passed."""
     place = instant * (sides / PERIOD)
     vertex = np.rint(place)
-    place = np.where(np.abs(place - vertex) < AT_VERTEX * sides, vertex, place)
+    place = np.where(np.abs(place - vertex) < ROUNDING * sides, vertex, place)
     side = np.clip(np.floor(place), 0.0, sides - 1.0)
     return side.astype(np.int64), place - side
 

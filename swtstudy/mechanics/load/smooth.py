@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.load.bimodal import NO_AMPLITUDE
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum, even_instants
 from swtstudy.mechanics.load.load import LARGEST, PERIOD, Load, Loop, checked_mean, checked_name, mean_of
-from swtstudy.mechanics.numerics.arrays import align, filled_rows
+from swtstudy.mechanics.numerics.arrays import ROUNDING, TINY, align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
 from swtstudy.mechanics.points import FloatArray, IntArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
@@ -98,7 +97,7 @@ class SmoothLoad(Load):
     def growth_slope(self, normal: FloatArray, branch: IntArray) -> FloatArray:
         instant = self.touch_down(normal, branch)
         rate, normal_rate = self.tangential_rate(instant), self.normal_rate(instant)
-        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > NO_AMPLITUDE)
+        ratio = np.divide(rate, normal_rate, out=np.zeros_like(rate), where=normal_rate > TINY)
         return -np.clip(ratio, -1.0, 1.0)
 
     def passage(self, normal: FloatArray, begin: FloatArray, end: FloatArray) -> FloatArray:
@@ -109,7 +108,7 @@ class SmoothLoad(Load):
             return np.broadcast_to(high, shape).copy()
         found = self.normal_sum.inverse(self._course(normal)[:, :, None], self.normal_sum.stretch(middle))
         found = found + PERIOD * np.round((middle - found) / PERIOD)
-        moves = (self.normal_amplitude > NO_AMPLITUDE)[:, None, None]
+        moves = (self.normal_amplitude > TINY)[:, None, None]
         return np.where(moves, np.clip(found, low, high), high)
 
     def slip_line_brackets(self, sense: float, low: FloatArray, high: FloatArray) -> Brackets:
@@ -125,7 +124,7 @@ class SmoothLoad(Load):
     def _course(self, normal: FloatArray) -> FloatArray:
         """c_n at normal loads."""
         amplitude = align(self.normal_amplitude, normal)
-        return np.divide(normal - 1.0, amplitude, out=np.zeros_like(normal), where=amplitude > NO_AMPLITUDE)
+        return np.divide(normal - 1.0, amplitude, out=np.zeros_like(normal), where=amplitude > TINY)
 
     def _contact_changes(self) -> FloatArray:
         """Instants at which contact is made or lost, shape (n, k), filled up with the period's end."""
@@ -163,8 +162,8 @@ class SmoothLoad(Load):
 
 #: Highest harmonic of a loop: that of the frequency ratio of two.
 HIGHEST_ORDER = 64
-#: Samples of a function for its harmonics, and the share of the largest below which they are rounding.
-SAMPLES, ROUNDING = 1024, 1e-12
+#: Samples of a function for its harmonics.
+SAMPLES = 1024
 
 
 class SmoothPath(Loop):

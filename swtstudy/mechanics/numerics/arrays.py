@@ -16,6 +16,14 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
 
+#: What is nearer than this, relative or in rad, is apart by rounding.
+ROUNDING = 1e-12
+#: What is nearer than this is the same: a hundredth of the least error that is claimed for s.
+SAME = 1e-9
+#: Less than this is nothing: it divides nothing, and has no logarithm.
+TINY = 1e-300
+#: The same for what is raised to the third power before it divides.
+TINY_ROOT = 1e-100
 #: Longest rows that are counted column by column. Halving takes 0.7 to 2 times as long at 16, 0.3 at 48.
 SHORT = 24
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.numerics.arrays import gather, pick
+from swtstudy.mechanics.numerics.arrays import TINY, gather, pick
 from swtstudy.mechanics.points import FloatArray, Rows
 
 #: Steps fall back to bisection when they leave the bracket, so this many always suffice. Ten do at 56 points.
@@ -115,7 +115,7 @@ def _first_guess(goal: FloatArray, brackets: Brackets) -> FloatArray:
     excess = (first + last - 2.0) * level
     a, b = 1.0 - first + excess, first - excess
     return np.clip(
-        2.0 * level / np.maximum(b + np.sqrt(np.maximum(b * b + 4.0 * a * level, 0.0)), 1e-300), 0.0, 1.0
+        2.0 * level / np.maximum(b + np.sqrt(np.maximum(b * b + 4.0 * a * level, 0.0)), TINY), 0.0, 1.0
     )
 
 

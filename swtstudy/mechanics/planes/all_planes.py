@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.numerics.arrays import hemisphere
+from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, TINY, hemisphere
 from swtstudy.mechanics.planes.ascent import climb, swap_instants
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.planes.weights import normal_weights, symmetric_tensor
@@ -80,7 +80,7 @@ def swt_of_history(
     best = swt.reshape(CANDIDATES, -1).argmax(axis=0), np.arange(len(history))
     swt, normal = swt.reshape(CANDIDATES, -1)[best], normal.reshape(CANDIDATES, -1, 3)[best]
     # n and −n are the same plane: show the one whose first component that is not 0 is positive.
-    first = np.argmax(np.abs(normal) > 1e-9, axis=1)
+    first = np.argmax(np.abs(normal) > SAME, axis=1)
     normal = normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
     return CriticalPlane(swt.reshape(batch), normal.reshape(*batch, 3))
 
@@ -153,7 +153,7 @@ def _distinct(normal: FloatArray) -> np.ndarray:
     distinct = np.ones(summits.shape[:2], dtype=bool)
     for late in range(1, CANDIDATES):
         closeness = np.abs((summits[:late] * summits[late]).sum(axis=-1))
-        distinct[late] = (closeness < 1.0 - 1e-12).all(axis=0)
+        distinct[late] = (closeness < 1.0 - ROUNDING).all(axis=0)
     return distinct.ravel()
 
 
@@ -200,8 +200,6 @@ def _beside() -> NDArray[np.intp]:
     return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]
 
 
-#: Lengths below this share of a path are none.
-NO_LENGTH = 1e-12
 #: Steps for each dimension and point at most: each adds a point to those on the sphere or drops one.
 STEPS = 50
 
@@ -227,21 +225,21 @@ def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:
     """
     centre = points[0].copy()
     on = [int(((points - centre) ** 2).sum(axis=1).argmax())]
-    size = max(float(np.ptp(points, axis=0).max()), 1e-300)
+    size = max(float(np.ptp(points, axis=0).max()), TINY)
     for _ in range(STEPS * (points.shape[1] + len(points))):
         base, others = points[on[0]], points[on[1:]] - points[on[0]]
         share = np.linalg.lstsq(others.T, centre - base, rcond=None)[0]
         way = base + share @ others - centre
-        if np.linalg.norm(way) <= NO_LENGTH * size:
+        if np.linalg.norm(way) <= ROUNDING * size:
             shares = np.append(1.0 - share.sum(), share)
-            if shares.min() >= -NO_LENGTH:
+            if shares.min() >= -ROUNDING:
                 break
             on.pop(int(shares.argmin()))
             continue
         short = ((points - centre) ** 2).sum(axis=1) - ((base - centre) ** 2).sum()
         nears = 2.0 * (base - points) @ way
         nears[on] = 0.0
-        reaches = nears > NO_LENGTH * size**2
+        reaches = nears > ROUNDING * size**2
         stop = np.full(len(points), np.inf)
         stop[reaches] = np.maximum(-short[reaches], 0.0) / nears[reaches]
         first = int(stop.argmin())

@@ -16,14 +16,13 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights, tangent_basis
 from swtstudy.mechanics.points import FloatArray
 
 #: Largest step of a climb, rad. Half or twice: 2e-16 in 16 values of bodies.
 LARGEST_STEP = 0.2
-#: Last step of a climb, rad: the height's relative error is its square. 1e-11 or 1e-7: 2e-16.
-SMALLEST_STEP = 1e-9
 #: The same where it only says where to look next. 1e-9: twice the steps.
 ROUGH_STEP = 3e-3
 #: Steps of a climb at most. Half or twice: no change in 16 values of bodies.
@@ -42,7 +41,7 @@ def climb(
     tensor: FloatArray,
     start: FloatArray,
     criterion: Criterion,
-    last_step: float = SMALLEST_STEP,
+    last_step: float = SAME,
 ) -> tuple[FloatArray, FloatArray]:
     """Climb to a summit over the planes for each history.
 
@@ -199,8 +198,8 @@ def _newton_step(
     mean, difference = 0.5 * (stiff_11 + stiff_22), 0.5 * (stiff_11 - stiff_22)
     softest = mean - np.hypot(difference, stiff_12)
     length = np.hypot(slope_1, slope_2)
-    shift = np.maximum(np.maximum(length / trust, 1e-12) - softest, 0.0)
-    concave = softest > 1e-12
+    shift = np.maximum(np.maximum(length / trust, ROUNDING) - softest, 0.0)
+    concave = softest > ROUNDING
     determinant = np.where(concave, stiff_11 * stiff_22 - stiff_12**2, 1.0)
     newton = np.hypot(stiff_22 * slope_1 - stiff_12 * slope_2, stiff_11 * slope_2 - stiff_12 * slope_1)
     shift[concave & (newton <= trust * determinant)] = 0.0

@@ -31,13 +31,12 @@ from typing import ClassVar, Self
 
 import numpy as np
 
+from swtstudy.mechanics.numerics.arrays import TINY, TINY_ROOT
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS, Swing
 from swtstudy.mechanics.points import FloatArray, Points, Rows
 
 #: Values and two derivatives, each of the same shape.
 Jet = tuple[FloatArray, FloatArray, FloatArray]
-#: Values below this have no logarithm.
-NO_VALUE = 1e-300
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ class Criterion(Rows, ABC):
         slope, stiffness
             Shape (n, 2) and (n, 3): first derivatives, and second ones with the sign changed.
         """
-        value = np.maximum(self.value(tension[:, 0], amplitude[:, 0]), NO_VALUE)
+        value = np.maximum(self.value(tension[:, 0], amplitude[:, 0]), TINY)
         partials = self.partials(tension[:, 0], amplitude[:, 0])
         first, second, both_first, mixed, both_second = (
             np.broadcast_to(each / value, value.shape)[:, None] for each in partials
@@ -124,7 +123,7 @@ class Criterion(Rows, ABC):
 
     def powers(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, FloatArray]:
         """With which powers of T and a f > 0 goes there: the derivatives of ln f by their logarithms."""
-        value = np.maximum(self.value(tension, amplitude), NO_VALUE)
+        value = np.maximum(self.value(tension, amplitude), TINY)
         first, second, *_ = self.partials(tension, amplitude)
         return first * tension / value, second * amplitude / value
 
@@ -147,8 +146,6 @@ class Criterion(Rows, ABC):
 
 #: γ of the Smith–Watson–Topper parameter.
 SWT_EXPONENT = 0.5
-#: Amplitudes below this are none: what is divided by it has a finite square.
-NO_AMPLITUDE = 1e-100
 
 
 @dataclass(frozen=True)
@@ -191,7 +188,7 @@ class Swt(Criterion):
 
     def partials(self, tension: FloatArray, amplitude: FloatArray) -> tuple[FloatArray, ...]:
         α, β = self.powers(tension, amplitude)
-        T, a, f = tension, np.maximum(amplitude, NO_AMPLITUDE), self.value(tension, amplitude)
+        T, a, f = tension, np.maximum(amplitude, TINY_ROOT), self.value(tension, amplitude)
         return α * f / T, β * f / a, α * (α - 1.0) * f / T**2, α * β * f / (T * a), β * (β - 1.0) * f / a**2
 
     def derivatives(self, tension: Jet, amplitude: Jet) -> tuple[FloatArray, FloatArray]:
@@ -200,7 +197,7 @@ class Swt(Criterion):
             return df * g + f * dg, ddf * g + 2.0 * df * dg + f * ddg
         # σ_n times a power κ of ε_n has its maxima there, too: f g^κ, over g^(κ − 1).
         κ = self.exponent / (1.0 - self.exponent)
-        g = np.maximum(g, NO_AMPLITUDE)
+        g = np.maximum(g, TINY_ROOT)
         slope = df * g + κ * f * dg
         return slope, ddf * g + κ * (2.0 * df * dg + f * ((κ - 1.0) * dg * dg / g + ddg))
 

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from swtstudy.mechanics.numerics.arrays import SAME, TINY_ROOT
 from swtstudy.mechanics.planes.weights import (
     apply_jets,
     bilinear_weights,
@@ -25,9 +26,6 @@ from swtstudy.mechanics.points import FloatArray
 #: Lines in the plane of which a look at many planes takes the one with the largest swing, and from which the
 #: largest chord is looked for: 2 and 0.5 % of it may be missed.
 COARSE_LINES, LINES = 8, 16
-#: A swing below this has no line, and below this share of the change of the stress no direction in which it
-#: rises.
-NO_SWING, NO_SHARE = 1e-100, 1e-9
 
 
 class Swing(ABC):
@@ -208,7 +206,7 @@ class ShearStress(Swing):
         normal, whole = apply_jets(jets, change), apply_jets(jets, squared(change))
         square = whole - 2.0 * normal[:, :1] * normal
         # Where nothing swings it has a tip.
-        least = NO_SWING**2 + NO_SHARE**2 * (change * change).sum(axis=1)
+        least = TINY_ROOT**2 + SAME**2 * (change * change).sum(axis=1)
         square[:, 0] = np.maximum(whole[:, 0] - normal[:, 0] ** 2, least)
         one, two = [1, 2, 1], [1, 2, 2]
         square[:, 3:] -= 2.0 * normal[:, one] * normal[:, two]
@@ -256,7 +254,7 @@ def _chord(path: FloatArray) -> FloatArray:
     length = np.hypot(chords[..., 0], chords[..., 1])
     best = length.argmax(axis=1)
     chord, length = chords[row[:, 0], best], length[row[:, 0], best]
-    return np.where((length > NO_SWING)[:, None], chord / np.maximum(length, NO_SWING)[:, None], [1.0, 0.0])
+    return np.where((length > TINY_ROOT)[:, None], chord / np.maximum(length, TINY_ROOT)[:, None], [1.0, 0.0])
 
 
 SHEAR_STRESS = ShearStress()

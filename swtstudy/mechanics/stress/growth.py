@@ -19,6 +19,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import Growths
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics import chebyshev
+from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 
 #: Chebyshev nodes for each oscillation of the tangential load while the ground grows. Half: 3e-7, no faster.
@@ -54,7 +55,7 @@ class GrowthIntegrals:
         smooth = max(4.0 * digits - 6.0, 7.0 * digits - 20.0) + NODES_PER_OSCILLATION * (tangential / normal)
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
         amplitude = cycle.load.normal_motion
-        share = tangential * (cycle.load.motion - amplitude) / np.maximum(normal * amplitude, 1e-300)
+        share = tangential * (cycle.load.motion - amplitude) / np.maximum(normal * amplitude, TINY)
         more = np.where(coordinate.profile.tip, digits, max(digits - 5.0, 0.0))
         slow = np.where(share < SLOW, 1.0, 0.5 * (share < LESS_SLOW))
         nodes = count + np.ceil(slow * NODES_PER_DIGIT * more).astype(np.intp)
@@ -108,7 +109,7 @@ class GrowthIntegrals:
         """Density of Π over the root, shape (1, m, nodes)."""
         r, b = self.position[at[:2]], self.flat[at[0], 0]
         radius = np.sqrt(root * root + r * r)
-        gap = np.sqrt(np.maximum(radius * radius - b * b, 1e-300))
+        gap = np.sqrt(np.maximum(radius * radius - b * b, TINY))
         return (self._weighted_growth(at, radius) / (radius * gap))[None]
 
     def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
@@ -196,7 +197,7 @@ class _OverRanges:
 
 def _inner_angle(radius: FloatArray, r: FloatArray, b: FloatArray) -> FloatArray:
     """α of a spring inside r, ξ² = b² + (r² − b²) sin²α; π/2 of one outside."""
-    sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, 1e-300)
+    sine = np.maximum(radius**2 - b**2, 0.0) / np.maximum(r**2 - b**2, TINY)
     return np.asarray(np.arcsin(np.sqrt(np.clip(sine, 0.0, 1.0))))
 
 

@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from swtstudy.mechanics.numerics.arrays import TINY_ROOT
 from swtstudy.mechanics.points import FloatArray
 
 # ruff: noqa: N815 – the names are the symbols of the theory.
@@ -125,11 +126,6 @@ def stacked(*components: FloatArray) -> FloatArray:
     return np.stack(np.broadcast_arrays(*components), axis=-1)
 
 
-#: Below this |U| (the origin, seen from the punch of radius 0) the primitives are cut off: U⁻³ is a number. A
-#: slope that starts with g′(0) = 0 gives that end of its cell no weight. 1e-82 or 1e-78: no change.
-SMALLEST_U = 1e-80
-
-
 def primitives(r: FloatArray, z: FloatArray, radius: FloatArray) -> tuple[PunchFunctions, PunchFunctions]:
     """Indefinite integrals over ξ of the ten functions' imaginary parts, weighted with 1 and with ξ.
 
@@ -146,8 +142,9 @@ def primitives(r: FloatArray, z: FloatArray, radius: FloatArray) -> tuple[PunchF
     R = complex_distance(r, z, radius)
     η = 1j * radius
     U = R + (z + η)
-    origin = np.abs(U) < SMALLEST_U
-    U[origin] = SMALLEST_U
+    # The origin, seen from the punch of radius 0: a slope that starts with g′(0) = 0 gives it no weight.
+    origin = np.abs(U) < TINY_ROOT
+    U[origin] = TINY_ROOT
     L = 1.0 / U
     L[origin] = 0.0
     # At the edge of the punch in the surface z/R is 0/0, with the limit 0.

@@ -14,12 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from swtstudy.mechanics.numerics.arrays import TINY_ROOT
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.punch import stacked
-
-#: Below this |w| places are cut off: at the origin the strip of half-width 0 is a point load. A slope that
-#: starts with N′(0) = 0 gives that end of its cell no weight.
-SMALLEST_W = 1e-80
 
 
 class StripFunctions(NamedTuple):
@@ -56,7 +53,7 @@ def strip_primitives(
 
 def _place(x: FloatArray, z: FloatArray) -> NDArray[np.complex128]:
     w = np.abs(x) + 1j * z
-    return np.where(np.abs(w) < SMALLEST_W, SMALLEST_W, w)
+    return np.where(np.abs(w) < TINY_ROOT, TINY_ROOT, w)
 
 
 def _root(w: NDArray[np.complex128], radius: FloatArray) -> NDArray[np.complex128]:

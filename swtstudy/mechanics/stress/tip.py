@@ -17,6 +17,7 @@ from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray, Rows
 
 
@@ -91,14 +92,14 @@ class SlowerTime(Rows):
         if not np.any(r < told):
             return None
         far = np.broadcast_to(coordinate.radius((slowness.until * over)[:, None]), r.shape)
-        return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, 1e-300)))
+        return cls(np.log(told / r), np.log(slowness.beside * told), np.log(np.maximum(far, TINY)))
 
     def put(self, radius: FloatArray, own: NDArray[np.bool_] | None = None) -> None:
         """Put what stands for radii, shape (n, X, T), in place, but for those at their ``own`` time."""
         at = np.nonzero(self.shift > 0.0)
         shift, near, far = (values[at][:, None] for values in vars(self).values())
         some = radius[at]
-        share = (far - np.log(np.maximum(some, 1e-300))) / (far - near)
+        share = (far - np.log(np.maximum(some, TINY))) / (far - near)
         slower = some * np.exp(-shift * np.clip(share, 0.0, 1.0))
         radius[at] = slower if own is None else np.where(own[at], some, slower)
 

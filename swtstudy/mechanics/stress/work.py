@@ -23,11 +23,10 @@ from swtstudy.mechanics.control.coordinate import (
     ForceCoordinate,
     StripDisplacement,
 )
-from swtstudy.mechanics.control.normal_map import LEAST_RADIUS
 from swtstudy.mechanics.events.stretches import split_at_breakpoints
 from swtstudy.mechanics.indenter.plane import PlaneProfile
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import between
+from swtstudy.mechanics.numerics.arrays import SAME, between
 from swtstudy.mechanics.numerics.roots import parabola
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.scene import Scene
@@ -169,7 +168,7 @@ class Conjugate:
             first, last = (load.touch_down(ends[grown], branch) for ends in (start, end))
             node, weight = self.rule()
             instant = first[:, None] + (last - first)[:, None] * (0.5 + 0.5 * node)
-            radius = np.maximum(coordinate.radius(load.normal(instant)), LEAST_RADIUS)
+            radius = np.maximum(coordinate.radius(load.normal(instant)), SAME)
             rate = load.tangential_rate(instant) * self._stiffness(radius, self.unit[index, None])
             result[grown] = 0.5 * (last - first) * (rate * weight).sum(axis=1)
         return result
@@ -197,8 +196,6 @@ LEAST_ERROR, ROUNDING = 2e-7, 1e-15
 SAMPLES, CLOSE_SAMPLES = 32, 8
 #: A maximum so far below the largest sample is not looked at again. The samples miss 1e-3 at most.
 MARGIN = 0.01
-#: A normal force below this share of the largest is none. 0, 1e-12 or 1e-6: no change at 305 points.
-NO_CONTACT = 1e-9
 
 
 def dissipated_work(scene: Scene, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -250,7 +247,7 @@ def _work(conjugate: Conjugate) -> tuple[FloatArray, FloatArray]:
 def largest_force_ratio(scene: Scene, unit: FloatArray) -> FloatArray:
     """Largest |F_x|/(μ F_N) while there is contact, shape (n,); parameters as of `dissipated_work`."""
     conjugate = Conjugate.of(scene, unit, NODES)
-    least = NO_CONTACT * conjugate.normal_force(scene.cycle.load.largest_normal[:, None])[:, 0]
+    least = SAME * conjugate.normal_force(scene.cycle.load.largest_normal[:, None])[:, 0]
     angle = np.pi * np.arange(SAMPLES + 1) / SAMPLES
     ratio = _ratio(conjugate, angle, least)
     largest = ratio.max(axis=(1, 2))
