@@ -35,8 +35,8 @@ Array = NDArray[np.float64]
 RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")]
 #: Ranges of the shapes of plane profiles.
 PLANE = {"rounded_flat": {"flat_half_width": (0.05, 2.0)}, "power_law_cylinder": {"exponent": (1.2, 6.0)}}
-#: The dense look: steps of each piece, and planes.
-STEPS, PLANES = 64, 32
+#: The dense look: steps of each piece, but fewer where the cycle has more than so many intervals, and planes.
+STEPS, INTERVALS, PLANES = 64, 32, 32
 #: Points that are drawn, and solved, together.
 CHUNK = 50
 RTOLS = 1e-4, 1e-6
@@ -142,7 +142,7 @@ SCENES = {
         for name in ("cylinder", *PLANE)
     },
     "a table": (table, 500),
-    "loops of 4 to 200 vertices": (loops, 1_000),
+    "loops of 4 to 200 vertices": (loops, 400),
     "bulk stress": (bulk_stress, 1_000),
     "next to no bulk stress": (next_to_no_bulk_stress, 500),
     "Walker's exponent": (walker, 1_000),
@@ -181,7 +181,9 @@ def _dense(points: Points, some: NDArray[np.bool_], kept: Path | None) -> tuple[
     found = np.full((2, some.size), np.nan)
     with np.errstate(all="ignore"):
         for k in np.flatnonzero(some):
-            found[:, k] = dense_look(scene_of(points.take(np.array([k]))), STEPS, PLANES)
+            scene = scene_of(points.take(np.array([k])))
+            longer = max(scene.cycle.begin.shape[1] // INTERVALS, 1)
+            found[:, k] = dense_look(scene, STEPS // longer, PLANES)
     if kept is not None:
         np.savez(kept, found=found)
     return found[0], found[1]
@@ -193,7 +195,7 @@ def lines(found: dict[str, Array]) -> Iterator[str]:
     yield ""
     yield (
         f"s of random points against a dense look at the line: {STEPS} cosine-spaced steps of each piece "
-        f"between two cusps, {PLANES} planes, four times the instants, then the highest places on closer "
+        f"between two cusps (fewer where the cycle has more than {INTERVALS} intervals), {PLANES} planes, four times the instants, then the highest places on closer "
         "grids. `python studies/checks/overlooked.py`"
     )
     yield ""
