@@ -196,7 +196,7 @@ def lines(found: dict[str, Array]) -> Iterator[str]:
     yield (
         f"s of random points against a dense look at the line: {STEPS} cosine-spaced steps of each piece "
         f"between two cusps (fewer where the cycle has more than {INTERVALS} intervals), {PLANES} planes, "
-        "four times the instants, then the highest places on closer grids. `python studies/checks/overlooked.py`"
+        "four times the instants, then the highest places on closer grids. `studies/checks/overlooked.py`"
     )
     yield ""
     heads = [f"{what} at rtol {rtol:g}" for rtol in RTOLS for what in ("low by more than s_error", "lowest")]
