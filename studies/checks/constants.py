@@ -23,7 +23,6 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
 KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
-KINDS |= {"stress.tip": "tip"}
 KINDS |= {
     "harmonic_sum": "loop",
     "smooth": "loop",
@@ -53,7 +52,6 @@ OTHERS = {
     "look.REACH": ("0.125",),
     "maximum.SHARES": ("v[2:]", "(0.9,)"),
     "positions.INNERMOST": ("10 * v",),
-    "positions.INNERMOST_OF_LOST": ("20 * v",),
     "roots.LARGEST_STEP_COUNT": ("10",),
     "roots.LAST_STEP": ("100 * v",),
     "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
@@ -65,8 +63,6 @@ OTHERS = {
     "rounds.WALKING": ("v / 2",),
     "singular_edge.FINER": ("v[:1]", "v[1:]"),
     "stretches.PER_INTERVAL": (),
-    "tip.OF_EDGE": ("Slowness(1e-9, 1e-7, 10.0)", "Slowness(1e-5, 1e-3, 10.0)"),
-    "tip.OF_FRONT": ("Slowness(1e-12, 1e-9, 30.0)", "Slowness(1e-7, 1e-5, 10.0)"),
     "wavy.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),
     "body_maximum.DEPTHS": ("v[::2]",),

@@ -43,14 +43,6 @@ def sliding_at_edge(count: int) -> Points:
     return replace(points, friction=slides[0], tangential_amplitude=slides[1])
 
 
-def at_tip(count: int) -> Points:
-    """Sharp tips, lost contact and large friction."""
-    points = random("power_law", 1, 2)(count)
-    dice = np.random.default_rng(SEED).uniform(size=(3, count))
-    changed = {"friction": 0.3 + 3.0 * dice[0], "normal_amplitude": 1.0 + 2.0 * dice[1]}
-    return replace(points, shape={"exponent": 1.0 + 10.0 ** (-1.0 - 2.0 * dice[2])}, **changed)
-
-
 def of_table(count: int) -> Points:
     """A worn paraboloid, as a table."""
     return replace(random("paraboloid", 1, 2)(count), profile=worn())
@@ -148,7 +140,6 @@ KINDS: dict[str, tuple[list[Callable[[int], Points]], Callable[[Points, float], 
     ),
     "wavy": ([random("wavy_paraboloid", 1, 2)], on_line),
     "power": ([random("power_law", 1, 2), at_ends("power_law", 1, 1)], on_line),
-    "tip": ([at_tip], on_line),
     "table": ([of_table], on_line),
     "loop": ([smooth_loop, polygon], on_line),
     "force": ([mixed, forces], on_line),

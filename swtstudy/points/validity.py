@@ -10,12 +10,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
+#: Positions nearer to a sharp tip than this, in a_H, are the innermost ones, or next to them.
+BESIDE_TIP = 10.0 * INNERMOST
 #: Rounding of a ratio that is 1.
 _ROUNDING = 1e-9
 
@@ -80,7 +83,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     inside
         Whether to say, too, how far all points are from the limits that they are inside of.
     """
-    lines = [*_without_s(dataset), *_off_line(dataset), *_lives(dataset)]
+    lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -199,6 +202,16 @@ def _off_line(dataset: xr.Dataset) -> Iterator[str]:
         times = f"s_surface is up to {_number(worst)} times as large"
         found = times if np.isfinite(worst) else "s is 0, and s_surface is not,"
         yield f"s is not the largest value{_where(out)}: {found}{_place(dataset, factor)}"
+
+
+def _beside_tip(dataset: xr.Dataset) -> Iterator[str]:
+    """Points at which swt rises up to a sharp tip."""
+    if "exponent" in dataset.coords and "critical_x" in dataset:
+        is_sharp = _over_points(dataset, dataset.exponent) < 2.0
+        out = is_sharp & (np.abs(_over_points(dataset, dataset.critical_x)) < BESIDE_TIP)
+        if out.any():
+            nearer = f"s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
+            yield f"swt rises up to the tip{_where(out)}: {nearer}"
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
+from swtstudy.mechanics.numerics.arrays import TINY_ROOT
 from swtstudy.points.canonical import canonical_number, rounded
 from swtstudy.units.rows import least_depths, length_of, number_of
 from swtstudy.vocabulary.choices import is_plane
@@ -187,8 +188,8 @@ class Contact:
         if profile.has_singular_edge and profile.flat_radius[0] > 0.0:
             return math.inf
         edge = profile.radius(np.ones((1, 1)))
-        r = edge * np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII))[None]
-        r = np.append(r, profile.singular_approach, axis=1)
+        # Towards a sharp tip it rises within any radius.
+        r = edge * np.append(TINY_ROOT, np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII)))
         outer = profile.primitives(r, _DIGITS).outer(edge[:, :, None])[0]
         return self.stress_scale * float(outer.max()) / math.pi
 

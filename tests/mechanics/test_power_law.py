@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from oracles.point_loads import sum_of_point_loads
 from scenes import points, take
-from scipy.integrate import quad
+from scipy.integrate import cumulative_trapezoid, quad
 from scipy.special import gamma
 
 import swtstudy
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.indenter import make_profile
+from swtstudy.mechanics.line.positions import INNERMOST
+from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.stress.scene import scene_of
 
 EXPONENTS = (1.1, 1.5, 2.0, 4.0, 10.0)
@@ -117,18 +121,63 @@ def test_s_is_that_of_the_field(n: float) -> None:
         assert float(Body(scene, nodes, cells=80).swt(x, 0.0, 0.0).swt) == pytest.approx(found.s[k], rel=1e-5)
 
 
-def test_s_at_the_tip() -> None:
-    """Sliding to and fro at a constant force: at the tip the stresses are p, μp and (1/2 + ν) p alone."""
-    n, ν, μ = 1.2, 0.3, 2.0
-    one = points("power_law", ν, μ, normal_amplitude=0.0, tangential_amplitude=5.0, exponent=n)
-    found = solve_points(one, 1e-6)
-    p = n / (n - 1.0) / np.pi
-    θ = np.linspace(0.0, 0.5 * np.pi, 200001)
-    shear = μ * np.sin(2.0 * θ)
-    tension = shear - (0.5 + ν) * np.cos(θ) ** 2 - np.sin(θ) ** 2
-    expected = (p**2 * tension * shear / (1.0 - ν)).max()
-    assert abs(found.critical_x[0]) < 1e-40
-    assert found.s[0] == pytest.approx(expected, rel=1e-6)
+def sliding_swt(n: float, ν: float, μ: float, r: float, a: NDArray[np.float64], side: float) -> float:
+    """Largest swt at r over planes, while the edge comes to and goes from radii a, all springs at τ = w."""
+    t = np.arccosh(np.maximum(a / r, 1.0))
+    ξ = r * np.cosh(t)
+    # Over the springs outside of r, ξ = r cosh t, and inside, ξ = r sin φ.
+    outer = cumulative_trapezoid(n * ξ ** (n - 1.0), t, initial=0.0)
+    within = cumulative_trapezoid(n * ξ ** (n - 1.0) * np.exp(-t) * r * np.sinh(t), t, initial=0.0)
+    φ = np.arcsin(np.minimum(a / r, 1.0))
+    g = n * (r * np.sin(φ)) ** (n - 1.0)
+    first, third, normal = (
+        cumulative_trapezoid(values, φ, initial=0.0)
+        for values in (2.0 * np.sin(φ) * g, 2.0 * np.sin(φ) ** 3 * g, np.sin(φ) * np.cos(φ) * g)
+    )
+    p, mean = outer / np.pi, 2.0 / np.pi * (normal + within / r)
+    # τ′ = −g′.
+    pull = -side * μ / np.pi
+    spread = 0.5 * (1.0 - 2.0 * ν) * mean
+    xx = spread - p + pull * ((1.0 + ν) * first - ν * third)
+    yy = -spread - 2.0 * ν * p + pull * ν * third
+    zz, xz = -p, -μ * p
+    best = 0.0
+    for θ in np.linspace(-0.5 * np.pi, 0.5 * np.pi, 721):
+        c, s = np.cos(θ), np.sin(θ)
+        tension = c * c * xx + s * s * zz + 2.0 * s * c * xz
+        strain = (tension * (1.0 + ν) - ν * (xx + yy + zz)) / (1.0 - ν * ν)
+        best = max(best, tension.max() * 0.5 * np.ptp(strain))
+    return best
+
+
+def test_next_to_a_sharp_tip() -> None:
+    """A loop on which all springs slide one way while there is contact: one radius says it all."""
+    n, ν, μ = 1.01, 0.3, 0.6
+    loop = LoadPath("sliding", [(-1.0, -10.0), (1.0, 0.0), (-1.0, 10.0)])
+    point = replace(points("power_law", ν, μ, 1.0, 1.0, exponent=n), path=loop)
+    found = solve_points(point, 1e-5)
+    deepest = float(scene_of(point).cycle.load.largest_normal[0])
+    x, largest = float(found.critical_x[0]), deepest ** (1.0 / n)
+    # swt rises up to the tip; what is nearer is left out.
+    assert abs(x) == pytest.approx(INNERMOST * largest, rel=1e-6)
+    near = abs(x) * np.concatenate(
+        [np.sin(np.linspace(0.0, 0.5 * np.pi, 4000)), np.geomspace(1.0, largest / abs(x), 80000)]
+    )
+    assert found.s[0] == pytest.approx(sliding_swt(n, ν, μ, abs(x), near, np.sign(x)), rel=2e-4)
+
+
+def test_results_say_that_swt_rises_up_to_a_sharp_tip() -> None:
+    given = {"profile": "power_law", "normal_amplitude": 0.0, "tangential_amplitude": 5.0, "friction": 1.0}
+    sharp = swtstudy.solve(exponent=[1.05, 1.6], **given)
+    (line,) = [each for each in sharp.swt.validity() if "tip" in each]
+    assert line.startswith("swt rises up to the tip at 1 of 2 points")
+    assert sharp.critical_x[0] == pytest.approx(INNERMOST, rel=1e-6)
+    assert not any("tip" in each for each in sharp.isel(exponent=1).swt.validity())
+    # A blunt one is smooth there.
+    blunt = swtstudy.solve(
+        exponent=2.5, bulk_stress_mean=-0.4, bulk_stress_amplitude=0.41, **given | {"friction": 0.0}
+    )
+    assert not any("tip" in each for each in blunt.swt.validity())
 
 
 @pytest.mark.parametrize("n", [1.5, 4.0])

@@ -92,7 +92,7 @@ def time_nodes(scene: Scene, count: int, radius: ArrayLike = ()) -> TimeNodes:
     r = np.asarray(radius, dtype=float).reshape(1, -1)
     # A spring that never touches sees neither edge nor front.
     coordinate = scene.coordinate.of(r) if r.size else 1.0 + scene.cycle.load.largest_normal[:, None]
-    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, coordinate, coordinate), count)
+    nodes, _ = cosine_nodes(scene.cycle, stretches(scene.cycle, coordinate), count)
     return _sorted_nodes(scene, nodes.instant[0])
 
 

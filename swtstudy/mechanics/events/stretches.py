@@ -131,21 +131,21 @@ class Stretches(Rows):
         return np.minimum.accumulate(behind, axis=-1)[..., ::-1]
 
 
-def stretches(cycle: Cycle, of_edge: FloatArray, of_front: FloatArray) -> Stretches:
+def stretches(cycle: Cycle, at: FloatArray) -> Stretches:
     """Each interval cut where the contact edge and the slip front pass a spring.
 
     Parameters
     ----------
     cycle
         n cycles of i intervals.
-    of_edge, of_front
-        Shape (n, X): G of the springs that they pass, those at r = |x|, or next to a tip others.
+    at
+        Shape (n, X): G of the springs, those at r = |x|.
     """
-    edge = cycle.load.passage(of_edge, cycle.begin, cycle.end)
-    front = front_passes(cycle, of_front)
+    edge = cycle.load.passage(at, cycle.begin, cycle.end)
+    front = front_passes(cycle, at)
     begin, end = (np.broadcast_to(instant[:, None], edge.shape) for instant in (cycle.begin, cycle.end))
     ends = np.stack([begin, np.minimum(front, edge), np.maximum(front, edge), end], axis=-1)
-    low, high = (ends[..., side].reshape(*of_edge.shape, -1) for side in (slice(3), slice(1, 4)))
+    low, high = (ends[..., side].reshape(*at.shape, -1) for side in (slice(3), slice(1, 4)))
     return Stretches(low, high)
 
 

@@ -138,13 +138,8 @@ class Profile(Rows, ABC):
         return np.zeros(len(self.largest_depth))
 
     @property
-    def tip(self) -> NDArray[np.bool_]:
-        """Shape (n,): which have a tip, where g′ does not fall to 0, or slowly."""
-        return np.zeros(len(self.largest_depth), dtype=bool)
-
-    @property
     def singular_approach(self) -> FloatArray:
-        """Shape (n, k): radii that lead up to a singularity of the stress or a tip, in ever smaller steps."""
+        """Shape (n, k): radii that lead up to a singularity of the stress, in ever smaller steps."""
         return np.zeros((len(self.largest_depth), 0))
 
     @property

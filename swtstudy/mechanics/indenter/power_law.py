@@ -21,10 +21,6 @@ from swtstudy.mechanics.points import FloatArray
 INNER_NODES, OUTER_NODES_PER_DIGIT = 6, 1.3
 #: r/a at which the two outer series meet: their singularities, at 0 and at 1, are equally far in (r/a)².
 MEETING = math.sqrt(0.5)
-#: Below this exponent swt may be largest at the tip, where it turns within any radius (1.55 at friction 5
-#: in 243 points). Positions on the way there, ever farther apart, up to this share of rⁿ⁻¹ or of r, whichever
-#: comes first.
-BLUNTEST_TIP, APPROACH_COUNT, NEAREST_POWER, NEAREST = 1.6, 13, 1e-9, 1e-140
 #: Terms of the power series from which the series for small r/a is made: 2⁻⁵² at `MEETING`.
 TERMS = 52
 
@@ -55,20 +51,6 @@ class PowerLaw(Profile):
 
         n = shape["exponent"]
         return 0.5 * float(beta(0.5 * n, 0.5)), 1.0 / n
-
-    @property
-    def tip(self) -> NDArray[np.bool_]:
-        return np.asarray(self.exponent <= BLUNTEST_TIP)
-
-    @property
-    def singular_approach(self) -> FloatArray:
-        if not self.tip.any():
-            return super().singular_approach
-        n = self.exponent[:, None]
-        nearest = np.maximum(NEAREST_POWER ** (1.0 / (n - 1.0)), NEAREST)
-        share = 0.02 * (nearest / 0.02) ** np.linspace(0.0, 1.0, APPROACH_COUNT) ** 2
-        approach = share * self.radius(self.largest_depth)[:, None]
-        return np.asarray(np.where(self.tip[:, None], approach, 0.0))
 
     def depth(self, radius: FloatArray) -> FloatArray:
         return np.asarray(radius ** align(self.exponent, radius))

@@ -72,7 +72,7 @@ class Look(Rows):
     def at(cls, scene: Scene, position: FloatArray, count: int, digits: float) -> Look:
         """Look at r = ``position``, shape (n, X)."""
         line = SurfaceLine(scene.cycle, scene.coordinate, position, digits, scene.bulk)
-        parts = stretches(scene.cycle, line.edges.at, line.fronts.at)
+        parts = stretches(scene.cycle, line.at)
         nodes, placed = cosine_nodes(scene.cycle, parts, count)
         return cls(line, parts, count, nodes, placed)
 

@@ -19,16 +19,13 @@ from swtstudy.mechanics.line.look import Accuracy, Look, Resolution
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounds import CHANGE_SHARE, climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.stress.line import arrival
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.mechanics.stress.tip import arrival, told_by_fronts
 
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
 #: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/mechanics/test_narrow_maxima.py); 0.9 throughout:
 #: no gain.
 SHARES = 0.97, 0.995, 0.999
-#: What a finer search that misses the tolerance leaves, in what it gained. 1: a third of 50 points with a
-#: sharp tip, lost contact and large friction miss s_error.
-SLOWNESS = 3.0
 #: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
 #: has more digits than r. A hundredth and a hundred times: about 1e-7.
 REACH = 1e-8
@@ -86,12 +83,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         better = (again.error < found.error[doubtful]) & (
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
-        gain = np.abs(again.swt - found.swt[doubtful])
         found = found.put(doubtful[better], again.take(better))
-        # What converges slowly, as next to a sharp tip, has left more than it has gained.
-        error = found.error[doubtful]
-        slow = error > accuracy.tolerance * found.swt[doubtful]
-        found.error[doubtful] = np.where(slow, np.maximum(error, SLOWNESS * gain), error)
     rows = np.flatnonzero(found.swt > 0.0)
     if rows.size:
         of_rounding = _of_rounding(scene.take(rows), found.take(rows), accuracy)
@@ -143,7 +135,6 @@ def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
     """Error of a stress at r, shape (n, 1), by the rounding of what arrives there, shape (n,)."""
     profile, coordinate = scene.profile, scene.coordinate
     r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
-    r = told_by_fronts(scene.cycle, coordinate, r)
     at, step = coordinate.of(r), np.maximum(SLOPE_STEP * (r - b), LEAST_SLOPE_STEP * np.spacing(r))
     # How far from r an edge is left, in radius: what it leaves is the pressure by that ring.
     rise = coordinate.of(r + step) - at
@@ -163,7 +154,6 @@ def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
 def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
     """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
     load, r = scene.cycle.load, np.abs(found.position)[:, None]
-    r = told_by_fronts(scene.cycle, scene.coordinate, r)
     normal = load.normal_motion
     distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
     # A motion within rounding is none.

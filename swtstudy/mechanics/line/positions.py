@@ -18,18 +18,15 @@ from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, between, packed, 
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
-#: The centre is left out: swt is smooth there and not largest, unless the contact shrinks to it: then half of
-#: its least radius is left out, and where contact is lost this share. 0.2 in place of 0.02: 7e-3 at some
-#: of 600 points.
-INNERMOST, INNERMOST_OF_LOST = 0.02, 1e-3
+#: The centre is left out, this share of the contact: swt is not largest there, but next to a sharp tip that
+#: loses contact, where it may rise within any radius: there is no continuum that small.
+INNERMOST = 1e-5
 #: With a bulk stress tension is everywhere: under a flat face, and outside of the contact up to so many times
 #: its largest radius, beyond which swt differs from that of the bulk stress alone by less than 1e-3 of its
 #: difference at the edge.
 BEYOND = np.array([1.5, 5.0, 40.0])
 #: A face whose edge is singular is left out from this share of its radius on: there is no tension next to it.
 BESIDE_FACE = 0.999
-#: Stretches whose ends are more than this apart, as a ratio, are shared by the logarithm: they lead to a tip.
-FAR_APART = 1e4
 
 
 def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> FloatArray:
@@ -52,11 +49,11 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     profile = coordinate.profile
     approach = profile.singular_approach
     face = profile.flat_radius[:, None]
-    least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
     if everywhere:
+        least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
         # Next to the contact the stress outside changes over the way that the edge goes.
         beyond = largest + np.append(largest - least, largest * (BEYOND - 1.0), axis=1)
-        innermost = INNERMOST_OF_LOST * largest
+        innermost = INNERMOST * largest
         if approach.shape[1]:
             nearest = approach.min(axis=1, keepdims=True)
             innermost = np.where(nearest > 0.0, np.minimum(nearest, innermost), innermost)
@@ -64,8 +61,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
             face = BESIDE_FACE * face
         ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
         return np.sort(np.maximum(ends, innermost), axis=1)
-    share = np.clip(0.5 * (least - face) / (largest - face), INNERMOST_OF_LOST, INNERMOST)
-    innermost = face + share * (largest - face)
+    innermost = face + INNERMOST * (largest - face)
     if approach.shape[1]:
         nearest = approach.min(axis=1, keepdims=True)
         innermost = np.where(nearest > face, nearest, innermost)
@@ -150,7 +146,7 @@ class Pieces:
 
     def radius(self, piece: NDArray[np.intp], alpha: FloatArray) -> FloatArray:
         """Positions r at the angles α of pieces, both of shape (m,)."""
-        return _places(self.low[piece], self.high[piece], alpha)
+        return between(self.low[piece], self.high[piece], alpha)
 
 
 @dataclass(frozen=True)
@@ -217,14 +213,4 @@ class Positions(Rows):
             ratio = np.log(far / left)
             turn[rows] = far * np.expm1(ratio * c[rows]) / np.expm1(ratio)
         alpha = np.clip(of_side(self.alpha) + turn, 0.0, np.pi)
-        return _places(of_side(self.low), of_side(self.high), alpha)
-
-
-def _places(low: FloatArray, high: FloatArray, alpha: FloatArray) -> FloatArray:
-    """Radii between ``low`` (α = 0) and ``high`` (α = π)."""
-    places = between(low, high, alpha)
-    far = np.broadcast_to(high > FAR_APART * low, alpha.shape)
-    if far.any():
-        low, high, alpha = (values[far] for values in np.broadcast_arrays(low, high, alpha))
-        places[far] = np.exp(between(np.log(low), np.log(high), alpha))
-    return places
+        return between(of_side(self.low), of_side(self.high), alpha)

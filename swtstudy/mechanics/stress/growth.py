@@ -2,8 +2,7 @@
 
 Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
 for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
-integral is exact to rounding. At a tip g′ stays finite, and next to it the outer kernel is smooth in the
-logarithm of v alone: there the slope at touch-down is left to the primitives, as that of a line.
+integral is exact to rounding.
 """
 
 from __future__ import annotations
@@ -27,8 +26,7 @@ NODES_PER_OSCILLATION = 1.6
 #: Where the tangential load moves slower than this share of the normal one, the slope turns from ±1 to that
 #: share within the square of it, beside an end of the growth. With so many nodes more for each digit beyond
 #: the fifth s was off by 2e-7 at most at 8.5 digits and shares of 2e-4 to 0.01, without them by up to 9e-6.
-#: Next to a tip, where contact is nearly lost, from the first digit on: else 1e-3 is left. Half of them up to
-#: the second share, beyond which the turn is wide: without, 2e-6 at a point of
+#: Half of them up to the second share, beyond which the turn is wide: without, 2e-6 at a point of
 #: tests/mechanics/test_overlooked.py.
 SLOW, LESS_SLOW, NODES_PER_DIGIT = 0.02, 0.08, 24
 
@@ -56,9 +54,9 @@ class GrowthIntegrals:
         count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
         amplitude = cycle.load.normal_motion
         share = tangential * (cycle.load.motion - amplitude) / np.maximum(normal * amplitude, TINY)
-        more = np.where(coordinate.profile.tip, digits, max(digits - 5.0, 0.0))
+        more = NODES_PER_DIGIT * max(digits - 5.0, 0.0)
         slow = np.where(share < SLOW, 1.0, 0.5 * (share < LESS_SLOW))
-        nodes = count + np.ceil(slow * NODES_PER_DIGIT * more).astype(np.intp)
+        nodes = count + np.ceil(slow * more).astype(np.intp)
         growths = Growths.of(cycle.memory)
         self.count = growths.begin.shape[1]
         if not self.count:
@@ -70,12 +68,6 @@ class GrowthIntegrals:
         self.flat = coordinate.profile.flat_radius[:, None, None]
         low, high = (coordinate.radius(g)[:, None, :] for g in (growths.begin, growths.end))
         self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
-        #: Shape (n, k): what is left out of dτ/dG, its value at the tip.
-        self.at_tip = np.zeros(growths.begin.shape)
-        at_tip = coordinate.profile.tip[:, None] & (growths.begin == 0.0)
-        if at_tip.any():
-            first = cycle.load.growth_slope(np.zeros_like(growths.begin), growths.branch)
-            self.at_tip = np.where(at_tip, first, 0.0)
         r, b = self.position, self.flat
         self.inner = _OverRanges(
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
@@ -91,7 +83,6 @@ class GrowthIntegrals:
                 self.position[index],
                 self.flat[index],
             )
-            taken.at_tip = self.at_tip[index]
             taken.inner, taken.outer = self.inner.take(index), self.outer.take(index)
         return taken
 
@@ -113,11 +104,11 @@ class GrowthIntegrals:
         return (self._weighted_growth(at, radius) / (radius * gap))[None]
 
     def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
-        """m dτ/dG at the radii of the springs, but for what is left out, shape (m, nodes)."""
+        """m dτ/dG at the radii of the springs, shape (m, nodes)."""
         row, _, growth = at
         coordinate, slope = self.coordinate.take(row).with_weighted_slope(radius)
         grown = self.cycle.load.take(row).growth_slope(coordinate, self.branch[row, growth, None])
-        return slope * (grown - self.at_tip[row, growth, None])
+        return slope * grown
 
     def up_to(
         self,
@@ -126,7 +117,7 @@ class GrowthIntegrals:
         index: NDArray[np.intp],
         radius: FloatArray,
     ) -> FloatArray:
-        """The integrals over single growths, without `at_tip`, up to ``radius``, shape (3, m) or (2, m).
+        """The integrals over single growths up to ``radius``, shape (3, m) or (2, m).
 
         Parameters
         ----------

@@ -18,15 +18,39 @@ from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
 from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.stretches import Nodes
+from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
-from swtstudy.mechanics.stress.tip import COORDINATE, Passing
 
 #: Largest contact radii beyond which no profile is asked for: no rounding takes an edge there.
 OUTSIDE = 1.1
+#: Rounding of a coordinate, over the largest one: 1.3e-15 there and back on a rounded punch, 4e-16 on a wavy
+#: one; a hundredth: 6e-7, a hundred times: 2e-6. And of an instant, rad: doubles beside 2π are 9e-16 apart,
+#: and from the coordinate to the instant and back there are five roundings. 1e-15: 5e-7 at rtol 1e-6.
+COORDINATE, INSTANT = 2e-15, 2.5e-15
+
+
+def arrival(
+    load: Load, coordinate: Coordinate, position: FloatArray, at: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Distance from ``at``, the coordinate of r, shape (n, X), at which rounding leaves what arrives there.
+
+    The stress shows the square root of this distance.
+
+    Returns
+    -------
+    edge, front
+        Shape (n, X): of a contact edge and of a slip front, which move at most at some rate.
+    """
+    normal, tangential = load.oscillations
+    amplitude = load.normal_motion
+    of_edge = COORDINATE * load.largest_normal + INSTANT * normal * amplitude
+    of_front = of_edge + INSTANT * tangential * (load.motion - amplitude)
+    next_to_r = coordinate.of(position + np.spacing(position)) - at
+    return of_edge[:, None] + next_to_r, of_front[:, None] + next_to_r
 
 
 class SurfaceLine(Rows):
@@ -57,12 +81,13 @@ class SurfaceLine(Rows):
         near = position if bulk is None else self._near_contact()
         #: Shape (n, X, 1): half of the load inside r, were the contact larger; in the plane it is not needed.
         self.inside = None if coordinate.profile.plane else coordinate.profile.half_load(near)[:, :, None]
-        #: When edges and fronts pass r, or a radius outside of the contact that no edge reaches either.
-        self.edges, self.fronts = Passing.of(cycle, coordinate, near)
+        #: Shape (n, X): r, or a radius outside of the contact that no edge reaches either, and its G.
+        self.near, self.at = near, coordinate.of(near)
+        self.at_edge, self.at_front = arrival(cycle.load, coordinate, near, self.at)
         self.growth = GrowthIntegrals(cycle, coordinate, position, digits)
         self.pieces = DistinctPieces.of(cycle.memory)
-        #: Shape (n, m): do/dG of the distinct pieces, of growths the part that is a line's.
-        self.slope = self._line_slope()
+        #: Shape (n, m): do/dG of the distinct pieces, 0 of growths.
+        self.slope = np.where(self.pieces.slope == GROWTH, 0.0, self.pieces.slope)
         #: Shape (c, n, X, m): integrals up to a front in each piece are base − slope · A(front), of lines.
         self.base = self._base()
 
@@ -78,20 +103,12 @@ class SurfaceLine(Rows):
         taken.position, taken.base = self.position[index], self.base[:, index]
         taken.inside = None if self.inside is None else self.inside[index]
         taken.bulk = self.bulk and self.bulk.take(index)
-        taken.edges, taken.fronts = self.edges.take(index), self.fronts.take(index)
+        taken.near, taken.at = self.near[index], self.at[index]
+        taken.at_edge, taken.at_front = self.at_edge[index], self.at_front[index]
         taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
         taken.slope = self.slope[index]
         taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
         return taken
-
-    def _line_slope(self) -> FloatArray:
-        pieces = self.pieces
-        grown = pieces.slope == GROWTH
-        slope = np.where(grown, 0.0, pieces.slope)
-        row, piece = np.nonzero(grown)
-        if row.size:
-            slope[row, piece] = -self.growth.at_tip[row, self._growth_of(row, piece)]
-        return slope
 
     def _growth_of(self, row: NDArray[np.intp], piece: NDArray[np.intp]) -> NDArray[np.intp]:
         """Numbers of the growths that left distinct pieces, shape (m,)."""
@@ -149,41 +166,29 @@ class SurfaceLine(Rows):
     def history(self, nodes: Nodes) -> History:
         """Stress building blocks at the given instants, index of shape (n, X, T)."""
         states = self.cycle.states(nodes.interval, nodes.instant)
-        edge, front = self._radii(nodes, states)
+        radius = self.coordinate.radius(states.edge)
+        edge = self._passing(nodes, radius, states.edge, self.at_edge)
+        front = self._passing(nodes, self.coordinate.radius(states.front), states.front, self.at_front)
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, front, (*inner, outer[0]))
         if self.inside is None:
             history = History.of_strip(outer[0] / np.pi, *tangential)
         else:
             # What the springs inside r carry, and what those outside press on the inside.
-            inside, r = (
-                np.minimum(self._half_load(nodes, states, edge), self.inside),
-                self.position[:, :, None],
-            )
+            half_load = nodes.spread(self.coordinate.profile.half_load(radius))
+            inside, r = np.minimum(half_load, self.inside), self.position[:, :, None]
             history = History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
         return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
 
-    def _half_load(self, nodes: Nodes, states: SlipStates, edge: FloatArray) -> FloatArray:
-        """Half of the loads at the instants, from the edges as they are at the positions, (n, X, T)."""
-        profile = self.coordinate.profile
-        if self.edges.slower is None:
-            return nodes.spread(profile.half_load(self.coordinate.radius(states.edge)))
-        return profile.half_load(edge)
-
-    def _radii(self, nodes: Nodes, states: SlipStates) -> tuple[FloatArray, FloatArray]:
-        """Radii of edges and fronts at the instants, each (n, X, T)."""
-        radius = self.coordinate.radius(states.edge)
-        of_front = nodes, self.coordinate.radius(states.front), states.front
-        if self.edges.slower is None:
-            edge = self.edges.spread(nodes, radius, states.edge)
-            return edge, self.fronts.spread(*of_front)
-        # But for rounding the front is at the edge while all sticks, and nowhere while nothing does.
-        rounding = COORDINATE * self.cycle.load.largest_normal[:, None]
-        sticks, slides = states.front >= states.edge - rounding, states.front <= rounding
-        edge = self.edges.spread(nodes, radius, states.edge, ~(sticks | slides))
-        front = self.fronts.spread(*of_front)
-        np.copyto(front, edge, where=nodes.spread(sticks))
-        return edge, front
+    def _passing(
+        self, nodes: Nodes, radius: FloatArray, coordinate: FloatArray, near: FloatArray
+    ) -> FloatArray:
+        """Radii at the distinct instants, (n, k), at the positions, (n, X, T): r where they arrive there."""
+        spread, distance = nodes.spread(radius), nodes.spread(coordinate)
+        distance -= self.at[:, :, None]
+        np.abs(distance, out=distance)
+        np.copyto(spread, self.near[:, :, None], where=distance <= near[:, :, None])
+        return spread
 
     def _tangential(
         self, nodes: Nodes, states: SlipStates, front: FloatArray, at_edge: tuple[FloatArray, ...]
