@@ -10,13 +10,17 @@ import pytest
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.hamilton import hamilton
+from scenes import points
 
 from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
+from swtstudy.mechanics.contact.memory import Growths
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import Profile, make_profile
+from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
+from swtstudy.mechanics.stress.scene import scene_of
 
 Array = NDArray[np.float64]
 DIGITS = 12.0
@@ -168,3 +172,29 @@ def test_stress_by_growth_in_stick_against_quadrature(name: str, p: int, q: int)
             blocks = [getattr(found, name)[0, k, t] for name in ("tangential_1", "tangential_3", "traction")]
             np.testing.assert_allclose(blocks, total / np.pi, rtol=0.0, atol=1e-8)
     assert grown > 0
+
+
+@pytest.mark.parametrize("phase", [1e-6, 1e-4, 0.01, 1.0, np.pi - 1e-3])
+@pytest.mark.parametrize("share", [0.02, 0.3, 0.9])
+def test_growth_that_turns_fast_at_its_ends(share: float, phase: float) -> None:
+    """Nearly in phase the slope −Ṫ/Ṅ turns to ±1 within little ground; against a sum over small steps."""
+    d = 0.3
+    scene = scene_of(points(normal_amplitude=d, tangential_amplitude=share * d, phase=phase))
+    growths = Growths.of(scene.cycle.memory)
+    # One, or two of them where the cycle begins between its ends.
+    begin, end, count = growths.begin.min(), growths.end.max(), growths.begin.size
+    # Of the angle qφ + ψ, ever smaller steps towards both ends.
+    first, last = np.arcsin((np.array([begin, end]) - 1.0) / d)
+    steps = (last - first) * 0.5 * np.append(0.0, np.geomspace(1e-12, 1.0, 400_000))
+    θ = np.concatenate([first + steps, (last - steps[:-1])[::-1]])
+    middle = 0.5 * (θ[1:] + θ[:-1])
+    slope = -share * (np.cos(phase) + np.tan(middle) * np.sin(phase))
+    r = np.sqrt([begin, 0.5 * (begin + end), end])
+    v = np.sqrt(np.maximum(1.0 + d * np.sin(θ) - r[:, None] ** 2, 0.0))
+    expected = (2.0 * slope * np.diff(v)).sum(axis=1)
+    for digits, close in ((5.0, 3e-7), (7.0, 4e-8)):
+        found = GrowthIntegrals(scene.cycle, scene.coordinate, r[None], digits)
+        column, growth = (each.ravel() for each in np.indices((3, count)))
+        parts = found.up_to(0 * column, column, growth, np.full(column.size, np.sqrt(end)))[2]
+        total = parts.reshape(3, count).sum(axis=1)
+        np.testing.assert_allclose(total, expected, rtol=0.0, atol=close)

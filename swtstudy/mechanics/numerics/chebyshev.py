@@ -117,6 +117,11 @@ class RunningIntegrals:
         """c."""
         return self._series.shape[1]
 
+    @property
+    def whole(self) -> FloatArray:
+        """The integrals from −1 to 1, shape (c, m)."""
+        return np.asarray(self._series.sum(axis=0))
+
     def component(self, number: int) -> RunningIntegrals:
         """One of the components alone."""
         taken = copy(self)

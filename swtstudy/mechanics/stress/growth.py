@@ -1,13 +1,13 @@
 """Stress integrals over the springs that touched down and stuck: their slope do/dG = Ṫ/Ṅ is not constant.
 
 Both the kernels and the slope are smooth in an angle α (inner springs) or in v = √(ξ²−r²) (outer ones) but
-for square roots at the two ends; a sin² map removes these, so that a short Chebyshev series of the running
-integral is exact to rounding.
+for square roots at the two ends, which a sin² map removes, and for layers there in which the slope turns to
+±1. In each half of the growth an abscissa that is stretched in its layer makes short Chebyshev series of the
+running integral exact to rounding.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from copy import copy
 
@@ -17,18 +17,15 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import Growths
 from swtstudy.mechanics.control.coordinate import Coordinate
+from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 
-#: Chebyshev nodes for each oscillation of the tangential load while the ground grows. Half: 3e-7, no faster.
-NODES_PER_OSCILLATION = 1.6
-#: Where the tangential load moves slower than this share of the normal one, the slope turns from ±1 to that
-#: share within the square of it, beside an end of the growth. With so many nodes more for each digit beyond
-#: the fifth s was off by 2e-7 at most at 8.5 digits and shares of 2e-4 to 0.01, without them by up to 9e-6.
-#: Half of them up to the second share, beyond which the turn is wide: without, 2e-6 at a point of
-#: tests/mechanics/test_overlooked.py.
-SLOW, LESS_SLOW, NODES_PER_DIGIT = 0.02, 0.08, 24
+#: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows.
+NODES_PER_OSCILLATION = 0.8
+#: Numbers of nodes are multiples of this, since halves with as many are evaluated together. 4: no faster.
+NODE_STEP = 8
 
 #: Densities at abscissae of some ranges, see `_OverRanges`.
 Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
@@ -48,15 +45,6 @@ class GrowthIntegrals:
     """
 
     def __init__(self, cycle: Cycle, coordinate: Coordinate, position: FloatArray, digits: float) -> None:
-        # The tangential load may oscillate several times while the normal one rises once.
-        normal, tangential = cycle.load.oscillations
-        smooth = max(4.0 * digits - 6.0, 7.0 * digits - 20.0) + NODES_PER_OSCILLATION * (tangential / normal)
-        count = math.ceil(smooth) + coordinate.profile.extra_nodes(digits)
-        amplitude = cycle.load.normal_motion
-        share = tangential * (cycle.load.motion - amplitude) / np.maximum(normal * amplitude, TINY)
-        more = NODES_PER_DIGIT * max(digits - 5.0, 0.0)
-        slow = np.where(share < SLOW, 1.0, 0.5 * (share < LESS_SLOW))
-        nodes = count + np.ceil(slow * more).astype(np.intp)
         growths = Growths.of(cycle.memory)
         self.count = growths.begin.shape[1]
         if not self.count:
@@ -68,11 +56,15 @@ class GrowthIntegrals:
         self.flat = coordinate.profile.flat_radius[:, None, None]
         low, high = (coordinate.radius(g)[:, None, :] for g in (growths.begin, growths.end))
         self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
+        layers = _layers(cycle.load, growths, digits)
+        nodes = _node_count(cycle.load, layers, digits, coordinate.profile.extra_nodes(digits) // 2)
         r, b = self.position, self.flat
         self.inner = _OverRanges(
-            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, nodes
+            _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, layers, nodes
         )
-        self.outer = _OverRanges(_outer_root(low, r), _outer_root(high, r), self._outer_density, nodes)
+        self.outer = _OverRanges(
+            _outer_root(low, r), _outer_root(high, r), self._outer_density, layers, nodes
+        )
 
     def take(self, index: NDArray[np.intp]) -> GrowthIntegrals:
         """Return the growths of the cycles at ``index``, repetitions allowed."""
@@ -131,58 +123,128 @@ class GrowthIntegrals:
         return np.concatenate([self.inner.up_to(at, angle), self.outer.up_to(at, root)])
 
 
+def _layers(load: Load, growths: Growths, digits: float) -> FloatArray:
+    """Thickness ε of the layers at both ends of growths, shape (n, k, 2), in the β at which sin²β is passed.
+
+    Where slip ends or begins the slope −Ṫ/Ṅ is ±1. As Ṅ² is nearly proportional to what is left up to the
+    turn of N, the slope is a function of β² + ε², with ε² what is left at the end, over all ground. Where
+    |slope| stays below 1 up to the turn there is no layer.
+    """
+    span = np.maximum(growths.end - growths.begin, TINY)
+    layers = np.ones((*span.shape, 2))
+    for end, (here, beyond) in enumerate(
+        ((growths.begin, load.least_normal), (growths.end, load.largest_normal))
+    ):
+        instant = load.touch_down(np.broadcast_to(beyond[:, None], here.shape), growths.branch)
+        left = np.sqrt(np.abs(load.normal(instant) - here) / span)
+        slips = np.abs(load.growth_slope(here, growths.branch)) > 0.5
+        layers[..., end] = np.where(slips, left, 1.0)
+    # A layer changes the stress by its thickness at most.
+    return np.clip(layers, 10.0**-digits, 1.0)
+
+
+def _node_count(load: Load, layers: FloatArray, digits: float, more: int) -> NDArray[np.intp]:
+    """Number of Chebyshev nodes of both halves of growths, shape (n, k, 2).
+
+    In w, β = ε sinh w, the slope is singular at ±iπ/2, beside the end of 0 ≤ w ≤ asinh(π/4ε), and in the
+    layer of the other half, from asinh(π/2ε) on. A series of N terms misses ρ⁻ᴺ, where ρ is the sum of the
+    half axes of the ellipse about the range through the nearer of these (Trefethen, Approximation Theory
+    and Approximation Practice, chapter 8).
+    """
+    near, far = np.arcsinh(0.25 * np.pi / layers), np.arcsinh(0.5 * np.pi / layers)
+    rates = [
+        np.abs(np.log(np.abs(z + np.sqrt(z - 1.0) * np.sqrt(z + 1.0))))
+        for z in (1j * np.pi / near - 1.0, 2.0 * far / near - 1.0 + 0.0j)
+    ]
+    normal, tangential = load.oscillations
+    count = digits * np.log(10.0) / np.minimum(*rates) + NODES_PER_OSCILLATION * tangential / normal + more
+    return NODE_STEP * np.ceil(count / NODE_STEP).astype(np.intp)
+
+
 class _OverRanges:
-    """Running integrals over ranges, most of which are empty.
+    """Running integrals over ranges, most of which are empty, by halves that begin at either end.
 
     Parameters
     ----------
     low, high
-        Shape S: ends of the ranges.
+        Shape (n, X, k): ends of the ranges.
     density
         From the index of m ranges and abscissae (m, nodes) in them to c densities there, (c, m, nodes).
-    count
-        Shape (n,), of the first axis of S: number of nodes.
+    layers, count
+        Shape (n, k, 2): thickness of the layers at the ends, see `_layers`, and numbers of nodes.
     """
 
-    def __init__(self, low: FloatArray, high: FloatArray, density: Density, count: NDArray[np.intp]) -> None:
+    def __init__(
+        self,
+        low: FloatArray,
+        high: FloatArray,
+        density: Density,
+        layers: FloatArray,
+        count: NDArray[np.intp],
+    ) -> None:
         self.low, self.span = low, high - low
-        real, shape = self.span > 0.0, (-1,) + (1,) * (low.ndim - 1)
-        self.column = np.zeros(self.span.shape, dtype=np.intp)
-        #: Which ranges have the same number of nodes, of shape S, and the integrals over these.
-        self.groups = []
-        for nodes in np.unique(count):
-            same = np.broadcast_to((count == nodes).reshape(shape), real.shape)
-            at = np.nonzero(real & same)
-            self.column[at] = np.arange(len(at[0]))
-            self.groups.append((same.ravel(), self._integrals(at, density, int(nodes))))
+        #: Shape (n, X, k, 2), as the arrays of halves below: in which of the groups with as many nodes each
+        #: half is, and its number there.
+        self.group, self.column = np.zeros((2, *low.shape[:2], *layers.shape[1:]), dtype=np.intp)
+        #: Layers, and half of what a series reaches over in w.
+        self.layer, self.reach = (
+            np.broadcast_to(each[:, None], self.group.shape)
+            for each in (layers, 0.5 * np.arcsinh(0.25 * np.pi / layers))
+        )
+        real = np.broadcast_to((self.span > 0.0)[..., None], self.group.shape)
+        self.groups, wholes = [], []
+        for number, nodes in enumerate(np.unique(count)):
+            at = np.nonzero(real & (count == nodes)[:, None])
+            self.group[at], self.column[at] = number, np.arange(len(at[0]))
+            self.groups.append(self._integrals(at, density, int(nodes)))
+            wholes.append((at, self.groups[-1].whole))
+        #: Shape (c, n, X, k): over all of each range.
+        self.whole = np.zeros((len(wholes[0][1]), *self.span.shape))
+        for (*of_range, half), whole in wholes:
+            for side in (0, 1):
+                some = half == side
+                self.whole[:, *(each[some] for each in of_range)] += whole[:, some]
 
     def take(self, index: NDArray[np.intp]) -> _OverRanges:
         """Return the growths at ``index`` of the first axis."""
-        taken, shape = copy(self), self.span.shape
-        taken.low, taken.span, taken.column = self.low[index], self.span[index], self.column[index]
-        taken.groups = [(same.reshape(shape)[index].ravel(), integrals) for same, integrals in self.groups]
+        taken = copy(self)
+        for name in ("low", "span", "layer", "reach", "group", "column"):
+            setattr(taken, name, getattr(self, name)[index])
+        taken.whole = self.whole[:, index]
         return taken
 
     def _integrals(
         self, at: tuple[NDArray[np.intp], ...], density: Density, count: int
     ) -> chebyshev.RunningIntegrals:
-        low, span = self.low[at][:, None], self.span[at][:, None]
-        y = np.sin(0.25 * np.pi * (1.0 + chebyshev.nodes(count)))
-        # The sin² map.
-        rate = 0.5 * np.pi * y * np.sqrt(1.0 - y * y)
-        return chebyshev.RunningIntegrals(density(at, low + span * (y * y)) * (rate * span))
+        row, column, growth, half = at
+        # The nodes of a half are the same at all positions.
+        layer, reach = self.layer[:, 0, :, :, None], self.reach[:, 0, :, :, None]
+        w = reach * (1.0 + chebyshev.nodes(count))
+        β = layer * np.sinh(w)
+        passed, rate = np.sin(β) ** 2, reach * layer * np.cosh(w) * np.sin(2.0 * β)
+        passed[:, :, 1] = 1.0 - passed[:, :, 1]
+        of_half = row, growth, half
+        low, span = (values[row, column, growth][:, None] for values in (self.low, self.span))
+        values = density((row, column, growth), low + span * passed[of_half])
+        return chebyshev.RunningIntegrals(values * (span * rate[of_half]))
 
     def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
         """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
-        result = np.zeros((self.groups[0][1].components, len(at)))
-        real = self.span.take(at) > 0.0
-        for same, integrals in self.groups:
-            some = np.flatnonzero(real & same.take(at) if len(self.groups) > 1 else real)
-            if some.size:
-                these = at[some]
-                part = np.clip((abscissa[some] - self.low.take(these)) / self.span.take(these), 0.0, 1.0)
-                y = np.arcsin(np.sqrt(part)) * (4.0 / np.pi) - 1.0
-                result[:, some] = integrals.single(y, self.column.take(these))
+        result = np.zeros((len(self.whole), len(at)))
+        real = np.flatnonzero(self.span.take(at) > 0.0)
+        at = at[real]
+        passed = np.clip((abscissa[real] - self.low.take(at)) / self.span.take(at), 0.0, 1.0)
+        later = passed > 0.5
+        half = 2 * at + later
+        β = np.arcsin(np.sqrt(np.where(later, 1.0 - passed, passed)))
+        y = np.arcsinh(β / self.layer.take(half)) / self.reach.take(half) - 1.0
+        column, group = self.column.take(half), self.group.take(half)
+        found = np.empty((len(result), len(at)))
+        for number, integrals in enumerate(self.groups):
+            some = np.flatnonzero(group == number)
+            found[:, some] = integrals.single(y[some], column[some])
+        whole = self.whole.reshape(len(result), -1).take(at, axis=1)
+        result[:, real] = np.where(later, whole - found, found)
         return result
 
 
