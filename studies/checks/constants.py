@@ -52,7 +52,6 @@ OTHERS = {
     "look.REACH": ("0.125",),
     "maximum.SHARES": ("v[2:]", "(0.9,)"),
     "positions.INNERMOST": ("10 * v",),
-    "roots.LARGEST_STEP_COUNT": ("10",),
     "roots.LAST_STEP": ("100 * v",),
     "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
     "rounds.CORNER_CHANGE_SHARE": ("0.03",),

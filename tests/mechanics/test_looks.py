@@ -104,7 +104,7 @@ def test_a_long_piece_has_a_position_where_the_layer_of_its_short_neighbour_ends
 
 
 def test_pieces_leave_no_gap_and_none_is_longer_than_a_wave():
-    ends = np.array([[0.1, 0.1, 0.4, 0.4 + 1e-15, 2.0], [0.3, 0.4, 0.4, 0.4, 1.0]])
+    ends = np.array([[0.1, 0.1, 0.4, 0.4 + 4e-16, 2.0], [0.3, 0.4, 0.4, 0.4, 1.0]])
     pieces = Pieces.between(ends, np.array([0.4, np.inf]))
     assert np.bincount(pieces.point).tolist() == [1 + 4, 2]
     assert np.all((pieces.high - pieces.low)[pieces.point == 0] <= 0.4 + 1e-12)

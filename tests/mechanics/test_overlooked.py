@@ -254,6 +254,18 @@ CASES = [
         "1",
         0.010848434154,
     ),
+    # Two cusps within 1e-13 of r, nearly in phase: the maximum is at one of them.
+    (
+        {
+            "normal_amplitude": 0.06071009830721962,
+            "tangential_amplitude": 0.002805497099376534,
+            "phase": 2.774119124014013e-05,
+            "poisson_ratio": 0.2464138290432797,
+            "friction": 0.9465581000923039,
+        },
+        "1",
+        0.010888518212733674,
+    ),
     # Cusps that meet but for rounding are one: the maximum lies behind the layer beside them.
     (
         {"normal_amplitude": 0.66, "phase": 2.443460952792061, "tangential_amplitude": 5.0 / 6.0},

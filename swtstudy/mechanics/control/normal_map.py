@@ -19,6 +19,7 @@ from swtstudy.mechanics.control.coordinate import ForceCoordinate
 from swtstudy.mechanics.indenter.base import Tables
 from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.numerics.chebyshev import EvenTable
+from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
 from swtstudy.mechanics.points import FloatArray, Rows
 
 
@@ -145,8 +146,6 @@ class DepthOfForce(ByRadius):
 #: Share of a cell next to no load at which derivatives are taken that have no bound there. 1e-5 or 0.1: no
 #: change at 61 points of mixed control.
 NEXT_TO_NONE = 1e-3
-#: Steps of Newton's method from the inverse function to that of its table. 1 or 6: 6e-13 there.
-NEWTON_STEPS = 2
 
 #: Values and two derivatives at abscissae (n, …).
 Derivatives = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]

@@ -16,11 +16,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, align
+from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.points import FloatArray, IntArray, Rows
-
-#: Steps that invert the normal force fall back to bisection, so this many always suffice (10 do at 144
-#: points); the last one, relative: its square is the error. 1e-4: 1e-4 at 42 of 144; 1e-11: 5e-11.
-LARGEST_STEP_COUNT = 60
 
 
 class Primitives(ABC):
@@ -194,7 +191,7 @@ class Profile(Rows, ABC):
         # dH/dw = m in w = √(ξ² − b²), in which H is nearly a cubic power.
         w = self._rise_at_half_load(goal)
         low, high = np.zeros_like(w), np.full_like(w, np.inf)
-        for _ in range(LARGEST_STEP_COUNT):
+        for _ in range(MOST_STEPS):
             radius = np.hypot(w, b)
             found, slope = self.half_load_and_weighted_slope(radius)
             low, high = np.where(found < goal, w, low), np.where(found < goal, high, w)

@@ -19,6 +19,7 @@ import numpy as np
 from swtstudy.mechanics.indenter.base import InnerTable, OuterTable, Primitives, Profile
 from swtstudy.mechanics.indenter.paraboloid import FlatFaced, rise_abscissa, rise_angles
 from swtstudy.mechanics.numerics.arrays import TINY, align
+from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
 from swtstudy.mechanics.points import FloatArray
 
 #: N_0: the mean line load over E* δ0.
@@ -125,8 +126,6 @@ class _StripTable(InnerTable):
 
 #: w/b below which N is taken from so many terms of its series: there its two parts cancel.
 SMALL, TERMS = 0.05, 6
-#: Newton's steps for the half-width, from a table that is off by 1e-6.
-NEWTON_STEPS = 2
 
 
 class RoundedFlat(PlaneProfile, FlatFaced):

@@ -18,6 +18,7 @@ from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneP
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces
 from swtstudy.mechanics.numerics.arrays import TINY, align, gather
+from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
 from swtstudy.mechanics.points import FloatArray
 
 #: Gives the coefficient of a power, the same for all or one for each of what is integrated over.
@@ -141,8 +142,6 @@ def _in_powers_of_w(coefficients: FloatArray, start: FloatArray) -> FloatArray:
     return np.asarray((coefficients[:, None] * binom(i, k)[..., None] * shifts).sum(axis=0))
 
 
-#: Newton's steps for the contact radius, from a guess that is off by 1e-3.
-NEWTON_STEPS = 3
 #: Nodes that running integrals need beyond those of a smooth profile, for each piece. None: 8e-7 over waves
 #: at rtol 1e-7, 1 for each: 5e-8.
 NODES_PER_PIECE, MOST_EXTRA_NODES = 0.3, 40

@@ -17,15 +17,16 @@ from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import Extremes, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
+from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
-#: How often the plane is improved and the extremes over the cycle are looked up anew: for all, and at most
-#: where swt still rises, since the extremes move with the plane. 2 at most: 4e-4 at rtol 1e-4 at 1 of 1,001
-#: points (tests/mechanics/test_narrow_maxima.py).
-ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS = 2, 16
+#: How often the plane is improved and the extremes over the cycle are looked up anew, where swt does not rise
+#: still: the extremes move with the plane. No more anywhere: 4e-4 at rtol 1e-4 at 1 of 1,001 points
+#: (tests/mechanics/test_narrow_maxima.py).
+ANGLE_ROUNDS = 2
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ class Samples:
         before, peaks = _swt(peaks, start, self.criterion), self._at_peaks(angle)
         swt = _swt(peaks, angle, self.criterion)
         rows, some = np.arange(len(angle)), self
-        for _ in range(ANGLE_ROUNDS, LARGEST_ANGLE_ROUNDS):
+        for _ in range(MOST_STEPS):
             rises = np.flatnonzero((swt[rows] - before > gain * swt[rows]).any(axis=1))
             if not rises.size:
                 break

@@ -12,27 +12,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import joined_pieces, resolved
-from swtstudy.mechanics.line.look import Accuracy, Look, Resolution
+from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.positions import Pieces, Positions
+from swtstudy.mechanics.line.rounding import of_rounding
 from swtstudy.mechanics.line.rounds import CHANGE_SHARE, climb_to_tops, looked_at_once_more
 from swtstudy.mechanics.points import FloatArray, Rows
-from swtstudy.mechanics.stress.line import arrival
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
 #: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/mechanics/test_narrow_maxima.py); 0.9 throughout:
 #: no gain.
 SHARES = 0.97, 0.995, 0.999
-#: Distance from the singular edge of a flat face, over the face or the ring beside it, up to which its limit
-#: has more digits than r. A hundredth and a hundred times: about 1e-7.
-REACH = 1e-8
-#: Rounding of a plane's normal stress, over the parts that it is the sum of.
-PARTS = 4.0 * float(np.finfo(float).eps)
-#: Step to the slope of a coordinate, over the distance from a face's edge or the centre, and in roundings.
-SLOPE_STEP, LEAST_SLOPE_STEP = 1e-3, 4.0
 
 
 @dataclass(frozen=True)
@@ -86,82 +78,10 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
         found = found.put(doubtful[better], again.take(better))
     rows = np.flatnonzero(found.swt > 0.0)
     if rows.size:
-        of_rounding = _of_rounding(scene.take(rows), found.take(rows), accuracy)
-        found.error[rows] = np.maximum(found.error[rows], of_rounding)
+        critical = found.position[rows], found.double_angle[rows]
+        rounding = of_rounding(scene.take(rows), found.swt[rows], *critical, accuracy)
+        found.error[rows] = np.maximum(found.error[rows], rounding)
     return found
-
-
-def _of_rounding(scene: Scene, found: Maximum, accuracy: Accuracy) -> FloatArray:
-    """Share by which rounding and tables may put swt > 0 off, shape (n,)."""
-    # What swt is made of is as large as its root; it is a stress times a strain.
-    is_product = scene.criterion.degree == 2
-    size = np.sqrt(found.swt) if is_product else found.swt
-    # Two bounds of one thing.
-    rounding = np.minimum(
-        _rounding(scene, np.abs(found.position)[:, None]), _share_within_rounding(scene, found) * size
-    )
-    rounding = rounding + _of_tables(scene, accuracy.check)
-    if scene.profile.has_singular_edge:
-        # Nearer, the limit counts.
-        flat = scene.profile.flat_radius
-        rounding *= np.abs(found.position) - flat >= flat * reach_of_edge(scene.profile)
-    of_both = np.asarray(rounding * size if is_product else rounding)
-    if scene.bulk is None:
-        return of_both
-    return np.maximum(of_both, _of_tension(scene, found, rounding, accuracy.search))
-
-
-def _of_tension(scene: Scene, found: Maximum, rounding: FloatArray, resolution: Resolution) -> FloatArray:
-    """Part of swt that a tension within rounding makes, shape (n,): all, where the bulk stress presses."""
-    look = Look.at(scene, np.abs(found.position)[:, None], resolution.nodes, resolution.digits)
-    planes = scene.planes(look.history, np.sign(found.position)[:, None, None])
-    curves = planes.criterion.curves(*planes.on_plane(found.double_angle[:, None]))
-    tension, up, down = (curve.max(axis=-1)[:, 0] for curve in curves)
-    # On a plane the parts of a pressure cancel.
-    rounding = rounding + PARTS * np.abs(planes.stress).sum(axis=0).max(axis=-1)[:, 0]
-    low = np.maximum(tension, 0.0)
-    criterion = scene.criterion
-    return np.asarray(criterion.of_maxima(low + rounding, up, down) - criterion.of_maxima(low, up, down))
-
-
-def reach_of_edge(profile: Profile) -> FloatArray:
-    """Distance from a singular edge, over its radius, below which swt is taken from the limit, shape (n,)."""
-    radius, flat = profile.radius(profile.largest_depth), profile.flat_radius
-    reach = REACH * np.minimum(radius - flat, flat)
-    return np.divide(reach, flat, out=np.zeros_like(flat), where=flat > 0.0)
-
-
-def _rounding(scene: Scene, r: FloatArray) -> FloatArray:
-    """Error of a stress at r, shape (n, 1), by the rounding of what arrives there, shape (n,)."""
-    profile, coordinate = scene.profile, scene.coordinate
-    r, b = np.minimum(r, profile.radius(profile.largest_depth)[:, None]), profile.flat_radius[:, None]
-    at, step = coordinate.of(r), np.maximum(SLOPE_STEP * (r - b), LEAST_SLOPE_STEP * np.spacing(r))
-    # How far from r an edge is left, in radius: what it leaves is the pressure by that ring.
-    rise = coordinate.of(r + step) - at
-    width = arrival(scene.cycle.load, coordinate, r, at)[1] * step
-    # Under a flat face nothing arrives.
-    width = np.divide(width, rise, out=np.zeros_like(rise), where=rise > 0.0)
-    slope = profile.weighted_slope(r) / np.sqrt(np.maximum((r - b) * (r + b), r * step))
-    return np.asarray(slope * np.sqrt(2.0 * np.minimum(width / r, 1.0)) / np.pi)[:, 0]
-
-
-def _of_tables(scene: Scene, resolution: Resolution) -> FloatArray:
-    """Error of a stress by tables, from the mean slope of the profile, shape (n,)."""
-    deepest = scene.profile.largest_depth
-    return np.asarray(10.0**-resolution.digits * deepest / scene.profile.radius(deepest))
-
-
-def _share_within_rounding(scene: Scene, found: Maximum) -> FloatArray:
-    """Relative change of swt, were all of it made by the smaller motion and this rounded, shape (n,)."""
-    load, r = scene.cycle.load, np.abs(found.position)[:, None]
-    normal = load.normal_motion
-    distance = arrival(load, scene.coordinate, r, scene.coordinate.of(r))[1][:, 0]
-    # A motion within rounding is none.
-    shares = [
-        np.divide(distance, motion, out=np.zeros_like(motion), where=motion > distance)
-        for motion in (normal, load.motion - normal)
-    ]
-    return np.asarray(np.sqrt(np.maximum(*shares)))
 
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, between, packed, place_in_row
+from swtstudy.mechanics.numerics.arrays import SAME, between, packed, place_in_row
 from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.stress.line import COORDINATE
 from swtstudy.mechanics.stress.scene import Scene
 
 #: The centre is left out, this share of the contact: swt is not largest there, but next to a sharp tip that
@@ -96,9 +97,9 @@ class Pieces:
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
         """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
-        # Longer ones count. All: 2e-4 at a point of tests/mechanics/test_overlooked.py; from 1e-9 of r on: as
-        # much at another.
-        point, number = np.nonzero(high - low > ROUNDING * high)
+        # Longer ones count. All: 2e-4 at a point of tests/mechanics/test_overlooked.py; from 1e-12 of r on: 3e-6
+        # at another.
+        point, number = np.nonzero(high - low > COORDINATE * high)
         last = np.append(np.diff(point) > 0, True)
         # However short a piece is left out, the next one begins there: a thin slip zone has its s at the end.
         begin = low[point, number]

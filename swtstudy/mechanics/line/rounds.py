@@ -43,7 +43,8 @@ SUDDEN = 4.0
 #: Values closer than this share of the tolerance are equal: the climb stays. 0: it walks off on rounding, and
 #: s_error is all of s at a point of tests/mechanics/test_s_error.py.
 TIE = 1e-3
-#: Rounds at most. Half or twice: no change at 128 points.
+#: Rounds at most: what is still on its way then counts where it is, and a mean may be largest about it
+#: (tests/mechanics/test_worst_means.py).
 LARGEST_ROUND_COUNT = 16
 #: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
 PART_SIZE = 100_000

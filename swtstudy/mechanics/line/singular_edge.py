@@ -29,7 +29,8 @@ from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.paraboloid import SMALLEST_FACE, TruncatedParaboloid
 from swtstudy.mechanics.line.look import SETTLED, Accuracy, Look, lifted
-from swtstudy.mechanics.line.maximum import Maximum, reach_of_edge
+from swtstudy.mechanics.line.maximum import Maximum
+from swtstudy.mechanics.line.rounding import reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.planes.through_y import climb_over_planes

@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.numerics.arrays import TINY, gather, pick
 from swtstudy.mechanics.points import FloatArray, Rows
 
-#: Steps fall back to bisection when they leave the bracket, so this many always suffice. Ten do at 56 points.
-LARGEST_STEP_COUNT = 60
+#: Iterations that converge, or fall back to bisection, need fewer steps than these.
+MOST_STEPS = 60
+#: Newton's method squares the error: so many steps lead from a hundredth to rounding.
+NEWTON_STEPS = 3
 
 #: Last step of a root in time, rad. A hundred times: 4e-5 at 3 of 128 points at rtol 1e-5, no faster.
 LAST_STEP = 1e-5
@@ -78,7 +80,7 @@ def monotone_roots(
     rising = brackets.at_high >= brackets.at_low
     root = low + (high - low) * _first_guess(goal, brackets)
     active, result = np.arange(low.size), root.copy()
-    for _ in range(LARGEST_STEP_COUNT):
+    for _ in range(MOST_STEPS):
         value, slope, bend = function(root, active)
         value = value - goal
         below = (value < 0.0) == rising
@@ -152,11 +154,6 @@ def sign_changes(grid: FloatArray, values: FloatArray) -> tuple[NDArray[np.intp]
         np.concatenate([low, grid[pair_cell], split]),
         np.concatenate([high, split, grid[pair_cell + 2]]),
     )
-
-
-#: Newton steps from a parabola's vertex to a polynomial's maximum. One: 1e-7 at rtol 1e-4, hardly
-#: faster; four: 1e-10.
-NEWTON_STEPS = 2
 
 
 def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, TINY, hemisphere
+from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.ascent import climb, swap_instants
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.planes.weights import normal_weights, symmetric_tensor
@@ -30,8 +31,6 @@ CANDIDATES = 6
 #: Summits as high as this fraction of the highest may have a higher neighbour. Half: no change in 16 values
 #: of bodies; no such summits: 1e-6, 5 % faster.
 PROMISING = 0.9
-#: Looks for a higher neighbour at most. Half or twice: no change in 16 values of bodies.
-LARGEST_SWAPS = 8
 #: Histories times planes of a look at a time: with their instants they stay in the processor's cache. An
 #: eighth or eight times: the same time to 8 % at 229 instants.
 BLOCK_SIZE = 2048
@@ -69,7 +68,7 @@ def swt_of_history(
     swt, normal = climb(history[index], tensor[index], start.reshape(-1, 3), every)
     highest = swt.reshape(CANDIDATES, -1).max(axis=0)
     open_ = np.flatnonzero((swt > 0.0) & (swt >= PROMISING * highest[index]) & _distinct(normal))
-    for _ in range(LARGEST_SWAPS):
+    for _ in range(MOST_STEPS):
         if not len(open_):
             break
         some, own = (history[index[open_]], tensor[index[open_]]), every.take(open_)
@@ -200,10 +199,6 @@ def _beside() -> NDArray[np.intp]:
     return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]
 
 
-#: Steps for each dimension and point at most: each adds a point to those on the sphere or drops one.
-STEPS = 50
-
-
 def crossland(stress: FloatArray, sensitivity: float) -> FloatArray:
     """√J2,a + α max σ_H, of histories (…, T, 6), shape (…).
 
@@ -226,7 +221,7 @@ def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:
     centre = points[0].copy()
     on = [int(((points - centre) ** 2).sum(axis=1).argmax())]
     size = max(float(np.ptp(points, axis=0).max()), TINY)
-    for _ in range(STEPS * (points.shape[1] + len(points))):
+    for _ in range(MOST_STEPS * (points.shape[1] + len(points))):
         base, others = points[on[0]], points[on[1:]] - points[on[0]]
         share = np.linalg.lstsq(others.T, centre - base, rcond=None)[0]
         way = base + share @ others - centre

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME
+from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights, tangent_basis
 from swtstudy.mechanics.points import FloatArray
@@ -25,8 +26,6 @@ from swtstudy.mechanics.points import FloatArray
 LARGEST_STEP = 0.2
 #: The same where it only says where to look next. 1e-9: twice the steps.
 ROUGH_STEP = 3e-3
-#: Steps of a climb at most. Half or twice: no change in 16 values of bodies.
-LARGEST_ITERATIONS = 40
 #: Instants that may take the place of an active one. Half or twice: no change in 16 values of bodies.
 RIVALS = 16
 
@@ -79,7 +78,7 @@ def climb_by(
     height, tension, change = active(slice(None), normal, criterion)
     trust = np.full(len(normal), LARGEST_STEP)
     going = np.flatnonzero(height > 0.0)
-    for _ in range(LARGEST_ITERATIONS):
+    for _ in range(MOST_STEPS):
         if not len(going):
             break
         here, own = normal[going], criterion.take(going)

@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
+from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.points import FloatArray
 
-#: Newton steps over the planes. One: 7e-6 at rtol 1e-4, the same time; six: rounding.
-NEWTON_STEPS = 3
 #: Largest step of 2θ in one Newton step, rad. Half or twice: no change at 128 points.
 LARGEST_STEP = 0.4
 #: Points of a block whose planes are tried together: it stays in the processor's cache. All 256 points of a
