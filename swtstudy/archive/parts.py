@@ -25,7 +25,7 @@ import numpy as np
 
 from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.canonical import COLUMNS, NAMES, ROW, group_rows
+from swtstudy.points.canonical import NAMES, ROW, group_rows
 from swtstudy.points.records import Records, Run, join
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
@@ -45,7 +45,11 @@ _NAME = re.compile(r"[0-9]{6,}\.npz")
 _JOINED = 32
 
 #: What the numbers in a table mean; parts with another layout cannot be used.
-_LAYOUT = {"columns": list(COLUMNS), "profiles": list(NAMES), "criteria": list(CRITERIA)}
+_LAYOUT = {
+    "columns": [[name, ROW[name].str] for name in ROW.names or ()],
+    "profiles": list(NAMES),
+    "criteria": list(CRITERIA),
+}
 
 
 def parts_folder(path: Path) -> Path:
@@ -163,7 +167,7 @@ def _write(folder: Path, number: int, records: Records) -> Path:
     np.savez(
         content,
         meta=np.array(json.dumps(meta)),
-        table=records.table.view(np.float64).reshape(-1, len(COLUMNS)),
+        table=records.table,
         status=records.status,
         run=records.run,
         **{name: getattr(records.solution, name) for name in _ARRAYS},
@@ -194,7 +198,7 @@ def _records_from(content: bytes) -> Records:
         meta = json.loads(part["meta"].item())
         if meta["layout"] != _LAYOUT:
             raise ValueError("made by another version of swtstudy")
-        table = part["table"].view(ROW)[:, 0]
+        table = part["table"]
         message = np.full(len(table), "", object)
         for index, words in meta["messages"].items():
             message[int(index)] = words

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.vocabulary.choices import FAMILIES, PLAIN_OF, SWT, family_of
-from swtstudy.vocabulary.definition import Definition, cost_of
+from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
 
 if TYPE_CHECKING:
@@ -24,28 +24,28 @@ if TYPE_CHECKING:
 NAMES = PARAMETERS["profile"].names
 
 #: What a user has defined, by its code.
-Definitions = Mapping[float, Definition]
+Definitions = Mapping[int, Definition]
 
 
-def code_of(value: str | Definition, parameter: str = "profile") -> float:
+def code_of(value: str | Definition, parameter: str = "profile") -> int:
     """The number that stands for a value of a parameter that has names."""
-    return value.code if isinstance(value, Definition) else float(PARAMETERS[parameter].names.index(value))
+    return value.code if isinstance(value, Definition) else PARAMETERS[parameter].names.index(value)
 
 
-def value_of(code: float, definitions: Definitions, parameter: str = "profile") -> str | Definition:
+def value_of(code: int, definitions: Definitions, parameter: str = "profile") -> str | Definition:
     """The value that a number stands for."""
     names = PARAMETERS[parameter].names
-    return names[int(code)] if code < len(names) else definitions[code]
+    return names[code] if code < len(names) else definitions[code]
 
 
-def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.bool_]) -> FloatArray:
+def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.bool_]) -> IntArray:
     """The numbers that stand for what is prescribed, from whether each component is a force."""
-    return normal_force + 2.0 * tangential_force
+    return normal_force + 2 * tangential_force
 
 
-def control_of(code: float) -> Control:
+def control_of(code: int) -> Control:
     """Control of a number; see `code_of_control`."""
-    return Control(bool(int(code) & 1), bool(int(code) & 2))
+    return Control(bool(code & 1), bool(code & 2))
 
 
 def _numbers(part: str) -> tuple[str, ...]:
@@ -54,9 +54,10 @@ def _numbers(part: str) -> tuple[str, ...]:
     return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
 
 
-#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load.
+#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load; of a loop also what it costs.
 RATIO_COLUMNS = ("p", "q")
-LOAD_COLUMNS = ("control", "load", *RATIO_COLUMNS, *_numbers("load"))
+COST = "load_cost"
+LOAD_COLUMNS = ("control", COST, "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
 SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
 #: Shape parameters, of whichever profile.
@@ -69,7 +70,8 @@ NUMBERS = (*_numbers("load"), *_OTHERS)
 #: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 #: A canonical point, in an array: a number for each of these names.
-ROW = np.dtype([(name, np.float64) for name in COLUMNS])
+_INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
+ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name in COLUMNS])
 #: Canonical points, shape (n,) of `ROW`.
 Table = NDArray[np.void]
 
@@ -120,7 +122,7 @@ def _make_profiles_canonical(table: Table) -> None:
             profile[same] = code_of(PLAIN_OF[family.geometry])
     for code in np.unique(profile):
         # What the user has defined has no shape parameters.
-        shape = () if cost_of(code) else family_of(str(value_of(code, {}))).shape
+        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
         for name in {*SHAPE_COLUMNS} - {*shape}:
             table[name][profile == code] = 0.0
 
@@ -129,7 +131,7 @@ def _make_loads_canonical(table: Table) -> NDArray[np.bool_]:
     """Returns where x is mirrored."""
     from swtstudy.mechanics.load.bimodal import fold_bulk_phase, fold_phase, without_what_stands_still
 
-    p, q = (table[name].astype(np.int64) for name in "pq")
+    p, q = table["p"], table["q"]
     normal, tangential, phase = (
         table[name] for name in ("normal_amplitude", "tangential_amplitude", "phase")
     )
@@ -161,8 +163,7 @@ def _make_control_canonical(
 ) -> None:
     """A component that stands still is prescribed as the other one is, both that do as displacements."""
     control = table["control"]
-    force = control.astype(np.int64)
-    normal, tangential = (force & 1) == 1, (force & 2) == 2
+    normal, tangential = (control & 1) == 1, (control & 2) == 2
     moves = ~normal_rests & normal, ~tangential_rests & tangential
     control[:] = control_code(
         np.where(normal_rests, moves[1], normal), np.where(tangential_rests, moves[0], tangential)
@@ -210,8 +211,8 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     course = value_of(table["load"][0], definitions, "load")
     return Points(
         profile=profile,  # type: ignore[arg-type]
-        p=table["p"].astype(np.int64),
-        q=table["q"].astype(np.int64),
+        p=table["p"].copy(),
+        q=table["q"].copy(),
         shape={name: table[name].copy() for name in family_of(profile).shape},
         control=control_of(table["control"][0]),
         path=course if isinstance(course, Loop) else None,
@@ -228,7 +229,7 @@ def describe_point(row: np.void, definitions: Definitions) -> str:
     if isinstance(course, Definition):
         parts.append(f"load={course}")
     else:
-        parts.append(f"frequency_ratio={row['p']:.0f}/{row['q']:.0f}")
+        parts.append(f"frequency_ratio={row['p']}/{row['q']}")
     criterion = value_of(row["criterion"], definitions, "criterion")
     if not PARAMETERS["criterion"].goes_without_saying(criterion):
         parts.append(f"criterion={criterion}")

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.canonical import (
     COLUMNS,
+    COST,
     RATIO_COLUMNS,
     Table,
     canonical_number,
@@ -79,7 +80,7 @@ class Grid:
         return Control.given((*self.fixed, *self.axes, *self.samples))
 
     @property
-    def definitions(self) -> dict[float, Definition]:
+    def definitions(self) -> dict[int, Definition]:
         """The user's definitions, by their codes in canonical rows."""
         return {each.code: each for each in self.given}
 
@@ -170,17 +171,21 @@ class Grid:
     def _codes(self) -> dict[str, NDArray]:
         """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
         return {
-            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0.0])
+            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0])
             for name in COLUMNS
         }
 
     def _source(self, column: str) -> str:
         """The parameter that a column of canonical rows comes from."""
+        if column == COST:
+            return "load"
         return "frequency_ratio" if column in RATIO_COLUMNS else self.control.given_for(column)
 
 
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
+    if name == COST:
+        return value.cost if isinstance(value, Definition) else 0
     if isinstance(value, str | Definition):
         return code_of(value, name)
     if isinstance(value, Fraction):

@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.points.canonical import LOAD_COLUMNS, ROW, SHARED_COLUMNS, Definitions, Table, group_rows
+from swtstudy.points.canonical import COST, LOAD_COLUMNS, ROW, SHARED_COLUMNS, Definitions, Table, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.vocabulary.definition import CONTENT_BITS
 from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
@@ -84,9 +83,7 @@ COUNTING = 2.5
 
 def weights(table: Table) -> IntArray:
     """Rough relative cost of points: long cycles cost more."""
-    frequencies = (table["p"] + table["q"]).astype(np.int64)
-    # The cost of a loop is part of its code.
-    return frequencies + table["load"].astype(np.int64) // 2**CONTENT_BITS
+    return table["p"] + table["q"] + table[COST]
 
 
 def rough_seconds(weight: float, points: int, asked: Request) -> float:

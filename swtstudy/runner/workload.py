@@ -184,13 +184,13 @@ def estimate(
             result, seconds = _timed(lean, inside, asked, rtol, solver, share)
             spent += seconds
         timed(result)
-        total += growth.get(float(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
+        total += growth.get(int(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
         work += int(weight[rows[kind == each]].sum())
     others = int(weight[rows].sum()) - work
     return float(total + total / work * others)
 
 
-def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[float, float]]:
+def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[int, float]]:
     """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
     from swtstudy.mechanics.load.load_path import LoadPath
 

@@ -129,7 +129,7 @@ class PhysicalGrid(ContactDetails, Grid):
         return contacts_at_rest(self)
 
     @property
-    def definitions(self) -> dict[float, Definition]:
+    def definitions(self) -> dict[int, Definition]:
         """The user's definitions, by their codes in canonical rows: tables in a_H and δ0."""
         tables = (contact.pure_profile for contact in self.at_rest.contacts.flat)
         loads = {each.code: each for each in self.given if each.parameter == "load"}

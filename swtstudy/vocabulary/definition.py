@@ -64,8 +64,8 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
     return np.asarray(np.ma.filled(array.astype(float), np.nan))
 
 
-#: Bits of a code for the content; above them is the cost, so that the whole is an exact double.
-CONTENT_BITS = 40
+#: Bytes of the check sum of a content that are its code, behind a 1 that makes it larger than built-in ones.
+CODE_BYTES = 7
 
 
 def wrong_name(name: object, parameter: str) -> Mistake | None:
@@ -110,7 +110,7 @@ class Definition(ABC):
 
     @property
     def cost(self) -> int:
-        """About how many times as long as the simplest one it takes, from 1 to 4095."""
+        """About how many times as long as the simplest one it takes."""
         return 1
 
     @property
@@ -119,12 +119,10 @@ class Definition(ABC):
         return ()
 
     @cached_property
-    def code(self) -> float:
+    def code(self) -> int:
         """The number that stands for its content in canonical rows; built-in values have smaller ones."""
         text = json.dumps(self.content(), sort_keys=True)
-        digest = hashlib.sha256(text.encode()).digest()
-        content = int.from_bytes(digest[: CONTENT_BITS // 8], "big")
-        return float((self.cost << CONTENT_BITS) + content)
+        return int.from_bytes(b"\1" + hashlib.sha256(text.encode()).digest()[:CODE_BYTES], "big")
 
     def notes(self) -> dict[str, Any]:
         """Facts that archives keep beside the content, as JSON can hold them."""
@@ -141,8 +139,3 @@ class Definition(ABC):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.name}>"
-
-
-def cost_of(code: float) -> int:
-    """`Definition.cost` of what a code stands for; 0 for a built-in value."""
-    return int(code) >> CONTENT_BITS

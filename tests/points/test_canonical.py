@@ -48,13 +48,14 @@ def test_values_are_told_apart_by_twelve_digits():
 
 
 def test_the_columns_are_the_rows_of_the_table_of_parameters():
-    assert LOAD_COLUMNS == ("control", "load", "p", "q", "normal_amplitude", "tangential_amplitude", "phase")
+    of_load = "load_cost", "load", "p", "q", "normal_amplitude", "tangential_amplitude", "phase"
+    assert ("control", *of_load) == LOAD_COLUMNS
     shapes = ("flat_radius", "flat_half_width", "waviness_amplitude", "wavelength", "exponent")
     # Blocks are cut along this order, and the last digits of a value depend on its block.
     extra = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase", "walker_exponent")
     extra = (*extra, "normal_sensitivity")
     assert ("profile", "criterion", *LOAD_COLUMNS, *shapes, "friction", "poisson_ratio", *extra) == COLUMNS
-    assert {*COLUMNS} - {"control", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
+    assert {*COLUMNS} - {"control", "load_cost", "p", "q"} == {*PARAMETERS} - {"frequency_ratio", *PAIRS}
     table, _ = grid_of({"profile": "rounded_punch", "flat_radius": 0.5, "frequency_ratio": "3/2"}).canonical()
     assert describe_point(table[0], {}) == (
         "profile=rounded_punch, flat_radius=0.5, frequency_ratio=3/2, normal_amplitude=0.75, "

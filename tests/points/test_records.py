@@ -10,7 +10,7 @@ import numpy as np
 
 from swtstudy.archive.parts import PartsWriter, read_parts
 from swtstudy.mechanics.points import Solution
-from swtstudy.points.canonical import COLUMNS, ROW
+from swtstudy.points.canonical import ROW
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join, look_up
 
 
@@ -60,13 +60,13 @@ def test_a_run_in_two_parts_began_with_the_first_of_them() -> None:
     assert [run.started for run in join(parts).runs] == ["2025-03-01"]
 
 
-def test_parts_hold_the_points_as_a_matrix(tmp_path: Path) -> None:
+def test_parts_hold_the_points_by_named_columns(tmp_path: Path) -> None:
     records = some(3, FAILED, "why", stick_radius=0.25)
     PartsWriter(tmp_path).add(records)
     (file,) = tmp_path.glob("*.npz")
     with np.load(io.BytesIO(file.read_bytes())) as part:
-        assert part["table"].shape == (3, len(COLUMNS))
-        assert part["table"][:, COLUMNS.index("phase")].tolist() == [0, 1, 2]
+        assert part["table"].dtype == ROW
+        assert part["table"]["phase"].tolist() == [0, 1, 2]
     read = read_parts(tmp_path)
     assert (read.table == records.table).all()
     assert read.message.tolist() == ["why"] * 3

@@ -97,8 +97,8 @@ class Pieces:
     def between(cls, ends: FloatArray, feature_length: FloatArray) -> Pieces:
         """Pieces between the `cusps`, (n, k), that have a length; none is longer than a wave, (n,)."""
         low, high = ends[:, :-1], ends[:, 1:]
-        # Longer ones count. All: 2e-4 at a point of tests/mechanics/test_overlooked.py; from 1e-12 of r on: 3e-6
-        # at another.
+        # Longer ones count. All: 2e-4 at a point of tests/mechanics/test_overlooked.py; from 1e-12 of r on:
+        # 3e-6 at another.
         point, number = np.nonzero(high - low > COORDINATE * high)
         last = np.append(np.diff(point) > 0, True)
         # However short a piece is left out, the next one begins there: a thin slip zone has its s at the end.

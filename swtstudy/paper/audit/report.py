@@ -15,7 +15,16 @@ from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import TOLERANCE, VERDICTS, AuditedPoint
-from swtstudy.points.canonical import COLUMNS, ROW, Definitions, Table, code_of, describe_point, value_of
+from swtstudy.points.canonical import (
+    COLUMNS,
+    COST,
+    ROW,
+    Definitions,
+    Table,
+    code_of,
+    describe_point,
+    value_of,
+)
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
@@ -63,7 +72,8 @@ def audit_dataset(rows: Table, points: Sequence[AuditedPoint], definitions: Defi
     """
     import xarray as xr
 
-    coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS}
+    # What loops cost is known with them.
+    coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS if name != COST}
     for name in _WITH_NAMES & {*COLUMNS}:
         names = [str(value_of(code, definitions, name)) for code in rows[name]]
         coordinates[name] = ("sample", np.array(names, dtype=object))
@@ -117,6 +127,8 @@ def canonical_rows(dataset: xr.Dataset) -> Table:
             own = known.get(name, {})
             codes = name in _WITH_NAMES
             rows[name] = [code_of(own.get(value, value), name) for value in values] if codes else values
+            if name == "load":
+                rows[COST] = [own[value].cost if value in own else 0 for value in values]
         elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
             rows[name] = PARAMETERS[name].default
     return rows
