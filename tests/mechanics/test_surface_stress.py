@@ -175,26 +175,25 @@ def test_stress_by_growth_in_stick_against_quadrature(name: str, p: int, q: int)
 
 
 @pytest.mark.parametrize("phase", [1e-6, 1e-4, 0.01, 1.0, np.pi - 1e-3])
-@pytest.mark.parametrize("share", [0.02, 0.3, 0.9])
-def test_growth_that_turns_fast_at_its_ends(share: float, phase: float) -> None:
-    """Nearly in phase the slope −Ṫ/Ṅ turns to ±1 within little ground; against a sum over small steps."""
+@pytest.mark.parametrize(("share", "p"), [(0.02, 1), (0.3, 1), (0.9, 1), (0.3, 2), (0.3, 20)])
+def test_growth_that_turns_fast(share: float, p: int, phase: float) -> None:
+    """At its ends, where the loads are nearly in phase, and all over it; against a sum over small steps."""
     d = 0.3
-    scene = scene_of(points(normal_amplitude=d, tangential_amplitude=share * d, phase=phase))
+    scene = scene_of(points(normal_amplitude=d, tangential_amplitude=share * d / p, phase=phase, p=p))
     growths = Growths.of(scene.cycle.memory)
-    # One, or two of them where the cycle begins between its ends.
-    begin, end, count = growths.begin.min(), growths.end.max(), growths.begin.size
-    # Of the angle qφ + ψ, ever smaller steps towards both ends.
-    first, last = np.arcsin((np.array([begin, end]) - 1.0) / d)
-    steps = (last - first) * 0.5 * np.append(0.0, np.geomspace(1e-12, 1.0, 400_000))
-    θ = np.concatenate([first + steps, (last - steps[:-1])[::-1]])
-    middle = 0.5 * (θ[1:] + θ[:-1])
-    slope = -share * (np.cos(phase) + np.tan(middle) * np.sin(phase))
-    r = np.sqrt([begin, 0.5 * (begin + end), end])
-    v = np.sqrt(np.maximum(1.0 + d * np.sin(θ) - r[:, None] ** 2, 0.0))
-    expected = (2.0 * slope * np.diff(v)).sum(axis=1)
-    for digits, close in ((5.0, 3e-7), (7.0, 4e-8)):
-        found = GrowthIntegrals(scene.cycle, scene.coordinate, r[None], digits)
-        column, growth = (each.ravel() for each in np.indices((3, count)))
-        parts = found.up_to(0 * column, column, growth, np.full(column.size, np.sqrt(end)))[2]
-        total = parts.reshape(3, count).sum(axis=1)
-        np.testing.assert_allclose(total, expected, rtol=0.0, atol=close)
+    for number, (begin, end) in enumerate(zip(growths.begin[0], growths.end[0], strict=True)):
+        # Of the angle θ = φ + ψ, ever smaller steps towards both ends.
+        first, last = np.arcsin((np.array([begin, end]) - 1.0) / d)
+        steps = (last - first) * 0.5 * np.linspace(0.0, 1.0, 400_000) ** 4
+        θ = np.concatenate([first + steps, (last - steps[:-1])[::-1]])
+        middle = 0.5 * (θ[1:] + θ[:-1])
+        slope = -share * np.cos(p * (middle - phase)) / np.cos(middle)
+        r, ξ = np.sqrt([[begin], [0.5 * (begin + end)], [end]]), np.sqrt(1.0 + d * np.sin(θ))
+        # Of the springs inside r over α, ξ = r sin α, and of those outside over v = √(ξ² − r²).
+        α, v = np.arcsin(np.minimum(ξ / r, 1.0)), np.sqrt(np.maximum(ξ * ξ - r * r, 0.0))
+        inner = 4.0 / r * (1.0 + d * np.sin(middle)) * slope * np.diff(α)
+        expected = np.stack([inner.sum(axis=1), (2.0 * slope * np.diff(v)).sum(axis=1)])
+        at = np.zeros(3, dtype=np.intp), np.arange(3), np.full(3, number), np.full(3, np.sqrt(end))
+        for digits in (5.0, 7.0):
+            found = GrowthIntegrals(scene.cycle, scene.coordinate, r.T, digits).up_to(*at)[[0, 2]]
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=5e-8)

@@ -23,7 +23,9 @@ from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 
 #: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows.
-NODES_PER_OSCILLATION = 0.8
+NODES_PER_OSCILLATION = 0.6
+#: Ratio of the distances from the ends of a growth at which its slope is looked at.
+LAYER_STEP = 2.0
 #: Numbers of nodes are multiples of this, since halves with as many are evaluated together. 4: no faster.
 NODE_STEP = 8
 
@@ -57,7 +59,7 @@ class GrowthIntegrals:
         low, high = (coordinate.radius(g)[:, None, :] for g in (growths.begin, growths.end))
         self.cycle, self.coordinate, self.branch = cycle, coordinate, growths.branch
         layers = _layers(cycle.load, growths, digits)
-        nodes = _node_count(cycle.load, layers, digits, coordinate.profile.extra_nodes(digits) // 2)
+        nodes = _node_count(cycle.load, layers, digits, coordinate.profile.extra_nodes(digits) // 4)
         r, b = self.position, self.flat
         self.inner = _OverRanges(
             _inner_angle(low, r, b), _inner_angle(high, r, b), self._inner_density, layers, nodes
@@ -126,21 +128,22 @@ class GrowthIntegrals:
 def _layers(load: Load, growths: Growths, digits: float) -> FloatArray:
     """Thickness ε of the layers at both ends of growths, shape (n, k, 2), in the β at which sin²β is passed.
 
-    Where slip ends or begins the slope −Ṫ/Ṅ is ±1. As Ṅ² is nearly proportional to what is left up to the
-    turn of N, the slope is a function of β² + ε², with ε² what is left at the end, over all ground. Where
-    |slope| stays below 1 up to the turn there is no layer.
+    Where slip ends or begins, next to a turn of N, the slope −Ṫ/Ṅ is ±1: as Ṅ² is nearly proportional to
+    what is left up to there, it goes with ε/√(ε² + β²). It is looked at ever nearer to the end, to see where
+    half of its change is behind: that is so at √3 ε.
     """
-    span = np.maximum(growths.end - growths.begin, TINY)
-    layers = np.ones((*span.shape, 2))
-    for end, (here, beyond) in enumerate(
-        ((growths.begin, load.least_normal), (growths.end, load.largest_normal))
-    ):
-        instant = load.touch_down(np.broadcast_to(beyond[:, None], here.shape), growths.branch)
-        left = np.sqrt(np.abs(load.normal(instant) - here) / span)
-        slips = np.abs(load.growth_slope(here, growths.branch)) > 0.5
-        layers[..., end] = np.where(slips, left, 1.0)
-    # A layer changes the stress by its thickness at most.
-    return np.clip(layers, 10.0**-digits, 1.0)
+    # A layer changes the stress by its thickness at most, and by its change of slope.
+    least = 10.0**-digits
+    thickness = LAYER_STEP ** np.arange(np.floor(np.log(least) / np.log(LAYER_STEP)), 1.0)
+    begin, end = growths.begin[..., None], growths.end[..., None]
+    passed = (end - begin) * np.append(0.0, 0.5 * thickness**2)
+    ground = np.stack([begin + passed, end - passed], axis=-2)
+    slope = load.growth_slope(ground, growths.branch[..., None, None])
+    change = np.abs(slope[..., 1:] - slope[..., :1])
+    behind = change >= np.maximum(0.5 * change.max(axis=-1, keepdims=True), least)
+    # Where nothing changes there is no layer.
+    behind[..., -1] = True
+    return np.asarray(thickness[behind.argmax(axis=-1)] / np.sqrt(3.0))
 
 
 def _node_count(load: Load, layers: FloatArray, digits: float, more: int) -> NDArray[np.intp]:
@@ -149,15 +152,17 @@ def _node_count(load: Load, layers: FloatArray, digits: float, more: int) -> NDA
     In w, β = ε sinh w, the slope is singular at ±iπ/2, beside the end of 0 ≤ w ≤ asinh(π/4ε), and in the
     layer of the other half, from asinh(π/2ε) on. A series of N terms misses ρ⁻ᴺ, where ρ is the sum of the
     half axes of the ellipse about the range through the nearer of these (Trefethen, Approximation Theory
-    and Approximation Practice, chapter 8).
+    and Approximation Practice, chapter 8). What oscillates over β does so faster over w, at the farther end.
     """
     near, far = np.arcsinh(0.25 * np.pi / layers), np.arcsinh(0.5 * np.pi / layers)
     rates = [
         np.abs(np.log(np.abs(z + np.sqrt(z - 1.0) * np.sqrt(z + 1.0))))
         for z in (1j * np.pi / near - 1.0, 2.0 * far / near - 1.0 + 0.0j)
     ]
+    faster = near * np.hypot(1.0, 4.0 / np.pi * layers)
     normal, tangential = load.oscillations
-    count = digits * np.log(10.0) / np.minimum(*rates) + NODES_PER_OSCILLATION * tangential / normal + more
+    oscillations = faster * (NODES_PER_OSCILLATION * tangential / normal + more)
+    count = digits * np.log(10.0) / np.minimum(*rates) + oscillations
     return NODE_STEP * np.ceil(count / NODE_STEP).astype(np.intp)
 
 
@@ -223,10 +228,11 @@ class _OverRanges:
         β = layer * np.sinh(w)
         passed, rate = np.sin(β) ** 2, reach * layer * np.cosh(w) * np.sin(2.0 * β)
         passed[:, :, 1] = 1.0 - passed[:, :, 1]
-        of_half = row, growth, half
+        of_half = 2 * (row * passed.shape[1] + growth) + half
+        passed, rate = (each.reshape(-1, count).take(of_half, axis=0) for each in (passed, rate))
         low, span = (values[row, column, growth][:, None] for values in (self.low, self.span))
-        values = density((row, column, growth), low + span * passed[of_half])
-        return chebyshev.RunningIntegrals(values * (span * rate[of_half]))
+        values = density((row, column, growth), low + span * passed)
+        return chebyshev.RunningIntegrals(values * (span * rate))
 
     def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
         """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
@@ -241,7 +247,7 @@ class _OverRanges:
         column, group = self.column.take(half), self.group.take(half)
         found = np.empty((len(result), len(at)))
         for number, integrals in enumerate(self.groups):
-            some = np.flatnonzero(group == number)
+            some = np.flatnonzero(group == number) if len(self.groups) > 1 else slice(None)
             found[:, some] = integrals.single(y[some], column[some])
         whole = self.whole.reshape(len(result), -1).take(at, axis=1)
         result[:, real] = np.where(later, whole - found, found)
