@@ -22,8 +22,8 @@ from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import TINY
 from swtstudy.mechanics.points import FloatArray
 
-#: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows. 0.4:
-#: 1e-5 of the stress at ω2/ω1 = 20.
+#: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows.
+#: 0.4: 1e-5 of the stress at ω2/ω1 = 20.
 NODES_PER_OSCILLATION = 0.6
 #: Share that halves have of the nodes that a wavy or tabulated profile needs beside those of a smooth one.
 #: Errors of the stress are up to 4e-8.
