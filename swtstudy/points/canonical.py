@@ -44,7 +44,7 @@ def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.b
 
 
 def control_of(code: int) -> Control:
-    """Control of a number; see `code_of_control`."""
+    """Control of a number; see `control_code`."""
     return Control(bool(code & 1), bool(code & 2))
 
 
@@ -69,8 +69,8 @@ NUMBERS = (*_numbers("load"), *_OTHERS)
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
-#: A canonical point, in an array: a number for each of these names.
 _INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
+#: A canonical point, in an array: a number for each of these names.
 ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name in COLUMNS])
 #: Canonical points, shape (n,) of `ROW`.
 Table = NDArray[np.void]

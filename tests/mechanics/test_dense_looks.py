@@ -9,7 +9,7 @@ from folders import RESULTS, STUDIES
 
 from swtstudy.mechanics import solve_points
 
-sys.path.insert(0, str(STUDIES / "checks"))
+sys.path.append(str(STUDIES / "checks"))
 overlooked = importlib.import_module("overlooked")
 LOOKS = overlooked.known_looks(RESULTS / "dense_looks.csv")
 #: The first chunk of each scene.

@@ -202,18 +202,19 @@ class _OverRanges:
             for each in (layers, 0.5 * np.arcsinh(0.25 * np.pi / layers))
         )
         real = np.broadcast_to((self.span > 0.0)[..., None], self.group.shape)
-        self.groups, wholes = [], []
+        self.groups: list[chebyshev.RunningIntegrals] = []
+        wholes: list[tuple[tuple[NDArray[np.intp], ...], FloatArray]] = []
         for number, nodes in enumerate(np.unique(count)):
             at = np.nonzero(real & (count == nodes)[:, None])
             self.group[at], self.column[at] = number, np.arange(len(at[0]))
             self.groups.append(self._integrals(at, density, int(nodes)))
             wholes.append((at, self.groups[-1].whole))
+        halves = np.zeros((self.groups[0].components, *self.group.shape))
+        for at, whole in wholes:
+            for component, values in zip(halves, whole, strict=True):
+                component[at] = values
         #: Shape (c, n, X, k): over all of each range.
-        self.whole = np.zeros((len(wholes[0][1]), *self.span.shape))
-        for (*of_range, half), whole in wholes:
-            for side in (0, 1):
-                some = half == side
-                self.whole[:, *(each[some] for each in of_range)] += whole[:, some]
+        self.whole = halves.sum(axis=-1)
 
     def take(self, index: NDArray[np.intp]) -> _OverRanges:
         """Return the growths at ``index`` of the first axis."""
