@@ -139,7 +139,7 @@ def refine(
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     best = climb_over_planes(planes, double_angle, ANGLE_ROUNDS)
-    extremes = Extremes.of(planes, best, look.inside)
+    extremes = Extremes.of(planes.criterion.curves(*planes.on_plane(best)), look.inside)
     zoom = _Zoom(scene, look, side, resolution)
     samples = zoom.around(extremes)
     swt, angle = zoom.to_maximum(samples, best)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -13,7 +14,6 @@ from swtstudy.mechanics.events.stretches import Nodes, Placed, Stretches, cosine
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import SAME, gather, pick
 from swtstudy.mechanics.numerics.roots import parabola
-from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.line import SurfaceLine
@@ -111,10 +111,10 @@ class Extremes(Rows):
     reach: FloatArray
 
     @classmethod
-    def of(cls, planes: PlaneHistory, angle: FloatArray, inside: NDArray[np.bool_]) -> Extremes:
-        """Find the highest instants of planes at 2θ; for ``inside`` see `Look.inside`."""
+    def of(cls, curves: Iterable[FloatArray], inside: NDArray[np.bool_]) -> Extremes:
+        """Find the highest instants of three curves, (…, T); for ``inside`` see `Look.inside`."""
         best, falling, reach = [], [], []
-        for curve in planes.criterion.curves(*planes.on_plane(angle)):
+        for curve in curves:
             crests, heights = _crests(curve, inside), curve.copy()
             heights.ravel()[crests.at] = crests.lifted
             best.append(heights.argmax(axis=-1))

@@ -5,8 +5,8 @@ tension of the pressure is largest there, and at its side the bulk stress does n
 
 The stress on the circle is made of the same building blocks as on the line, see
 `swtstudy.mechanics.stress.history`. They know only r: edge and slip fronts pass the whole circle at once, and
-one look at the cycle serves all angles. At some angles the highest planes are climbed to; what is a maximum
-along the circle, too, and may be above the line is followed, with instants around its own extremes.
+one look at the cycle serves all angles. At some angles the highest planes are climbed to; what may be above
+the line is followed along the circle, with instants around its own extremes.
 """
 
 from __future__ import annotations
@@ -16,9 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.look import Look, lifted
+from swtstudy.mechanics.events.zoom import TimeBrackets
+from swtstudy.mechanics.line.look import Extremes, Look
 from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.numerics.arrays import SAME
+from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.planes.ascent import ROUGH_STEP, climb, swap_instants
 from swtstudy.mechanics.planes.weights import normal_weights
@@ -33,21 +35,19 @@ SAFE_POISSON_RATIO = 0.35
 ANGLES = np.linspace(0.0, np.pi, 17)
 #: Share of the largest swt that instants and angles may hide. 0.02: 3e-2 low at one point, 1e-2 at another.
 NEAR = 0.05
-#: Cosine of the turn, 6°, between planes of one ridge at neighbouring angles. 11°: 2e-3 low at a point of
-#: tests/mechanics/test_surface_circle.py.
-ALIKE = 0.995
+#: Cosine of the turn between planes that are one.
+SAME_PLANE = np.cos(2.0 * ROUGH_STEP)
 #: So much may a place be lower than the highest one once it has instants of its own. A third: 1e-3 low at a
 #: point of tests/mechanics/test_surface_circle.py.
 FALLS = 0.01
-#: Offsets at which each round looks, in a width that is the angles' step at first, and half as much in the
-#: next one. Half of the rounds: 1e-4 to 1e-3 low at 50 points.
-OFFSETS, ROUNDS = np.linspace(-1.0, 1.0, 5), 4
+#: Offsets at which each round looks, in a width that is the angles' step at first, half as much once the
+#: highest place is within, and at last this share of it. Four times that: 1e-4 to 1e-3 low at 50 points.
+OFFSETS, LAST_WIDTH = np.linspace(-1.0, 1.0, 5), 1.0 / 8.0
 #: What counts as higher than the line, relative: more than what the last round leaves.
 HIGHER = 1e-4
-#: Steps of a smooth stretch of the cycle in the first look and around a place, and digits of tables. The
-#: first halved: 1e-2 low at a point of tests/mechanics/test_surface_circle.py; the second: 2e-2. Two digits
-#: less: 1e-4 to 1e-3 at 19 points.
-FIRST_STEPS, TIME_STEPS, DIGITS = 4, 8, 5.5
+#: Steps of a smooth stretch of the cycle, and digits of tables. The first halved: 1e-2 low at a point of
+#: tests/mechanics/test_surface_circle.py. Two digits less: 1e-4 to 1e-3 at 19 points.
+STEPS, DIGITS = 4, 5.5
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,14 @@ class _Places(Rows):
         Shape (m,): number of the circle.
     angle, normal
         Shapes (m,), in rad from the x axis, and (m, 3).
+    width
+        Shape (m,): how far to either side the next round looks, rad.
     """
 
     circle: NDArray[np.intp]
     angle: FloatArray
     normal: FloatArray
+    width: FloatArray
 
 
 def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
@@ -103,37 +106,40 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
 
 def _highest(scene: Scene, r: FloatArray, known: FloatArray) -> FloatArray:
     """Largest swt on circles of radius r, shape (n,), ``known`` at least."""
-    highest, width = known.copy(), ANGLES[1]
-    places = _first_places(scene, r, known)
-    if not places.angle.size:
-        return highest
-    scene = scene.take(places.circle)
-    look = Look.at(scene, r[places.circle, None], TIME_STEPS, DIGITS)
-    whole = look.history
-    for _ in range(ROUNDS):
-        angle = places.angle[:, None] + width * OFFSETS
+    highest = known.copy()
+    look = Look.at(scene, r[:, None], STEPS, DIGITS)
+    places = _first_places(scene, look.history, known)
+    own = places.circle
+    scene, look, whole = scene.take(own), look.take(own), look.history.take(own)
+    for _ in range(MOST_STEPS):
+        if not places.angle.size:
+            break
+        angle = places.angle[:, None] + places.width[:, None] * OFFSETS
         history = _around_extremes(scene, look, whole, places)
         start = np.repeat(places.normal[:, None], OFFSETS.size, axis=1)
         swt, normal = _climb(*_circle(scene, history, angle), start, scene)
         np.maximum.at(highest, places.circle, swt.max(axis=1))
         best = np.arange(len(angle)), swt.argmax(axis=1)
-        places = replace(places, angle=angle[best], normal=normal[best])
+        # While the highest place is an outermost one, the maximum may be farther.
+        width = np.where(np.abs(OFFSETS[best[1]]) < 1.0, 0.5, 1.0) * places.width
+        places = _Places(places.circle, angle[best], normal[best], width)
         kept = _leading(places, swt[best], highest)
-        if not kept.size:
-            break
         places = places.take(kept)
         scene, look, whole = scene.take(kept), look.take(kept), whole.take(kept)
-        width *= 0.5
     return highest
 
 
 def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> NDArray[np.intp]:
-    """Numbers of the places that may be as high as the highest of their circle; of those that meet one."""
+    """Numbers of the places that may be as high as the highest of their circle and are not yet at the top.
+
+    Of those that meet it is one.
+    """
     order = np.lexsort((swt, places.angle, places.circle))
     some = places.take(order)
     meets = (np.diff(some.circle) == 0) & (np.diff(some.angle) < SAME)
-    meets &= np.abs((some.normal[1:] * some.normal[:-1]).sum(axis=-1)) > ALIKE
+    meets &= np.abs((some.normal[1:] * some.normal[:-1]).sum(axis=-1)) > SAME_PLANE
     kept = ~np.append(meets, False) & (swt[order] >= (1.0 - FALLS) * highest[some.circle])
+    kept &= some.width >= LAST_WIDTH * ANGLES[1]
     return order[kept]
 
 
@@ -155,20 +161,18 @@ def _climb(
     return swt.reshape(-1, k), normal.reshape(-1, k, 3)
 
 
-def _first_places(scene: Scene, r: FloatArray, known: FloatArray) -> _Places:
+def _first_places(scene: Scene, history: History, known: FloatArray) -> _Places:
     """Places of circles at which swt may be largest, and above what is known."""
-    look = Look.at(scene, r[:, None], FIRST_STEPS, DIGITS)
-    stress, tensor = _circle(scene, look.history, ANGLES[None])
+    stress, tensor = _circle(scene, history, ANGLES[None])
     swt, normal = _summits(scene, stress, tensor)
     chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), known)[:, None]) & (swt > 0.0)
-    chosen &= _on_top(swt, normal)
     at = circle, angle = np.nonzero(chosen)
     swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])
     # Of two summits close to one another, each by instants of its own, a coarse plane leads to one.
     criterion = scene.criterion.take(circle)
     other, turned = climb(*some, swap_instants(*some, normal, criterion), criterion, ROUGH_STEP)
-    is_other = np.abs((turned * normal).sum(axis=-1)) < np.cos(2.0 * ROUGH_STEP)
-    places = _Places(circle, ANGLES[angle], normal)
+    is_other = np.abs((turned * normal).sum(axis=-1)) < SAME_PLANE
+    places = _Places(circle, ANGLES[angle], normal, np.full(len(circle), ANGLES[1]))
     new = np.flatnonzero(is_other & (other >= (1.0 - FALLS) * swt))
     return _Places.joined([places, replace(places.take(new), normal=turned[new])])
 
@@ -185,31 +189,45 @@ def _summits(scene: Scene, stress: FloatArray, tensor: FloatArray) -> tuple[Floa
     return swt, normal
 
 
-def _on_top(swt: FloatArray, normal: FloatArray) -> NDArray[np.bool_]:
-    """Which summits are higher than those on alike planes at the next angles, shape (n, k)."""
-    alike = np.abs((normal[:, 1:] * normal[:, :-1]).sum(axis=-1)) > ALIKE
-    on_top = np.ones(swt.shape, dtype=bool)
-    on_top[:, 1:] &= ~alike | (swt[:, 1:] >= swt[:, :-1])
-    on_top[:, :-1] &= ~alike | (swt[:, :-1] >= swt[:, 1:])
-    return on_top
-
-
 def _around_extremes(scene: Scene, look: Look, whole: History, places: _Places) -> History:
-    """Building blocks around the three instants that make swt at places on their planes.
+    """Building blocks around the three instants that make swt at places on their planes, and at these.
 
     ``whole`` is the history of the look.
     """
 
-    def curves(history: History) -> FloatArray:
-        stress, tensor = (v[:, 0] for v in _circle(scene, history, places.angle[:, None]))
-        tension = (stress @ normal_weights(places.normal)[..., None])[..., 0]
-        swing = scene.criterion.swing.on_plane(tensor, places.normal)
-        return np.stack(scene.criterion.curves(tension, swing), axis=1)
+    def curves(history: History, rows: NDArray[np.intp]) -> FloatArray:
+        """The three curves, shape (k, 3, T), at some of the places."""
+        some, place = scene.take(rows), places.take(rows)
+        stress, tensor = (v[:, 0] for v in _circle(some, history, place.angle[:, None]))
+        tension = (stress @ normal_weights(place.normal)[..., None])[..., 0]
+        swing = some.criterion.swing.on_plane(tensor, place.normal)
+        return np.stack(some.criterion.curves(tension, swing), axis=1)
 
-    best = lifted(curves(whole), look.inside).argmax(axis=-1)
-    brackets = look.brackets(best[:, None])
-    wide = look.line.history(brackets.samples())
-    # Each curve in the bracket of its own.
-    own = curves(wide).reshape(len(best), 3, 3, -1)[:, range(3), range(3)]
-    narrow = look.line.history(brackets.narrowed(own.argmax(axis=-1)[:, None]).samples())
-    return wide.followed_by(narrow)
+    def samples(
+        brackets: TimeBrackets, rows: NDArray[np.intp]
+    ) -> tuple[History, NDArray[np.intp], FloatArray, FloatArray]:
+        """Building blocks in brackets; of each curve in its own the best sample, weights and its maximum."""
+        history = look.line.take(rows).history(brackets.samples())
+        own = curves(history, rows).reshape(rows.size, 3, 3, -1)[:, range(3), range(3)][:, None]
+        weights = brackets.weights_at_peak(own)
+        return history, own.argmax(axis=-1), weights, (own * weights).sum(axis=-1)
+
+    rows = every = np.arange(len(places.angle))
+    extremes = Extremes.of(np.moveaxis(curves(whole, every)[:, None], 2, 0), look.inside)
+    best, falling = extremes.best, extremes.falling
+    brackets = look.brackets(best, falling)
+    wide, at, _, top = samples(brackets, every)
+    extremes = extremes.next_best()
+    # What the nodes cannot tell from the highest instants is looked at, too.
+    while (some := np.flatnonzero(extremes.may_exceed(top[rows]).any(axis=(1, 2)))).size:
+        rows, extremes = rows[some], extremes.take(some)
+        *_, height = samples(look.take(rows).brackets(extremes.best), rows)
+        higher = height > top[rows]
+        best[rows] = np.where(higher, extremes.best, best[rows])
+        falling[rows] &= ~higher[..., None]
+        top[rows], extremes = np.maximum(height, top[rows]), extremes.next_best()
+    if rows is not every:
+        brackets = look.brackets(best, falling)
+        wide, at, *_ = samples(brackets, every)
+    narrow, _, weights, _ = samples(brackets.narrowed(at), every)
+    return wide.followed_by(narrow).followed_by(narrow.weighted(weights))

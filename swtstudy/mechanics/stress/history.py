@@ -68,6 +68,15 @@ class History(Rows):
         both = zip(vars(self).values(), vars(other).values(), strict=True)
         return self._of(None if one is None else np.concatenate((one, more), axis=-1) for one, more in both)
 
+    def weighted(self, weights: FloatArray) -> History:
+        """Weighted means over samples, of e · k instants and weights (n, X, e, k), at e instants."""
+        shape = weights.shape
+
+        def mean(values: FloatArray | None) -> FloatArray | None:
+            return None if values is None else (values.reshape(shape) * weights).sum(axis=-1)
+
+        return self._of(map(mean, vars(self).values()))
+
     def carrying(self, bulk: FloatArray | None) -> History:
         """The same with a bulk stress, shape (n, X, T)."""
         return replace(self, bulk=bulk)
