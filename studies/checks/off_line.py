@@ -1,8 +1,10 @@
-"""Is a maximum overlooked off the line? s_surface and the body's maximum against dense looks.
+"""Is a maximum overlooked off the line? s_surface, the body's maximum and means against dense looks.
 
 ``python studies/checks/off_line.py``, from the project folder, writes results/off_line.md. The points are
 those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_surface is searched for, or a
-bulk stress. ``--points`` draws fewer of each scene, ``--quick`` next to none.
+bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
+over 0.01–0.2 a_H, held against the same with many more places and instants. ``--points`` draws fewer of each
+scene, ``--quick`` next to none.
 """
 
 from __future__ import annotations
@@ -13,15 +15,18 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from nonlocal_means import TIGHT
 from overlooked import CHUNK, SCENES
 
 from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.body import nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.line.look import Look
@@ -33,21 +38,27 @@ from swtstudy.mechanics.stress.history import circle_stress
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 Array = NDArray[np.float64]
-#: By scene: points on circles, and in bodies.
+#: By scene: points on circles, in bodies, and with means.
 COUNTS = {
-    "displacements": (200, 60),
-    "forces": (200, 60),
-    "rounded punch": (100, 20),
-    "truncated paraboloid": (100, 20),
-    "wavy paraboloid": (100, 20),
-    "power law": (100, 20),
-    "loops of 4 to 200 vertices": (50, 10),
-    "bulk stress": (100, 20),
-    "Walker's exponent": (100, 20),
+    "displacements": (200, 60, 200),
+    "forces": (200, 60, 200),
+    "rounded punch": (100, 20, 100),
+    "truncated paraboloid": (100, 20, 100),
+    "wavy paraboloid": (100, 20, 100),
+    "power law": (100, 20, 100),
+    "loops of 4 to 200 vertices": (50, 10, 50),
+    "bulk stress": (100, 20, 100),
+    "Walker's exponent": (100, 20, 100),
 }
 SEED = 3
-#: Share by which a dense look may be higher: what is claimed of s_surface, and of the body.
-ALLOWED = 1e-4
+#: What is looked at, its title, and the share by which a dense look may be higher: what is claimed.
+KINDS = {
+    "circle": ("s_surface", 1e-4),
+    "body": ("The body's maximum", 1e-4),
+    "mean": ("The mean of swt over a critical distance", 1e-2),
+}
+#: Largest distance of the means, and least over that.
+DISTANCES = 0.2, 0.05
 #: On a circle: angles, planes and instants of the first look, in rad how far the first closer one goes,
 #: how often, and how it narrows.
 ANGLES, PLANES, INSTANTS = np.linspace(0.0, np.pi, 65), 2000, 8
@@ -135,52 +146,68 @@ def _highest(
     return float(swt[best]), float(r), float(angle[best]), float(depth[best])
 
 
-def shortfalls(task: tuple[str, int, bool]) -> tuple[str, bool, Array]:
-    """By how much s_surface, or the body's maximum, is below the dense look at some points, relative."""
-    name, count, in_body = task
+def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
+    """By how much what is looked at is below the dense look at some points, relative."""
+    name, count, kind = task
     rng = np.random.default_rng([SEED, list(SCENES).index(name)])
     drawn = [SCENES[name][0](rng) for _ in range(-(-count // CHUNK))]
     low: list[float] = []
     for some in drawn:
         points = some.take(np.arange(min(count - len(low), len(some))))
-        if not in_body and not points.bulk_stress_amplitude.any():
+        if kind == "circle" and not points.bulk_stress_amplitude.any():
             ν = rng.uniform(SAFE_POISSON_RATIO, 0.5, len(points))
             points = replace(points, poisson_ratio=ν)
         solved = solve_points(points, 1e-5)
-        for k, (surface, x) in enumerate(zip(solved.s_surface, solved.critical_x, strict=True)):
-            if not (np.isfinite(x) and surface > 0.0):
+        for k, surface in enumerate(solved.s_surface):
+            one = np.array([k])
+            x, angle = solved.critical_x[one], solved.critical_angle[one]
+            if not (np.isfinite(x[0]) and surface > 0.0):
                 low.append(np.nan)
                 continue
-            scene = scene_of(points.take(np.array([k])))
+            scene = scene_of(points.take(one))
             if solved.s[k] <= solved.s_error[k]:
                 # s that is nothing but rounding has no place.
-                x = float(scene.largest_radius[0])
+                x = scene.largest_radius
             with np.errstate(all="ignore"):
-                if in_body:
-                    low.append(1.0 - body_maximum(scene, float(x))[0].swt / dense_body(scene, float(x)))
+                if kind == "mean":
+                    distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
+                    found, dense = _means(scene, x, angle, distance)
+                elif kind == "body":
+                    found, dense = body_maximum(scene, float(x[0]))[0].swt, dense_body(scene, float(x[0]))
                 else:
-                    low.append(1.0 - surface / dense_circle(scene, abs(float(x))))
-    return name, in_body, np.array(low)
+                    found, dense = float(surface), dense_circle(scene, abs(float(x[0])))
+            low.append(1.0 - found / dense)
+    return name, kind, np.array(low)
 
 
-def lines(found: list[tuple[str, bool, Array]]) -> Iterator[str]:
+def _means(scene: Scene, x: Array, angle: Array, distance: Array) -> tuple[float, float]:
+    """Mean over the half sphere of one point, and the same with many more places and instants."""
+    quick = nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
+    with patch.multiple(nonlocal_swt, **TIGHT):
+        tight = nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
+    return float(quick.volume[0, 0]), float(tight.volume[0, 0])
+
+
+def lines(found: list[tuple[str, str, Array]]) -> Iterator[str]:
     """The report."""
     yield "# Is a maximum overlooked off the line?"
     yield ""
     yield (
-        f"s_surface at ν > {SAFE_POISSON_RATIO} or with a bulk stress, and the largest swt of the body that "
-        "`swtstudy audit` finds, against dense looks at circles and bodies at random points, small motions "
-        "among them. `python studies/checks/off_line.py`"
+        f"s_surface at ν > {SAFE_POISSON_RATIO} or with a bulk stress, the largest swt of the body that "
+        "`swtstudy audit` finds, and means over half spheres, against dense looks at random points, small "
+        "motions among them. `python studies/checks/off_line.py`"
     )
-    for in_body, title in ((False, "s_surface"), (True, "The body's maximum")):
+    for kind, (title, allowed) in KINDS.items():
         yield from ("", f"## {title}", "")
-        yield f"| scene | points | low by more than {ALLOWED:g} | lowest |"
+        fault = "off" if kind == "mean" else "low"
+        yield f"| scene | points | {fault} by more than {allowed:g} | most |"
         yield "|---|---|---|---|"
-        for name, of_body, low in found:
-            if of_body == in_body:
+        for name, own, low in found:
+            if own == kind:
                 known = low[np.isfinite(low)]
-                worst = max(known.max(initial=0.0), 0.0)
-                yield f"| {name} | {known.size} | {(known > ALLOWED).sum()} | {worst:.1e} |"
+                faults = np.abs(known) if kind == "mean" else known
+                many, most = (faults > allowed).sum(), faults.max(initial=0.0)
+                yield f"| {name} | {known.size} | {many} | {most:.1e} |"
 
 
 def main() -> None:
@@ -191,8 +218,8 @@ def main() -> None:
     given = arguments.parse_args()
     most = 1 if given.quick else given.points or 10**6
     tasks = [
-        (name, min(counts[in_body], most), in_body)
-        for in_body in (False, True)
+        (name, min(counts[k], most), kind)
+        for k, kind in enumerate(KINDS)
         for name, counts in list(COUNTS.items())[: 1 if given.quick else None]
     ]
     if given.quick:
