@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scenes import points
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
+from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.control.coordinate import DepthCoordinate
@@ -187,6 +189,18 @@ def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
     solved = swtstudy.solve(**point, frequency_ratio=ratio)
     assert float(solved.s_surface) == pytest.approx(highest, rel=1e-4)
     assert float(solved.s_surface) > 1.001 * float(solved.s)
+
+
+def test_a_ridge_is_followed_farther_than_the_first_steps_go():
+    """Where it is first seen it is lower; the value is that of `dense_circle`."""
+    point = points(
+        poisson_ratio=0.48356659824250975,
+        friction=0.933354169353668,
+        normal_amplitude=0.012078575610872095,
+        tangential_amplitude=0.1320909533233835,
+        phase=3.422809004373904,
+    )
+    assert solve_points(point).s_surface[0] == pytest.approx(0.189634188, rel=1e-4)
 
 
 @pytest.mark.parametrize(("friction", "mean"), [(0.15, -0.075), (0.05, -0.1)])

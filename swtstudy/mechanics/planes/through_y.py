@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
+from swtstudy.mechanics.planes.ascent import LARGEST_STEP
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.points import FloatArray
 
-#: Largest step of 2θ in one Newton step, rad. Half or twice: no change at 128 points.
-LARGEST_STEP = 0.4
+#: Largest step of 2θ in one Newton step, rad: that of a plane.
+LARGEST_TURN = 2.0 * LARGEST_STEP
 #: Points of a block whose planes are tried together: it stays in the processor's cache. All 256 points of a
 #: batch: 1.4 times the time; 8: 1.5 times.
 BLOCK = 64
@@ -172,6 +173,6 @@ def best_angle(
         u, v = b * cosine + c * sine, e * cosine + f * sine
         du, dv = c * cosine - b * sine, f * cosine - e * sine
         slope, bend = criterion.derivatives((a + u, du, -u), (d + v, dv, -v))
-        step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_STEP)
-        angle = angle + np.clip(step, -LARGEST_STEP, LARGEST_STEP)
+        step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), np.sign(slope) * LARGEST_TURN)
+        angle = angle + np.clip(step, -LARGEST_TURN, LARGEST_TURN)
     return angle
