@@ -21,10 +21,8 @@ from swtstudy.mechanics.load.bimodal import alike, load_of
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.roots import parabola
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.stress.work import SAMPLES
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP
-
-#: Steps between turning instants at which the largest force ratio is looked for.
-STEPS = 32
 
 
 @dataclass(frozen=True)
@@ -81,7 +79,7 @@ def _force_ratio(load: Load) -> FloatArray:
     """Largest |T|/N over the cycle, inf where T is not 0 without N, shape (n,)."""
     turns = load.turning_instants()
     ends = np.concatenate([turns[:, -1:] - 2.0 * np.pi, turns], axis=1)
-    steps = 1 if load.grows_in_lines else STEPS
+    steps = 1 if load.grows_in_lines else SAMPLES
     share = np.arange(steps) / steps
     instants = (ends[:, :-1, None] + np.diff(ends, axis=1)[:, :, None] * share).reshape(len(load), -1)
     instants = np.mod(instants, 2.0 * np.pi)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
@@ -76,11 +77,8 @@ _UNLESS_GIVEN = {
     "normal_sensitivity": 0.0,
     **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
 }
-_NOTHING = np.empty(0)
-
-
-def _not_given() -> FloatArray:
-    return _NOTHING
+#: Arrays of shape (0,) are not given.
+_not_given = partial(np.empty, 0)
 
 
 @dataclass(frozen=True)
@@ -132,7 +130,7 @@ class Points(Rows):
 
     def __post_init__(self) -> None:
         for name, value in _UNLESS_GIVEN.items():
-            if getattr(self, name) is _not_given():
+            if not getattr(self, name).size:
                 object.__setattr__(self, name, np.full(len(self), value))
 
     def __len__(self) -> int:

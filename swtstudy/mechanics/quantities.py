@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from swtstudy.mechanics.body import von_mises
-from swtstudy.mechanics.body.nonlocal_swt import NonlocalSwt, nonlocal_swt
+from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
 from swtstudy.mechanics.control.coordinate import unit_half_load
 from swtstudy.mechanics.line.counted import FewCycles
 from swtstudy.mechanics.line.maximum import SAME_MAXIMUM, candidates
@@ -33,8 +33,6 @@ from swtstudy.vocabulary.quantities import (
     item_of,
 )
 
-#: Another place is worse from so much on, relative: it is not by noise that one of two is taken.
-WORSE = 1e-4
 #: What each place may be the worst of.
 KINDS = ("volume", "point", "line")
 
@@ -80,7 +78,8 @@ def _larger(found: NonlocalSwt, row: int, other: NonlocalSwt) -> NonlocalSwt:
     """With the values of another place in a row, where they are larger."""
     changed = {}
     for kind in KINDS:
-        worse = getattr(other, kind)[0] > (1.0 + WORSE) * getattr(found, kind)[row]
+        # It is not by noise that one of two is taken.
+        worse = getattr(other, kind)[0] > (1.0 + OF_VALUE) * getattr(found, kind)[row]
         for name in (kind, f"{kind}_error", f"{kind}_x"):
             values = getattr(found, name).copy()
             values[row] = np.where(worse, getattr(other, name)[0], values[row])

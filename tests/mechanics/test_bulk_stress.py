@@ -169,7 +169,7 @@ def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, f
     scene, plain = scene_of(pressed), solve_points(replace(pressed, bulk_stress_mean=np.zeros(1)))
     body, _ = body_maximum(scene, float(found.critical_x[0]))
     # With friction the body's is somewhat outside of the smallest contact.
-    assert found.s_surface[0] == pytest.approx(body.swt, rel=0.03 if friction else 1e-9)
+    assert found.s_surface[0] == pytest.approx(body.swt, rel=0.03 if friction else 1e-7)
     if friction == 0.0:
         # Then it is as high as it was on the line.
         assert found.s_surface[0] == pytest.approx(float(plain.s[0]), rel=1e-2)

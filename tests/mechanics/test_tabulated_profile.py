@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -13,6 +15,7 @@ from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_slope, spline
+from swtstudy.mechanics.line.positions import cusps
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.vocabulary.mistakes import StudyError
 
@@ -232,3 +235,15 @@ def test_tables_that_are_refused(radius: Array, heights: Array, smoothing: float
     with pytest.raises(StudyError) as caught:
         TabulatedProfile("pad", radius, heights, smoothing)
     assert message in str(caught.value)
+
+
+def test_landmarks_part_the_line_with_a_bulk_stress_too() -> None:
+    """The slope is bent there, whatever else the search has to look at."""
+    point = replace(points(phase=0.7), profile=worn())
+    for some in (point, replace(point, bulk_stress_amplitude=np.array([0.01]))):
+        scene = scene_of(some)
+        ends = cusps(scene.cycle, scene.coordinate, scene.critical_everywhere)
+        landmarks = scene.profile.landmarks
+        within = landmarks[landmarks < scene.largest_radius[:, None]]
+        assert within.size > 0
+        assert np.isin(within, ends).all()

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.half_sphere import (
+    ABSCISSAE,
     HalfDiscs,
     HalfSpheres,
     from_every_other,
@@ -51,10 +52,6 @@ OF_LARGEST = 2e-5
 SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
 #: How finely swt is searched for.
 FINENESS = Fineness(4, 40)
-#: No places.
-NOWHERE = Places(*np.empty((3, 0)))
-#: Abscissae of the integrals of the interpolation along a line, at least; fewer than its nodes: 3e-3.
-ABSCISSAE = 32
 
 
 class Layout(NamedTuple):
@@ -133,7 +130,7 @@ class Around:
         #: swt, and what is missing of it, at the places; NaN where it is not known yet.
         self.grid = np.full((*self.spheres.shape, 2), np.nan)
         # The arcs' rule is exact for what another place would add to the largest sphere.
-        places = self._turned(*self.spheres.side_places()) if distance.size > 1 else NOWHERE
+        places = self._turned(*self.spheres.side_places()) if distance.size > 1 else Places(*np.empty((3, 0)))
         self.side_places, self.side = places, np.full((places.radius.size, 2), np.nan)
         self.points = np.full((distance.size, len(into), 2), np.nan)
         self.lines = np.full((layout.on_line, len(into), 2), np.nan)

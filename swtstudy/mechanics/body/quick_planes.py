@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import SAME, gather
 from swtstudy.mechanics.numerics.roots import parabola_maximum
-from swtstudy.mechanics.planes.all_planes import CoarsePlanes, swt_of_history
+from swtstudy.mechanics.planes.all_planes import PROMISING, CoarsePlanes, swt_of_history
 from swtstudy.mechanics.planes.ascent import ROUGH_STEP, ActiveForms, Rows, climb_by
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swing import Swing
@@ -87,9 +87,6 @@ NEAR = 0.7
 #: Planes from which to climb: those higher than the ones beside them before other high ones. Two: a plane
 #: 2° from another one's summit was missed, swt 7e-3 low.
 CANDIDATES = 4
-#: Summits this high, over the highest, are rivals: with more instants they may be the highest. 0.7: no change
-#: at 1,080 places; none: three were 4e-3 to 2e-2 low.
-RIVALS = 0.9
 #: Cosine of the angle, 2°, between summits that are one. 6°: 1.03 times as much is missing.
 ALIKE = 0.9995
 
@@ -124,7 +121,9 @@ def rival_planes(
     """
     coarse = planes.swt(stress, ν, criterion)
     peaked = coarse >= coarse[:, planes.beside].max(axis=-1)
-    first = np.where(peaked & (coarse > RIVALS * coarse.max(axis=1, keepdims=True)), -2.0 * coarse, -coarse)
+    first = np.where(
+        peaked & (coarse > PROMISING * coarse.max(axis=1, keepdims=True)), -2.0 * coarse, -coarse
+    )
     highest = np.argpartition(first, CANDIDATES, axis=1)[:, :CANDIDATES]
     swt, normal = _climb(stress, ν, planes.normal[highest], criterion)
     # Tension may be confined to few planes.
@@ -133,7 +132,7 @@ def rival_planes(
         swt[none, 0], normal[none, 0] = swt_of_history(stress[none], ν, 1.0 - ν**2, criterion)
     order = np.argsort(-swt, axis=1)
     swt, normal = gather(swt, order), normal[np.arange(len(swt))[:, None], order]
-    rival = swt > RIVALS * swt[:, :1]
+    rival = swt > PROMISING * swt[:, :1]
     for late in range(1, CANDIDATES):
         alike = np.abs((normal[:, :late] * normal[:, late, None]).sum(axis=-1)) > ALIKE
         rival[:, late] &= ~(alike & rival[:, :late]).any(axis=1)

@@ -53,11 +53,6 @@ class Cycle(Rows):
     gross_slip: NDArray[np.bool_]
     lift_off: NDArray[np.bool_]
 
-    def take(self, index: NDArray[np.intp]) -> Cycle:
-        """The cycles at ``index``, repetitions allowed."""
-        every = np.arange(self.begin.shape[1])
-        return self.take_intervals(index, np.broadcast_to(every, (len(index), every.size)))
-
     def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
         return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.first_look import joined_pieces, resolved
+from swtstudy.mechanics.line.first_look import PLANES, joined_pieces, resolved
 from swtstudy.mechanics.line.look import Look, lifted
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows
@@ -37,9 +37,8 @@ from swtstudy.vocabulary.quantities import COUNTED_SIZES
 POWERS = np.array([1.0, 2.0, 4.0, 8.0])
 #: A place or plane with a sum larger by less than this is left out.
 GAIN = 0.01
-#: Planes of the search, steps of each stretch of the cycle in the search and where cycles are counted, and
-#: digits of tables.
-PLANES, STEPS, FINE_STEPS, DIGITS = 16, 4, 8, 5.0
+#: Steps of each stretch of the cycle in the search and where cycles are counted, and digits of tables.
+STEPS, FINE_STEPS, DIGITS = 4, 8, 5.0
 #: What an upper bound may be low by, since it is seen at instants.
 SLACK = 1.05
 #: Places and planes around the best ones in a closer look, in steps of the former ones, how the steps shrink,

@@ -48,7 +48,7 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
     radius = coordinate.radius(packed(new, places)[0])
     largest = radius.max(axis=1, keepdims=True)
     profile = coordinate.profile
-    approach = profile.singular_approach
+    approach, landmarks = profile.singular_approach, np.minimum(profile.landmarks, largest)
     face = profile.flat_radius[:, None]
     if everywhere:
         least = coordinate.radius(np.maximum(cycle.load.least_normal, 0.0)[:, None])
@@ -60,13 +60,12 @@ def cusps(cycle: Cycle, coordinate: Coordinate, everywhere: bool = False) -> Flo
             innermost = np.where(nearest > 0.0, np.minimum(nearest, innermost), innermost)
             radius = np.where(radius <= face, BESIDE_FACE * face, radius)
             face = BESIDE_FACE * face
-        ends = np.concatenate([0.0 * face, face, radius, approach, beyond], axis=1)
+        ends = np.concatenate([0.0 * face, face, radius, approach, landmarks, beyond], axis=1)
         return np.sort(np.maximum(ends, innermost), axis=1)
     innermost = face + INNERMOST * (largest - face)
     if approach.shape[1]:
         nearest = approach.min(axis=1, keepdims=True)
         innermost = np.where(nearest > face, nearest, innermost)
-    landmarks = np.minimum(profile.landmarks, largest)
     ends = np.concatenate([radius, innermost, approach, landmarks], axis=1)
     return np.sort(np.maximum(ends, innermost), axis=1)
 

@@ -53,7 +53,7 @@ FINER = 2, 4, 8, 16
 #: a hundred times the first, half or twice the second: no change at 32 points.
 ONSET, BESIDE = 1e-7, 0.3
 #: Relative error by what is left out: of the orders ε and `ONSET`.
-LEFT_OUT = 2e-7
+LEFT_OUT = 2.0 * ONSET
 
 
 def not_finite(scene: Scene) -> NDArray[np.bool_]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
+from swtstudy.mechanics.line.first_look import CLOSE_SHARE, SHARE
 from swtstudy.mechanics.line.look import Extremes, Look
 from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.numerics.arrays import SAME
@@ -33,13 +34,8 @@ SAFE_POISSON_RATIO = 0.35
 #: Angles from the x axis that are looked at first: by symmetry in y half of the circle is all of it. Half:
 #: 2e-4 low at 2 more of 1,690 points (these, and those below, are of `studies/checks/off_line.py`).
 ANGLES = np.linspace(0.0, np.pi, 17)
-#: Share of the largest swt that instants and angles may hide. 0.02: 3e-2 low at one point, 1e-2 at another.
-NEAR = 0.05
 #: Cosine of the turn between planes that are one.
 SAME_PLANE = np.cos(2.0 * ROUGH_STEP)
-#: So much may a place be lower than the highest one once it has instants of its own. A third: 1e-3 low at a
-#: point of tests/mechanics/test_surface_circle.py.
-FALLS = 0.01
 #: Offsets at which each round looks, in a width that is the angles' step at first, half as much once the
 #: highest place is within, and at last this share of it. Four times that: 1e-4 to 1e-3 low at 50 points.
 OFFSETS, LAST_WIDTH = np.linspace(-1.0, 1.0, 5), 1.0 / 8.0
@@ -138,7 +134,7 @@ def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> NDArray[n
     some = places.take(order)
     meets = (np.diff(some.circle) == 0) & (np.diff(some.angle) < SAME)
     meets &= np.abs((some.normal[1:] * some.normal[:-1]).sum(axis=-1)) > SAME_PLANE
-    kept = ~np.append(meets, False) & (swt[order] >= (1.0 - FALLS) * highest[some.circle])
+    kept = ~np.append(meets, False) & (swt[order] >= (1.0 - CLOSE_SHARE) * highest[some.circle])
     kept &= some.width >= LAST_WIDTH * ANGLES[1]
     return order[kept]
 
@@ -165,7 +161,7 @@ def _first_places(scene: Scene, history: History, known: FloatArray) -> _Places:
     """Places of circles at which swt may be largest, and above what is known."""
     stress, tensor = _circle(scene, history, ANGLES[None])
     swt, normal = _summits(scene, stress, tensor)
-    chosen = (swt >= (1.0 - NEAR) * np.maximum(swt.max(axis=1), known)[:, None]) & (swt > 0.0)
+    chosen = (swt >= (1.0 - SHARE) * np.maximum(swt.max(axis=1), known)[:, None]) & (swt > 0.0)
     at = circle, angle = np.nonzero(chosen)
     swt, normal, some = swt[at], normal[at], (stress[at], tensor[at])
     # Of two summits close to one another, each by instants of its own, a coarse plane leads to one.
@@ -173,7 +169,7 @@ def _first_places(scene: Scene, history: History, known: FloatArray) -> _Places:
     other, turned = climb(*some, swap_instants(*some, normal, criterion), criterion, ROUGH_STEP)
     is_other = np.abs((turned * normal).sum(axis=-1)) < SAME_PLANE
     places = _Places(circle, ANGLES[angle], normal, np.full(len(circle), ANGLES[1]))
-    new = np.flatnonzero(is_other & (other >= (1.0 - FALLS) * swt))
+    new = np.flatnonzero(is_other & (other >= (1.0 - CLOSE_SHARE) * swt))
     return _Places.joined([places, replace(places.take(new), normal=turned[new])])
 
 

@@ -239,7 +239,7 @@ def checked_mean(mean: object, name: str) -> float | None:
 
 
 def mean_of(loop: Loop) -> dict[str, float]:
-    """Read the mean normal load from the content of a loop."""
+    """The mean normal load as a part of the content of a loop."""
     return {} if loop.mean_normal is None else {"mean_normal": loop.mean_normal}
 
 

@@ -51,11 +51,6 @@ class History(Rows):
         """Make the history of a plane contact."""
         return cls(pressure, None, tangential, None, traction)
 
-    @property
-    def plane(self) -> bool:
-        """True if they are stresses of a plane contact."""
-        return self.mean_pressure is None
-
     def with_tangential_sign(self, sign: float | FloatArray) -> History:
         """The same with the tangential load times ±1."""
         third = None if self.tangential_3 is None else sign * self.tangential_3
