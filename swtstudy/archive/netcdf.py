@@ -36,8 +36,6 @@ def has_its_own(variable: xr.Variable | xr.DataArray) -> bool:
 
 def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
     """Add check sums to the file of a Dataset."""
-    import netCDF4
-
     with netCDF4.Dataset(path, "a") as file:
         file.createGroup(_GROUP).setncatts(
             {str(name): _check_sum(each) for name, each in dataset.variables.items()}

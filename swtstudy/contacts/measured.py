@@ -5,7 +5,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.wording import place_words, plain_words
+from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,12 +44,7 @@ _AT_REST = {
 
 def as_html(contact: PhysicalContact) -> str:
     """A table: what is given, the contact at rest, and the parameters without units of the first body."""
-    body = "".join(
-        f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(value)}</td>"
-        f"<td>{escape(meaning)}</td></tr>"
-        for kind, name, value, meaning in _rows(contact)
-    )
-    return f"<div><b>Real contact</b>, in any consistent set of units<table>{body}</table></div>"
+    return f"<div><b>Real contact</b>, in any consistent set of units{html_table(_rows(contact))}</div>"
 
 
 def as_text(contact: PhysicalContact) -> str:

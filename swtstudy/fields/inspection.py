@@ -5,8 +5,6 @@ Its load and its memory diagram are known without s, in milliseconds.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 import xarray as xr
 
@@ -20,7 +18,7 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import label_time, read_point, turns
+from swtstudy.fields.one_point import label_time, no_equilibrium, read_point, turns
 from swtstudy.fields.stress import slip_map
 from swtstudy.mechanics.body.body import TimeNodes
 from swtstudy.mechanics.contact.slip_front import stick_coordinate
@@ -28,14 +26,12 @@ from swtstudy.mechanics.control.coordinate import unit_half_load
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.line.first_look import Seen, first_look
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.margins import Margins
-from swtstudy.mechanics.points import REGIMES, FloatArray, Points
+from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.solving import solve
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS
+from swtstudy.vocabulary.mistakes import StudyError
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -167,17 +163,6 @@ def _radii(scene: Scene, special: list[float]) -> FloatArray:
     places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
     radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), places)
     return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
-
-
-def no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
-    """The force that friction does not carry, or the normal force that pulls."""
-    control, ratio = points.control, float(Margins.of(points).force_ratio[0])
-    pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
-    name = next(name for name in pairs if name in PAIRS)
-    found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
-    if ratio > 1.0:
-        found += f": |F_x| is up to {ratio:.3g} μ F_N"
-    return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 
 def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:

@@ -12,9 +12,11 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at
+from swtstudy.mechanics.contact.cycle import out_of_equilibrium
 from swtstudy.mechanics.control.diagram import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Loop
+from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.points.canonical import NUMBERS
@@ -23,6 +25,7 @@ from swtstudy.points.values import as_number
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.parameters import PAIRS
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -61,8 +64,23 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 
 
 def read_scene(parameters: Mapping[str, object]) -> Scene:
-    """The contact cycle of one point; see `read_point`."""
-    return scene_of(read_point(parameters))
+    """The contact cycle of one point; see `read_point`. A point without equilibrium has none."""
+    points = read_point(parameters)
+    scene = scene_of(points)
+    if out_of_equilibrium(scene.cycle.load, points.control)[0]:
+        raise StudyError([no_equilibrium(points, parameters)])
+    return scene
+
+
+def no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
+    """The force that friction does not carry, or the normal force that pulls."""
+    control, ratio = points.control, float(Margins.of(points).force_ratio[0])
+    pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
+    name = next(name for name in pairs if name in PAIRS)
+    found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
+    if ratio > 1.0:
+        found += f": |F_x| is up to {ratio:.3g} μ F_N"
+    return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 
 _NAMES = {

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
     label_time,
@@ -95,17 +96,14 @@ def stress_field(
     over = tuple(dim for dim in instants.dims if dim not in places[0].dims)
     dims = (*over, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places[0].shape, 6)
-    variables = {
-        f"sigma_{name}": (dims, stress[..., i], _attributes(name)) for i, name in enumerate(COMPONENTS)
-    }
+    variables = {}
+    for i, name in enumerate(COMPONENTS):
+        meaning = named(f"stress {name} over E* sqrt(delta0/R), tension positive", rf"\sigma_{{{name}}}")
+        variables[f"sigma_{name}"] = dims, stress[..., i], meaning
     phase = instants.values.reshape(1, -1) / turns(scene)
     depth = np.maximum(scene.cycle.load.normal(phase), 0.0)
     radius = np.where(depth > 0.0, scene.coordinate.radius(depth), 0.0).reshape(instants.shape)
-    meaning = {
-        "long_name": "contact radius, in units of a_H = sqrt(R delta0)",
-        "units": "1",
-        "symbol": "a/a_H",
-    }
+    meaning = named("contact radius, in units of a_H = sqrt(R delta0)", "a/a_H")
     variables["contact_radius"] = (instants.dims, radius, meaning)
     return xr.Dataset(variables, {"time": instants, **as_given(places, x, y, z)})
 
@@ -128,14 +126,6 @@ def _at_own_instants(scene: Scene, places: tuple[xr.DataArray, ...]) -> tuple[xr
 
 def _cells(depth: float) -> int:
     return next(count for limit, count in _CELLS_BY_DEPTH if depth > limit)
-
-
-def _attributes(name: str) -> dict[str, str]:
-    return {
-        "long_name": f"stress {name} over E* sqrt(delta0/R), tension positive",
-        "units": "1",
-        "symbol": rf"\sigma_{{{name}}}",
-    }
 
 
 def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes:
@@ -197,10 +187,9 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     dims, shape = places[0].dims, places[0].shape
     unit = "E* delta0/R" if scene.criterion.degree == 2 else "E* delta0/a_H"
     words = f"{scene.criterion.words.replace('–', '-')} over {unit}"
-    meaning = {"long_name": words, "units": "1", "symbol": scene.criterion.symbol}
-    variables = {"s_local": (dims, swt.reshape(shape), meaning)}
+    variables = {"s_local": (dims, swt.reshape(shape), named(words, scene.criterion.symbol))}
     for axis, name in enumerate("xyz"):
-        meaning = {"long_name": "unit normal of the critical plane", "units": "1", "symbol": f"n_{name}"}
+        meaning = named("unit normal of the critical plane", f"n_{name}")
         variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)
     return xr.Dataset(variables, as_given(places, x, y, z))
 

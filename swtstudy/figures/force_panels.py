@@ -135,7 +135,7 @@ _PLAIN = {"displacement": "u", "depth": r"\delta", "tangential_force": "F_x", "n
 def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
     """Tangential against normal force, with what friction carries, stick and slip coloured."""
     force, normal = dataset.tangential_force.values, dataset.normal_force.values
-    _draw_loop(axes, dataset, "tangential_force", "normal_force")
+    draw_loop(axes, dataset, "tangential_force", "normal_force")
     highest = axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     for sign in (1.0, -1.0):
@@ -173,7 +173,7 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
 
 def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """Tangential force against displacement; the area of the loop is the work dissipated in a cycle."""
-    _draw_loop(axes, dataset, "displacement", "tangential_force")
+    draw_loop(axes, dataset, "displacement", "tangential_force")
     work = float(dataset.dissipation)
     axes.fill(dataset.displacement, dataset.tangential_force, color="0.9", linewidth=0, zorder=0)
     words = f"force and displacement, area {work:.3g}"
@@ -182,13 +182,13 @@ def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     axes.set_title(words, loc="left")
 
 
-def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
+def draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     x, y = dataset[across].values, dataset[up].values
     look: dict[str, Any] = {"color": "black", "linestyle": "-", "marker": ""}
     draw_edge_states(axes, x, y, dataset.edge_state.values)
     axes.plot(x, y, **look)
     axes.axvline(0.0, color=FAINT, linewidth=thin(), zorder=0)
-    axes.axhline(1.0 if up == "normal_force" else 0.0, color=FAINT, linewidth=thin(), zorder=0)
+    axes.axhline(1.0 if up in ("normal_force", "depth") else 0.0, color=FAINT, linewidth=thin(), zorder=0)
     axes.set_xlim(limits(x, 0.14, 0.14, 1.0))
     axes.set_ylim(limits(y, 0.14, 0.14, 1.0))
     draw_direction(axes, x, y, [index for _, index in instants(dataset)])

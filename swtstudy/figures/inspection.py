@@ -30,26 +30,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: The panels, and those of a plane contact, whose displacements are not known.
-_PANELS = (
-    draw_load,
-    draw_slip,
-    draw_springs,
-    draw_tractions,
-    draw_stress,
-    draw_swt,
-    draw_load_plane,
-    draw_forces,
-    draw_force_loop,
-)
-_OF_STRIP = (
-    draw_load_plane,
-    draw_slip,
-    draw_springs,
-    draw_tractions,
-    draw_stress,
-    draw_swt,
-    draw_forces,
-)
+_OF_BOTH = (draw_slip, draw_springs, draw_tractions, draw_stress, draw_swt)
+_PANELS = (draw_load, *_OF_BOTH, draw_load_plane, draw_forces, draw_force_loop)
+_OF_STRIP = (draw_load_plane, *_OF_BOTH, draw_forces)
 #: The variables along their axes, where these are of one.
 _VARIABLES: dict[Any, tuple[str | None, str | None]] = {
     draw_load: ("displacement", "depth"),

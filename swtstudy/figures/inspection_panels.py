@@ -14,12 +14,9 @@ from swtstudy.figures.force_panels import (
     SECOND,
     bold,
     dot,
-    draw_direction,
-    draw_edge_states,
+    draw_loop,
     instant_colour,
-    instants,
     limits,
-    mark_along,
     mark_over_time,
     thin,
 )
@@ -51,19 +48,10 @@ _PRESCRIBED = {
 
 def draw_load(axes: Axes, dataset: xr.Dataset) -> None:
     """The path of the load in (u, δ), its direction, stick and slip."""
-    u, depth = dataset.displacement.values, dataset.depth.values
-    draw_edge_states(axes, u, depth, dataset.edge_state.values)
-    axes.plot(u, depth, color="black", linestyle="-", marker="")
-    axes.axvline(0.0, color=FAINT, linewidth=thin(), zorder=0)
-    axes.axhline(1.0, color=FAINT, linewidth=thin(), zorder=0)
-    axes.set_xlim(limits(u, 0.14, 0.14, 1.0))
-    axes.set_ylim(limits(depth, 0.14, 0.14, 1.0))
-    if depth.min() < 0.0:
+    draw_loop(axes, dataset, "displacement", "depth")
+    if dataset.depth.min() < 0.0:
         axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
-    draw_direction(axes, u, depth, [index for _, index in instants(dataset)])
-    mark_along(axes, dataset, u, depth)
-    axes.set_xlabel(f"$u$:  ${dataset.displacement.attrs['symbol']}$")
     axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
     axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
 

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from swtstudy.fields.inspection import load_and_springs, no_equilibrium
-from swtstudy.fields.one_point import read_point
+from swtstudy.fields.inspection import load_and_springs
+from swtstudy.fields.one_point import no_equilibrium, read_point
 from swtstudy.figures.force_panels import draw_load_plane
 from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.sheet import Figure

@@ -60,7 +60,7 @@ def draw_load(
         A ValueError, if the study has no such loop.
     """
     check_width(width)
-    loops = {str(load): load for load in study.grid.values("load") if isinstance(load, Loop)}
+    loops = {str(load): load for load in study.grid.loops}
     if name not in loops:
         raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
     loads = _loads(study, loops[name])
@@ -122,12 +122,9 @@ def _mean(study: Study, loop: Loop) -> float:
     """The mean normal load that a study has with a loop; 1 where nothing has units."""
     kind = "normal_force" if study.grid.control.normal_force else "depth"
     values = study.grid.values(kind)
-    at = list(study.grid.values("load")).index(loop)
-    return (
-        as_number(values[at if len(values) > 1 and study.grid.dimension(kind) == "load" else 0])
-        if values
-        else 1.0
-    )
+    along = len(values) > 1 and study.grid.dimension(kind) == "load"
+    at = list(study.grid.values("load")).index(loop) if along else 0
+    return as_number(values[at]) if values else 1.0
 
 
 def _draw_course(

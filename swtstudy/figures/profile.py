@@ -97,10 +97,10 @@ def draw_shape(
         _draw_lengths(sketch, profile, {name: float(value[0]) for name, value in shape.items()}, labels)
         _draw_springs(springs, profile, edge, labels)
         show_units(sketch, ("x", "height"), labels)
+        numbers = (place_words(name, float(value[0])) for name, value in shape.items())
+        words = [given] if given else [place_words("profile", str(pressed)), *numbers]
         if isinstance(pressed, TabulatedProfile):
             sketch.plot(pressed.radius, pressed.height - 1.0, ".", ms=3, color="C1", label="table")
-        words = [given] if given else _words(pressed, shape)
-        if isinstance(pressed, TabulatedProfile):
             missed = f"{pressed.deviation:.1e} δ0"
             if labels:
                 missed = labels["height"].number(pressed.deviation, 2)
@@ -108,11 +108,6 @@ def draw_shape(
         figure.suptitle(("\n" if labels else ",  ").join(words))
         wrap_texts(figure)
     return figure
-
-
-def _words(profile: object, shape: Mapping[str, FloatArray]) -> list[str]:
-    """The profile and its shape in words."""
-    return [place_words("profile", str(profile)), *(place_words(n, float(v[0])) for n, v in shape.items())]
 
 
 def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:

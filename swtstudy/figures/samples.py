@@ -71,15 +71,8 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
 
 def _look(index: int) -> dict[str, Any]:
     """Of the points of one value of hue: in grey a marker and a shade tell them apart."""
-    colour = SHADES[index % len(SHADES)]
-    marker = POINTS[index % len(POINTS)]
-    return {
-        "linestyle": "none",
-        "marker": marker,
-        "markersize": _POINT * rcParams["lines.markersize"],
-        "mew": 0,
-        "color": colour,
-    }
+    look = {"marker": POINTS[index % len(POINTS)], "markersize": _POINT * rcParams["lines.markersize"]}
+    return {"linestyle": "none", **look, "mew": 0, "color": SHADES[index % len(SHADES)]}
 
 
 def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:

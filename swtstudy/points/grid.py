@@ -31,6 +31,7 @@ from swtstudy.vocabulary.quantities import Request, item_of
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.mechanics.load.load import Loop
     from swtstudy.mechanics.points import FloatArray, IntArray
 
 
@@ -89,6 +90,13 @@ class Grid:
         """The user's definitions as they were given: several may be the same but for their names."""
         values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
         return tuple(dict.fromkeys(value for value in values if isinstance(value, Definition)))
+
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """Its loads that are loops."""
+        from swtstudy.mechanics.load.load import Loop
+
+        return tuple(load for load in self.values("load") if isinstance(load, Loop))
 
     @property
     def of_bodies(self) -> Mapping[str, tuple[float, float]]:
@@ -159,13 +167,16 @@ class Grid:
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
         """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
-        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
-        position = dict(zip(self.dims, places, strict=True))
+        position = self._position(start, stop)
         along = {name: self.dimension(self._source(name)) for name in COLUMNS}
         return {
             name: codes if (dim := along[name]) is None else codes[position[dim]]
             for name, codes in self._codes.items()
         }
+
+    def _position(self, start: int, stop: int) -> dict[str, NDArray[np.intp]]:
+        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
+        return dict(zip(self.dims, places, strict=True))
 
     @cached_property
     def _codes(self) -> dict[str, NDArray]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
@@ -156,24 +156,12 @@ class Records(Rows):
         if {*made_by(self.runs)} <= {*names}:
             return self
         kept = {name: self.quantities[name] for name in columns_of(names) if name in self.quantities}
-        runs = [
-            replace(run, quantities=tuple(name for name in run.quantities if name in names))
-            for run in self.runs
-        ]
-        return replace(self, runs=tuple(runs), quantities=kept)
+        return replace(self, runs=_with_items(self.runs, names.__contains__), quantities=kept)
 
     def without_unknown(self) -> Records:
         """These records without quantities of which not all is there, as in those of another version."""
-        runs = [
-            replace(
-                run,
-                quantities=tuple(
-                    item for item in run.quantities if {*columns_of([item])} <= self.quantities.keys()
-                ),
-            )
-            for run in self.runs
-        ]
-        return replace(self, runs=tuple(runs))
+        known = self.quantities.keys()
+        return replace(self, runs=_with_items(self.runs, lambda item: {*columns_of([item])} <= known))
 
     def trimmed(self) -> Records:
         """These records without the runs that made none of them.
@@ -191,6 +179,10 @@ class Records(Rows):
                     runs[i] = replace(run, seconds=run.seconds + unused.seconds)
                     break
         return replace(self, run=index[self.run], runs=tuple(runs))
+
+
+def _with_items(runs: tuple[Run, ...], kept: Callable[[str], bool]) -> tuple[Run, ...]:
+    return tuple(replace(run, quantities=tuple(filter(kept, run.quantities))) for run in runs)
 
 
 def made_by(runs: Iterable[Run]) -> tuple[str, ...]:

@@ -103,17 +103,14 @@ def check_loops(grid: Grid, report: Report) -> None:
     _check_bulk_stress(grid, report)
     if not any(grid.values(grid.control.given_for("normal_amplitude"))):
         return
-    from swtstudy.mechanics.load.load import Loop
-
-    loops = [load for load in grid.values("load") if isinstance(load, Loop)]
-    for load in loops:
+    for load in grid.loops:
         if load.is_absolute and load.mean_normal is None:
             low, high = load.normal_ends
             found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
             allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
             allowed += " (absolute = true, LoadPath.absolute)"
             report.of("load", found, allowed)
-    moving = [load for load in loops if grid.control.mixed and not load.is_steady]
+    moving = [load for load in grid.loops if grid.control.mixed and not load.is_steady]
     if moving:
         names = ", ".join(literal(load.name) for load in moving)
         found = f"{names} with a normal load that is not constant, and {grid.control.name}"
@@ -122,9 +119,7 @@ def check_loops(grid: Grid, report: Report) -> None:
 
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
-    from swtstudy.mechanics.load.load import Loop
-
-    sized = [load for load in grid.values("load") if isinstance(load, Loop) and load.mean_normal is not None]
+    sized = [load for load in grid.loops if load.mean_normal is not None]
     for load in sized[: not {"normal_amplitude", "normal_force_amplitude"} & {*given}]:
         found = f"{literal(load.name)} with a mean normal load of {load.mean_normal:g}, without units"
         allowed = (
@@ -135,11 +130,7 @@ def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
 
 def check_largest(grid: Grid, amplitudes: Mapping[str, float], report: Report) -> None:
     """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
-    from swtstudy.mechanics.load.load import Loop
-
-    for load in grid.values("load"):
-        if not isinstance(load, Loop):
-            continue
+    for load in grid.loops:
         bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
         for name, ends in zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True):
             size = amplitudes.get(name, 0.0) * max(map(abs, ends))

@@ -76,9 +76,7 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
         ratio = table.ratio.where(np.isfinite(table.ratio))
         if not ratio.notnull().any():
             continue
-        most = np.unravel_index(int(np.nanargmax(ratio.values)), ratio.shape)
-        there = table.isel(dict(zip(map(str, ratio.dims), most, strict=True)))
-        found.append(Lever(name, table, there))
+        found.append(Lever(name, table, table.isel(index_at(ratio, int(np.nanargmax(ratio.values))))))
     return sorted(found, key=lambda lever: (lever.name != "phase", -lever.ratio))
 
 
@@ -158,13 +156,18 @@ def _blank(unit: str) -> str:
     return f" {escape(unit)}" if unit else ""
 
 
+def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:
+    """Index along each dimension of a place among the flattened values."""
+    index = np.unravel_index(flat, values.shape) if values.ndim else ()
+    return dict(zip(map(str, values.dims), map(int, index), strict=True))
+
+
 def worst_place(dataset: xr.Dataset) -> dict[str, int]:
     """Index of the greatest swt along each dimension; nothing if there is none."""
     values = measured(dataset)
     if not np.isfinite(values.values).any():
         return {}
-    found = np.unravel_index(int(np.nanargmax(values.values)), values.shape)
-    return dict(zip(map(str, values.dims), map(int, found), strict=True))
+    return index_at(values, int(np.nanargmax(values.values)))
 
 
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
@@ -178,11 +181,7 @@ def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     places = {"best": int(np.nanargmin(flat)), "worst": int(np.nanargmax(flat))}
     if flat[places["best"]] == flat[places["worst"]]:
         places.pop("best")
-    found = {}
-    for word, place in places.items():
-        index = np.unravel_index(place, values.shape) if values.ndim else ()
-        found[word] = dataset.isel(dict(zip(map(str, values.dims), index, strict=True)))
-    return found
+    return {word: dataset.isel(index_at(values, place)) for word, place in places.items()}
 
 
 def parameters_of(one: xr.Dataset) -> dict[str, Any]:

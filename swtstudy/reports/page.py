@@ -68,7 +68,7 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
         sensitivity_section(dataset),
         points_section(dataset),
         settings_section(dataset),
-        sureness_section(dataset, _validity(dataset)),
+        sureness_section(dataset, list(validity_lines(dataset, inside=True))),
         _paper(dataset, name),
         _origin(dataset, name),
     ]
@@ -139,11 +139,6 @@ def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
     ]
     own = f" {escape(layout.caption)}" if layout.caption else ""
     return f"{words} {', '.join(parts)}.".replace(", and", " and") + own
-
-
-def _validity(dataset: xr.Dataset) -> list[str]:
-    """Where the results are outside of what the model holds for, and how far inside."""
-    return list(validity_lines(dataset, inside=True))
 
 
 def _paper(dataset: xr.Dataset, name: str) -> Section:

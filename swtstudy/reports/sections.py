@@ -14,7 +14,7 @@ from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
 from swtstudy.points.requested import CONTACT, has_units
-from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
+from swtstudy.reports.findings import along, extreme_points, index_at, levers, measured, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
 from swtstudy.reports.values import (
     place_html,
@@ -86,8 +86,7 @@ def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
             known = order[np.isfinite(ratio.values.ravel()[order])]
             order = known[[0, len(known) // 2, -1]]
         for flat in order:
-            at = np.unravel_index(int(flat), ratio.shape) if others else ()
-            one = lever.table.isel(dict(zip(others, at, strict=True)))
+            one = lever.table.isel(index_at(ratio, int(flat)))
             cells = [along(name, one[name]) for name in others]
             for end in ("minimum", "maximum"):
                 cells += [number_words(float(one[end])), along(lever.name, one[f"at_{end}"])]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
+from swtstudy.study.design import saltelli
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
@@ -121,9 +122,7 @@ def _design(dataset: xr.Dataset) -> tuple[list[str], int]:
         raise StudyError([Mistake("sample.ranges", names[0], "at least two parameters")])
     if dataset.sizes.get(SAMPLE) == size * (len(names) + 2):
         table = np.stack([dataset[name].values for name in names], axis=-1)
-        a, b, *mixed = table.reshape(len(names) + 2, size, len(names))
-        expected = [np.where(np.arange(len(names)) == i, b, a) for i in range(len(names))]
-        if np.array_equal(mixed, expected):
+        if np.array_equal(table, saltelli(table[:size], table[size : 2 * size])):
             return names, size
     found = f"{dataset.sizes.get(SAMPLE)} of its points, or in another order"
     raise StudyError([Mistake("sample", found, "all points of a saltelli design, as they were computed")])

@@ -14,6 +14,7 @@ from swtstudy.runner.engine import Pool
 from swtstudy.runner.job import Job, Stopped
 from swtstudy.runner.workers import LocalPool
 from swtstudy.study.definition import Study
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -67,7 +68,7 @@ def run(
     Raises
     ------
     StudyError
-        A ValueError, if ``study`` is not a Study, or no archive can have that path.
+        A ValueError, if ``study`` is not a Study, no archive can have that path, or there are no workers.
     OSError
         If the archive cannot be written, which is checked before anything is computed; if another run is
         writing it (`LockedError`); or if the disk is full.
@@ -119,6 +120,8 @@ def run_several(
     workers, client, retry_failed, solver
         As for `run`.
     """
+    if not isinstance(workers, int) or workers < 1:
+        raise StudyError([Mistake("workers", literal(workers), "a number of processes, from 1 on")])
     with ExitStack() as held:
         background = held.enter_context(ThreadPoolExecutor(1))
         local = held.enter_context(LocalPool(workers))

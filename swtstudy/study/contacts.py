@@ -68,28 +68,23 @@ def read_given(
     from swtstudy.units.at_rest import Moduli
     from swtstudy.units.grid import ContactDetails
     from swtstudy.units.labels import Units, read_units
-    from swtstudy.units.material import read_material, warn_of_units
+    from swtstudy.units.material import read_material, two_of, warn_of_units
 
     # Wrong units are reported: meanwhile others stand for them.
     units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")
     if not isinstance(raw.get("material"), dict):
         return ContactDetails(units), None
     young = fixed.get("young_modulus")
-    sound = [_sound(each) for each in _two(young)]
+    sound = [_sound(each) for each in two_of(young)]
     # A wrong one is reported elsewhere: meanwhile any stands for it.
     known = None if young is None else (sound[0] or 1.0, sound[1] or 1.0)
     poisson = fixed.get("poisson_ratio")
-    ratios = [_sound(each) for each in _two(poisson)]
+    ratios = [_sound(each) for each in two_of(poisson)]
     shear = None if known is None or poisson is None else Moduli(known, (ratios[0], ratios[1])).shear
     given, distance = read_material(raw["material"], known, shear, units, folder, report)
     if all(sound):
         warn_of_units(given, (sound[0], sound[1]))
     return given, distance
-
-
-def _two(value: object) -> list[object]:
-    """Values of both bodies."""
-    return value if isinstance(value, list) and len(value) == 2 else [value, value]
 
 
 def _sound(young: object) -> float:

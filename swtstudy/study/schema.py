@@ -117,9 +117,7 @@ def _units() -> dict[str, Any]:
 def _material() -> dict[str, Any]:
     """Schema of fatigue constants."""
     of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
-    properties = {
-        key: {"description": _PROPERTIES.get(key, key.replace("_", " ")), **of_both} for key in KEYS
-    }
+    properties = {key: {"description": _PROPERTIES[key], **of_both} for key in KEYS}
     return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
@@ -168,9 +166,9 @@ def _values(parameter: Parameter) -> dict[str, Any]:
 def _axis(parameter: Parameter) -> dict[str, Any]:
     """Schema of several values: a list, or a range of numbers."""
     values = _values(parameter)
-    description = values.pop("description")
     if parameter.kind == "name":
-        return {"description": description, **values}
+        return values
+    description = values.pop("description")
     return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 
 

@@ -298,13 +298,9 @@ def read_signal(
     StudyError
         A ValueError with what is wrong, and where in the file.
     """
-    given: dict[str, object] = {
-        "columns": columns,
-        "absolute": absolute,
-        "separator": separator,
-        "decimal": decimal,
-    }
-    given |= {"time": time, "recorded_cycles": recorded_cycles, "period": period, "harmonics": harmonics}
+    given: dict[str, object] = {"columns": columns, "absolute": absolute, "separator": separator}
+    given |= {"decimal": decimal, "time": time, "period": period}
+    given |= {"recorded_cycles": recorded_cycles, "harmonics": harmonics}
     own = Path(path).stem if name is None else name
     return signal_from(Path(path), checked_name(own), given)
 

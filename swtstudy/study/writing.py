@@ -11,7 +11,7 @@ from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import listed, plain_words
+from swtstudy.vocabulary.wording import html_table, listed, plain_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -131,14 +131,9 @@ def as_html(study: Study) -> str:
     rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
     rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
     rows += [_row(grid, "of each body", name, two) for name, two in grid.of_bodies.items()]
-    body = "".join(
-        f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(values)}</td>"
-        f"<td>{escape(meaning)}</td></tr>"
-        for kind, name, values, meaning in rows
-    )
     return (
         f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
-        f"{escape(_cost(study))}<table>{body}</table></div>"
+        f"{escape(_cost(study))}{html_table(rows)}</div>"
     )
 
 

@@ -107,16 +107,10 @@ def miner(
             times, of_each = (1.0 / whole).squeeze(axis), damage / whole
         dims = tuple(dim for dim in life.dims if dim != "load")
         where = life.attrs["long_name"].removeprefix("rounds to a crack")
-        found[repetitions] = (
-            dims,
-            times,
-            _words(f"repetitions to a crack{where}", r"N_\mathrm{seq}", REPEATED),
-        )
-        found[share] = (
-            life.dims,
-            of_each if along else of_each.squeeze(axis),
-            _words(f"share of the damage{where}", "D_k/D", SHARED),
-        )
+        words = _words(f"repetitions to a crack{where}", r"N_\mathrm{seq}", REPEATED)
+        found[repetitions] = dims, times, words
+        words = _words(f"share of the damage{where}", "D_k/D", SHARED)
+        found[share] = life.dims, of_each if along else of_each.squeeze(axis), words
     return found
 
 

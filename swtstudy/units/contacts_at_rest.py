@@ -219,13 +219,14 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     names = family_of(profile).shape
     if not names and not isinstance(profile, Definition):
         return
-    places, numbers = _largest(grid, profile, names)
+    places, numbers, largest = _largest(grid, profile, names)
     shape = {name: numbers[name] for name in names}
-    wrong = np.zeros(len(numbers["depth"]), bool)
+    wrong, depth = np.zeros(len(largest), bool), np.empty_like(largest)
     for pure in dict.fromkeys(numbers["pure"]):
         own = np.flatnonzero(numbers["pure"] == pure)
         some = {name: values[own] for name, values in shape.items()}
-        wrong[own] = ~compact_shapes(pure, some, numbers["depth"][own])
+        depth[own] = largest_depths(grid, pure, some, largest[own])
+        wrong[own] = ~compact_shapes(pure, some, depth[own])
     if not wrong.any():
         return
     first = int(np.flatnonzero(wrong)[0])
@@ -234,16 +235,14 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
     words += f", {amplitude} = {as_number(here[amplitude]):g} {grid.row(amplitude).units}".rstrip()
     more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
-    why = check_shape(
-        numbers["pure"][first], {name: float(v[first]) for name, v in shape.items()}, numbers["depth"][first]
-    )
+    why = check_shape(numbers["pure"][first], {n: float(v[first]) for n, v in shape.items()}, depth[first])
     report.of(names or ("profile",), words + more, f"{why} (in a_H and δ0)")
 
 
 def _largest(
     grid: PhysicalGrid, profile: Value, names: tuple[str, ...]
-) -> tuple[dict[str, NDArray[np.intp]], dict[str, Any]]:
-    """Places of the contacts of a profile, their shapes, tables and largest depths, of shape (n,)."""
+) -> tuple[dict[str, NDArray[np.intp]], dict[str, Any], NDArray[np.float64]]:
+    """Places of the contacts of a profile, their shapes, tables and largest loads, of shape (n,)."""
     import xarray as xr
 
     at_rest = grid.at_rest
@@ -260,17 +259,4 @@ def _largest(
     numbers: dict[str, Any] = {n: v.values.reshape(-1)[rows] for n, v in zip(names, shapes, strict=True)}
     numbers["pure"] = pure.values.reshape(-1)[rows]
     largest = 1.0 + np.maximum(amplitude.values.reshape(-1)[rows] * largest_reach(grid), 0.0)
-    numbers["depth"] = _depths(grid, numbers, names, largest)
-    return places, numbers
-
-
-def _depths(
-    grid: PhysicalGrid, numbers: dict[str, Any], names: tuple[str, ...], largest: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Largest depths from the largest values of what is prescribed."""
-    depth = np.empty_like(largest)
-    for pure in dict.fromkeys(numbers["pure"]):
-        own = np.flatnonzero(numbers["pure"] == pure)
-        some = {name: numbers[name][own] for name in names}
-        depth[own] = largest_depths(grid, pure, some, largest[own])
-    return depth
+    return places, numbers, largest

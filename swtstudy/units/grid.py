@@ -188,6 +188,11 @@ class PhysicalGrid(ContactDetails, Grid):
         least, largest = (self.over_dimension("load", each) for each in ends.T)
         return least, largest
 
+    def of_both(self, name: str) -> list[tuple[float, float]]:
+        """The values of a property of both bodies: that of each, or all that are of both."""
+        alike = ((as_number(value),) * 2 for value in self.values(name))
+        return [self.pairs[name]] if name in self.pairs else [*alike]
+
     def of_body(self, name: str) -> xr.DataArray:
         """A parameter of the bodies, of each point's own body."""
         import xarray as xr
@@ -222,10 +227,6 @@ class PhysicalGrid(ContactDetails, Grid):
             name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], stop - start)
             for name, (dims, values) in self._codes_over.items()
         }
-
-    def _position(self, start: int, stop: int) -> dict[str, NDArray[np.intp]]:
-        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
-        return dict(zip(self.dims, places, strict=True))
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """See `Grid.made`."""

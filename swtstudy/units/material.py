@@ -146,7 +146,8 @@ def read_material(
     for name in unknown:
         report(f"material.{name}", f"unknown key {literal(name)}", nearest(str(name), KEYS))
     by_name = bool({*BY_NAME} & raw.keys())
-    tables = _named(raw, folder, report) if by_name else [_of_body(raw, i) for i in range(_BOTH)]
+    own = [{name: two_of(value)[body] for name, value in raw.items()} for body in range(_BOTH)]
+    tables = _named(raw, folder, report) if by_name else own
     tables = [{name: _number(value) for name, value in table.items()} for table in tables]
     intended = {meant(str(name), KEYS) for name in unknown}
     mistakes = Report()
@@ -280,12 +281,9 @@ def _number(raw: object) -> object:
         return raw
 
 
-def _of_body(raw: Mapping[str, Any], body: int) -> dict[str, Any]:
-    """The properties of one body."""
-    return {
-        name: value[body] if isinstance(value, list) and len(value) == _BOTH else value
-        for name, value in raw.items()
-    }
+def two_of(value: object) -> list[Any]:
+    """Values of both bodies."""
+    return value if isinstance(value, list) and len(value) == _BOTH else [value, value]
 
 
 def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[str, Any]]:
@@ -293,14 +291,10 @@ def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[st
     others = sorted(raw.keys() & {*PROPERTIES})
     if others:
         report("material", f"a name and {', '.join(others)}", "constants, or file and name")
-    file, names = raw.get("file"), raw.get("name")
-    names = names if isinstance(names, list) and len(names) == _BOTH else [names, names]
+    file, names = raw.get("file"), two_of(raw.get("name"))
     if not isinstance(file, str):
-        report(
-            "material.file",
-            "nothing" if file is None else literal(file),
-            "a TOML file with a table of each material",
-        )
+        found = "nothing" if file is None else literal(file)
+        report("material.file", found, "a TOML file with a table of each material")
         return []
     try:
         materials = parse_toml(read_text(folder / file))

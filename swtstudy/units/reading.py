@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -101,9 +102,9 @@ def completed(
     given = {*fixed, *axes, *samples, *pairs}
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
-    scaling = {name for load in _loops(fixed, axes, samples) for name in load.scaled_by}
-    fixed = fixed | still_load(profiles, given | scaling)
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
+    scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
+    fixed = fixed | still_load(profiles, given | scaling)
     fixed = fixed | measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
     table = rows(labels_of(about.units, profiles, given))
@@ -140,13 +141,6 @@ def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
     raw = everything.get("profile", PARAMETERS["profile"].default)
     several = raw if isinstance(raw, list | tuple) else [raw]
     return [known.get("profile", {}).get(each, each) if isinstance(each, str) else each for each in several]
-
-
-def _loops(*values: Mapping[str, Value | tuple[Value, ...]]) -> list[Definition]:
-    """The loops among the loads."""
-    loads = (each.get("load", ()) for each in values)
-    every = (load for each in loads for load in (each if isinstance(each, tuple) else (each,)))
-    return [load for load in every if isinstance(load, Definition)]
 
 
 def _differ(grid: PhysicalGrid) -> bool:
@@ -227,18 +221,12 @@ def _check_given(
 
 def check_bodies(grid: PhysicalGrid, report: Report) -> None:
     """Bodies that are not similar."""
-    young, poisson = (
-        [grid.pairs[name]] if name in grid.pairs else [(as_number(value),) * 2 for value in grid.values(name)]
-        for name in OF_BODIES
-    )
-    for one in young:
-        for other in poisson:
-            beta = Moduli(one, other).mismatch
-            if abs(beta) > grid.similar:
-                allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
-                found = f"bodies that are not similar: Dundurs' β = {beta:.3f}"
-                report.of(OF_BODIES, found, allowed)
-                return
+    for one, other in itertools.product(*map(grid.of_both, OF_BODIES)):
+        beta = Moduli(one, other).mismatch
+        if abs(beta) > grid.similar:
+            allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
+            report.of(OF_BODIES, f"bodies that are not similar: Dundurs' β = {beta:.3f}", allowed)
+            return
 
 
 def read_contact(text: object) -> ContactDetails:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.units.labels import LARGEST, SMALLEST, Units
@@ -121,40 +121,16 @@ def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
     return "both" if found else "neither", "one of the two: it says how deep the contact is"
 
 
-@dataclass(frozen=True)
-class SizeRow(Parameter):
-    """A parameter that is a length, a force or a stress, in the units of a study."""
-
-    kind_of_size: str = "length"
-
-    @property
-    def allowed(self) -> str:
-        """The allowed range in words."""
-        unit = f" in {self.units}" if self.units else ""
-        words = f"{self.kind_of_size}{unit}"
-        if self.lower < 0.0:
-            return f"a {words}"
-        return f"a {words}, ≥ 0" if self.lower == 0.0 else f"a positive {words}"
-
-
-@dataclass(frozen=True)
-class RowInWords(Parameter):
-    """A parameter whose range is said in words of its own."""
-
-    words: str = ""
-
-    @property
-    def allowed(self) -> str:
-        """The allowed range in words."""
-        return self.words
-
-
 def rows(units: Units) -> dict[str, Parameter]:
     """The rows by name: those of every parameter, of the critical distance, and of sizes of the contact."""
-    ratio = {"lower": -LARGEST, "upper": 1.0 - 1e-9, "words": "a number below 1: the least over the largest"}
-    body = {"lower": 1.0, "upper": 2.0, "open_lower": False, "words": "1 or 2"}
+    ratio: dict[str, Any] = {
+        "lower": -LARGEST,
+        "upper": 1.0 - 1e-9,
+        "words": "a number below 1: the least over the largest",
+    }
+    body: dict[str, Any] = {"lower": 1.0, "upper": 2.0, "open_lower": False, "words": "1 or 2"}
     own: dict[str, Parameter] = {
-        name: RowInWords(**_fields(CONTACT_AXES[name]) | changes)
+        name: replace(CONTACT_AXES[name], **changes)
         for name, changes in (("bulk_stress_ratio", ratio), ("body", body))
     }
     names = [*CONTACT_AXES, *PARAMETERS, *(name for name, row in QUANTITY_AXES.items() if row.kind != "name")]
@@ -171,13 +147,12 @@ def _row(row: Parameter, units: Units) -> Parameter:
     default = None if row.name in WITHOUT_DEFAULT else 0.0 if row.name in _ZERO else row.default
     kind = kind_of(row.name)
     if kind is None:
-        return Parameter(**_fields(row) | {"default": default})
+        return replace(row, default=default)
     vanishes = bool(row.scale) and may_vanish(row) and row.part != "quantity"
     lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
-    own = {"default": default, "units": units.label(kind), "lower": lower, "upper": LARGEST}
+    label = units.label(kind)
+    size = f"{kind} in {label}" if label else kind
+    words = f"a {size}" if lower < 0.0 else f"a {size}, ≥ 0" if lower == 0.0 else f"a positive {size}"
+    own: dict[str, Any] = {"default": default, "units": label, "lower": lower, "upper": LARGEST}
     own |= {"open_lower": False, "symbol": _SYMBOLS.get(row.name, row.symbol.split("/")[0])}
-    return SizeRow(**_fields(row) | own, kind_of_size=kind)
-
-
-def _fields(row: Parameter) -> dict[str, Any]:
-    return {field.name: getattr(row, field.name) for field in fields(Parameter)}
+    return replace(row, **own, words=words)

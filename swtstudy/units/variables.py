@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.points.values import as_number
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
@@ -111,7 +110,9 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         yield Variable(YIELD, r"\sigma_\mathrm{v}", words, "stress", of, _stress)
         if grid.yield_strengths:
             symbol, words = r"\sigma_\mathrm{v}/\sigma_\mathrm{y}", f"{words} over the yield strength"
-            yield Variable("yield_ratio", symbol, words, "1", of, _over_strength)
+            yield Variable(
+                "yield_ratio", symbol, words, "1", of, lambda grid: _over(grid, grid.yield_strengths)
+            )
 
 
 #: Of the nonlocal quantities those that are swt, and those that are places.
@@ -158,7 +159,7 @@ class _Kind:
         yield Variable(f"{self.name}{end}", f"{sign}{self.symbol}{below}", meaning, self.unit, **own)
         if self.criterion == FINDLEY and grid.findley_limits and not error:
             symbol, meaning = rf"{self.symbol}{below}/f_\mathrm{{lim}}", f"{meaning} over its limit"
-            usage = {**own, "scale": _over_limit}
+            usage = {**own, "scale": lambda grid: _over(grid, grid.findley_limits)}
             yield Variable(f"findley_usage{end}", symbol, meaning, "1", **usage)
         if self.life and not error and _constants(grid, self.criterion):
             below = ", ".join(filter(None, (self.life_symbol, place)))
@@ -230,14 +231,6 @@ def _stress(grid: PhysicalGrid) -> xr.DataArray:
     return grid.at_rest.scale("E* δ0/a_H")
 
 
-def _over_strength(grid: PhysicalGrid) -> xr.DataArray:
-    return _over(grid, grid.yield_strengths)
-
-
-def _over_limit(grid: PhysicalGrid) -> xr.DataArray:
-    return _over(grid, grid.findley_limits)
-
-
 def _over(grid: PhysicalGrid, stresses: Sequence[float]) -> xr.DataArray:
     """The unit of stress over a stress of each body."""
     return _of_body(grid, lambda body: _stress(grid) / stresses[body])
@@ -284,11 +277,9 @@ def _constants(grid: PhysicalGrid, criterion: str) -> list[tuple[FatigueConstant
     given = grid.shear_materials if criterion == FATEMI_SOCIE else grid.materials
     if given or not grid.materials:
         return [given] if given else []
-    name = "poisson_ratio"
-    ratios = [grid.pairs[name]] if name in grid.pairs else [(as_number(v),) * 2 for v in grid.values(name)]
     return [
         tuple(ShearConstants.estimated(*each) for each in zip(grid.materials, both, strict=True))
-        for both in ratios
+        for both in grid.of_both("poisson_ratio")
     ]
 
 

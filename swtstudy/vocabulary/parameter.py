@@ -64,6 +64,7 @@ class Parameter:
     instead_of: str = ""
     optional: bool = False
     note: str = ""
+    words: str = ""
 
     def goes_without_saying(self, value: object) -> bool:
         """Return whether a value means that the scene lacks the parameter's subject."""
@@ -94,6 +95,8 @@ class Parameter:
     @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
+        if self.words:
+            return self.words
         if self.kind == "name":
             return "one of " + ", ".join(self.names)
         interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from html import escape
 from typing import Any
 
 from swtstudy.vocabulary.parameters import AXES
@@ -169,6 +170,13 @@ def listed(words: Sequence[str], most: int) -> str:
     if len(words) <= most:
         return ", ".join(words)
     return f"{words[0]}, {words[1]} … {words[-1]} ({len(words)} values)"
+
+
+def html_table(rows: Iterable[tuple[str, str, str, str]]) -> str:
+    """A table of kinds, names, values and meanings."""
+    names = ((escape(a), f"<b>{escape(b)}</b>", escape(c), escape(d)) for a, b, c, d in rows)
+    body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in names)
+    return f"<table>{body}</table>"
 
 
 def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:

@@ -492,3 +492,13 @@ def test_the_lines_own_maximum_is_looked_at_on_its_side():
     assert found.swt >= at_line.swt
     assert found.position == pytest.approx([0.5, 0.0, 0.0], abs=1e-2)
     assert abs(swt_at(-0.5, 0.0, 0.0, parameters) / float(solved.s) - 1.0) > 0.1
+
+
+@pytest.mark.parametrize("field", [swtstudy.stress_field, swtstudy.swt_field, swtstudy.slip_map])
+def test_there_is_no_field_without_equilibrium(field):
+    """Friction carries up to the normal force: what is left of a larger one is no solution."""
+    places = ([0.5],) if field is swtstudy.slip_map else ([0.5], 0.0, 0.0)
+    forces = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 1.2}
+    with pytest.raises(StudyError, match=r"^tangential_force_amplitude: found 1.2, at which the body slides"):
+        field(*places, **forces)
+    assert field(*places, **(forces | {"tangential_force_amplitude": 0.9})).sizes

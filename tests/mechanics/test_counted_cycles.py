@@ -298,3 +298,15 @@ def test_archives_of_before_say_that_they_are_uncounted_and_a_run_counts(two, tm
     again = swtstudy.run(study, tmp_path / "before.nc")
     assert_allclose(again.cycles, found.cycles, rtol=1e-12)
     assert_allclose(again.SWT, found.SWT, rtol=0)
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e-13, 1e-14])
+def test_next_to_nothing_is_counted_too(size: float) -> None:
+    """No plane of the search is then worse than the critical one."""
+    load = LoadPath.harmonic_sum("small", [(1, size, 0.0)], [(1, size, 0.3)])
+    steel = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+    forces = {"normal_force": 200, "normal_force_amplitude": 1, "tangential_force_amplitude": 1}
+    contact = swtstudy.physical(
+        young_modulus=73.1e3, poisson_ratio=0.33, radius=50, friction=0.6, load=load, **forces
+    )
+    assert (contact.solve(rtol=1e-3, constants=steel).cycles > 1e30).all()

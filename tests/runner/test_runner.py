@@ -453,3 +453,9 @@ def test_workers_are_gone_after_the_block():
         worker = pool.submit(os.getpid).result()
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)
+
+
+@pytest.mark.parametrize("workers", [0, -5, 1.5, "two"])
+def test_there_must_be_workers(wide, tmp_path, workers):
+    with pytest.raises(StudyError, match=r"^workers: found .*; allowed: a number of processes, from 1 on"):
+        run(wide, tmp_path / "none.nc", workers=workers)

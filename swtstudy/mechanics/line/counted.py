@@ -194,7 +194,7 @@ def _higher_of_some(split: Scene, r: FloatArray, largest: FloatArray, least: Flo
     found = _counted([part[0] for part in kept]) / largest[point, 0] ** POWERS[:, None]
     # The best of each point comes last, for each power.
     order = [np.lexsort((sums_of, point)) for sums_of in found]
-    last = [each[np.append(np.diff(point[each]) > 0, point.size > 0)] for each in order]
+    last = [each[np.diff(point[each], append=-1) != 0] for each in order]
     power = np.repeat(np.arange(len(POWERS)), [each.size for each in last])
     at = np.concatenate(last)
     higher = found[power, at] > least[power, point[at]]
