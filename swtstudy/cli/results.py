@@ -130,9 +130,12 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.paths import check_archive_path, locked
     from swtstudy.points.records import MISSING
     from swtstudy.vocabulary.files import check_writable
+    from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
     target = Path(output)
     check_archive_path(target)
+    if target.suffix != ".nc":
+        raise StudyError([Mistake("--output", literal(output), "a file that ends with .nc")])
     check_writable(target)
     with locked(parts_folder(target)):
         dataset = merge_archives([Path(archive) for archive in archives], sparse)

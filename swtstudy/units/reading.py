@@ -198,6 +198,9 @@ def _check_given(
         report.of("body", literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = {name for load in loops for name in load.scaled_by}
+    sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
+    if "bulk_stress_ratio" in everything and not sized:
+        report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
     mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
     if all(load.normal_ends == (0.0, 0.0) for load in loops):
         scaling.discard("normal_amplitude")  # it scales nothing

@@ -76,6 +76,10 @@ def merged(tmp_path_factory):
         text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n[figure]\nx = "phase"\n'
         run(Study.from_text(text), tmp_path / f"{friction}.nc", solver=stand_in.smooth)
     assert call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", tmp_path / "both.nc").exit_code == 0
+    (study := tmp_path / "mine.toml").write_text("kept")
+    refused = call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", study)
+    assert "allowed: a file that ends with .nc" in refused.output
+    assert study.read_text() == "kept"
     return tmp_path / "both.nc"
 
 

@@ -90,6 +90,11 @@ MISTAKES = [
     ),
     (
         "friction = 0.5",
+        "friction = 0.5\nbulk_stress_ratio = -1",
+        "fixed.bulk_stress_amplitude: found nothing; allowed: a stress, which bulk_stress_ratio needs",
+    ),
+    (
+        "friction = 0.5",
         'friction = 0.5\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 1e-3\nwavelength = 0.05',
         "fixed.wavelength: found 0.05 at waviness_amplitude 0.001 at radius = 50 mm, normal_force = 150 N",
     ),
