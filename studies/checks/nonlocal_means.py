@@ -128,12 +128,19 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
     return f"| {name} | {of_one:.0f} ms | {of_several:.0f} ms | {claimed:.1e} |"
 
 
+def tight_means(
+    scene: Scene, x: FloatArray, angle: FloatArray, distance: FloatArray
+) -> nonlocal_swt.NonlocalSwt:
+    """Means with many more places and instants than they need."""
+    with patch.multiple(nonlocal_swt, **TIGHT):
+        return nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
+
+
 def off_and_claimed(point: Points, distance: float) -> tuple[FloatArray, FloatArray]:
     """What the three kinds of means of one point are off from tight ones, and claim, over these, (3,)."""
     at = place_of(point)[:3]
     quick = nonlocal_swt.nonlocal_swt(*at, np.array([distance]))
-    with patch.multiple(nonlocal_swt, **TIGHT):
-        tight = nonlocal_swt.nonlocal_swt(*at, np.array([distance]))
+    tight = tight_means(*at, np.array([distance]))
     off, claimed = np.zeros((2, len(KINDS)))
     for k, name in enumerate(KINDS):
         value, error, fine = getattr(quick, name), getattr(quick, f"{name}_error"), getattr(tight, name)

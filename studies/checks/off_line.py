@@ -15,20 +15,19 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from nonlocal_means import TIGHT
+from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body import nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
+from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.line.look import Look
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.numerics.arrays import hemisphere
@@ -171,21 +170,14 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             with np.errstate(all="ignore"):
                 if kind == "mean":
                     distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
-                    found, dense = _means(scene, x, angle, distance)
+                    means = nonlocal_swt, tight_means
+                    found, dense = (float(of(scene, x, angle, distance).volume[0, 0]) for of in means)
                 elif kind == "body":
                     found, dense = body_maximum(scene, float(x[0]))[0].swt, dense_body(scene, float(x[0]))
                 else:
                     found, dense = float(surface), dense_circle(scene, abs(float(x[0])))
             low.append(1.0 - found / dense)
     return name, kind, np.array(low)
-
-
-def _means(scene: Scene, x: Array, angle: Array, distance: Array) -> tuple[float, float]:
-    """Mean over the half sphere of one point, and the same with many more places and instants."""
-    quick = nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
-    with patch.multiple(nonlocal_swt, **TIGHT):
-        tight = nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
-    return float(quick.volume[0, 0]), float(tight.volume[0, 0])
 
 
 def lines(found: list[tuple[str, str, Array]]) -> Iterator[str]:

@@ -18,7 +18,7 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import label_time, no_equilibrium, read_point, turns
+from swtstudy.fields.one_point import cycle_at, label_time, read_point, turns
 from swtstudy.fields.stress import slip_map
 from swtstudy.mechanics.body.body import TimeNodes
 from swtstudy.mechanics.contact.slip_front import stick_coordinate
@@ -26,12 +26,11 @@ from swtstudy.mechanics.control.coordinate import unit_half_load
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.line.first_look import Seen, first_look
 from swtstudy.mechanics.line.look import Resolution
-from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.mechanics.stress.history import History, stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
-from swtstudy.mechanics.stress.scene import Scene, scene_of
+from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.solving import solve
-from swtstudy.vocabulary.mistakes import StudyError
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -88,10 +87,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     1.0
     """
     points = read_point(parameters)
+    scene = cycle_at(points, parameters)
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
-    if REGIMES[int(solved.regime)] == "no_equilibrium":
-        raise StudyError([no_equilibrium(points, parameters)])
-    scene = scene_of(points)
     extent = _extent(scene)
     radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
     line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
@@ -210,8 +207,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     Parameters
     ----------
     **parameters
-        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each, of a point that is in
-        equilibrium.
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
 
     Returns
     -------
@@ -219,9 +215,14 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
         Of `swtstudy.inspect_point`: depth, displacement, normal_force, tangential_force and edge_state over
         time, compression and force over r at the instants at which depth or displacement is extreme,
         largest_radius and control.
+
+    Raises
+    ------
+    StudyError
+        As `swtstudy.inspect_point`.
     """
     points = read_point(parameters)
-    scene = scene_of(points)
+    scene = cycle_at(points, parameters)
     nodes = instants_of(scene, [])
     time = label_time(scene, turns(scene) * nodes.instant, ("time",))
     unit = unit_half_load(points.profile, points.shape, 1)

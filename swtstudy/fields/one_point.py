@@ -64,15 +64,25 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 
 
 def read_scene(parameters: Mapping[str, object]) -> Scene:
-    """The contact cycle of one point; see `read_point`. A point without equilibrium has none."""
-    points = read_point(parameters)
+    """The contact cycle of one point; see `read_point` and `cycle_at`."""
+    return cycle_at(read_point(parameters), parameters)
+
+
+def cycle_at(points: Points, parameters: Mapping[str, object]) -> Scene:
+    """The contact cycle of a batch of one point with these parameters.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if there is no equilibrium: then there is no cycle.
+    """
     scene = scene_of(points)
     if out_of_equilibrium(scene.cycle.load, points.control)[0]:
-        raise StudyError([no_equilibrium(points, parameters)])
+        raise StudyError([_no_equilibrium(points, parameters)])
     return scene
 
 
-def no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
+def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
     """The force that friction does not carry, or the normal force that pulls."""
     control, ratio = points.control, float(Margins.of(points).force_ratio[0])
     pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))

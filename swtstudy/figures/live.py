@@ -18,7 +18,6 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import load_and_springs
-from swtstudy.fields.one_point import no_equilibrium, read_point
 from swtstudy.figures.force_panels import draw_load_plane
 from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.sheet import Figure
@@ -27,7 +26,6 @@ from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.solving import solve
 from swtstudy.vocabulary.choices import FAMILIES
-from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
 from swtstudy.vocabulary.wording import axis_words
 
@@ -89,8 +87,6 @@ class LiveFigure:
         # A phase that is one of these but for rounding takes its place.
         over = {"phase": np.union1d(curve[np.abs(curve - phase) > _ROUNDING], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
-        if REGIMES[int(solved.regime.sel(phase=phase))] == "no_equilibrium":
-            raise StudyError([no_equilibrium(read_point(parameters), parameters)])
         dataset = load_and_springs(**parameters)
         load, springs, over_phase = self.figure.axes
         with styled():

@@ -174,8 +174,11 @@ def listed(words: Sequence[str], most: int) -> str:
 
 def html_table(rows: Iterable[tuple[str, str, str, str]]) -> str:
     """A table of kinds, names, values and meanings."""
-    names = ((escape(a), f"<b>{escape(b)}</b>", escape(c), escape(d)) for a, b, c, d in rows)
-    body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in names)
+    body = "".join(
+        f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(value)}</td>"
+        f"<td>{escape(meaning)}</td></tr>"
+        for kind, name, value, meaning in rows
+    )
     return f"<table>{body}</table>"
 
 

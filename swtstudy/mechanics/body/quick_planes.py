@@ -121,9 +121,8 @@ def rival_planes(
     """
     coarse = planes.swt(stress, ν, criterion)
     peaked = coarse >= coarse[:, planes.beside].max(axis=-1)
-    first = np.where(
-        peaked & (coarse > PROMISING * coarse.max(axis=1, keepdims=True)), -2.0 * coarse, -coarse
-    )
+    peaked &= coarse > PROMISING * coarse.max(axis=1, keepdims=True)
+    first = np.where(peaked, -2.0 * coarse, -coarse)
     highest = np.argpartition(first, CANDIDATES, axis=1)[:, :CANDIDATES]
     swt, normal = _climb(stress, ν, planes.normal[highest], criterion)
     # Tension may be confined to few planes.

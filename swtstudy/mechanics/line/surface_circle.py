@@ -190,40 +190,52 @@ def _around_extremes(scene: Scene, look: Look, whole: History, places: _Places) 
 
     ``whole`` is the history of the look.
     """
+    extremes = Extremes.of(np.moveaxis(_curves(scene, whole, places)[:, None], 2, 0), look.inside)
+    brackets = look.brackets(extremes.best, extremes.falling)
+    wide, own = _samples(scene, look, places, brackets)
+    best = _or_rivals(scene, look, places, extremes, _tops(brackets, own))
+    same = best == extremes.best
+    if not same.all():
+        brackets = look.brackets(best, extremes.falling & same[..., None])
+        wide, own = _samples(scene, look, places, brackets)
+    brackets = brackets.narrowed(own.argmax(axis=-1))
+    narrow, own = _samples(scene, look, places, brackets)
+    peak = narrow.weighted(brackets.weights_at_peak(own))
+    return wide.followed_by(narrow).followed_by(peak)
 
-    def curves(history: History, rows: NDArray[np.intp]) -> FloatArray:
-        """The three curves, shape (k, 3, T), at some of the places."""
-        some, place = scene.take(rows), places.take(rows)
-        stress, tensor = (v[:, 0] for v in _circle(some, history, place.angle[:, None]))
-        tension = (stress @ normal_weights(place.normal)[..., None])[..., 0]
-        swing = some.criterion.swing.on_plane(tensor, place.normal)
-        return np.stack(some.criterion.curves(tension, swing), axis=1)
 
-    def samples(
-        brackets: TimeBrackets, rows: NDArray[np.intp]
-    ) -> tuple[History, NDArray[np.intp], FloatArray, FloatArray]:
-        """Building blocks in brackets; of each curve in its own the best sample, weights and its maximum."""
-        history = look.line.take(rows).history(brackets.samples())
-        own = curves(history, rows).reshape(rows.size, 3, 3, -1)[:, range(3), range(3)][:, None]
-        weights = brackets.weights_at_peak(own)
-        return history, own.argmax(axis=-1), weights, (own * weights).sum(axis=-1)
-
-    rows = every = np.arange(len(places.angle))
-    extremes = Extremes.of(np.moveaxis(curves(whole, every)[:, None], 2, 0), look.inside)
-    best, falling = extremes.best, extremes.falling
-    brackets = look.brackets(best, falling)
-    wide, at, _, top = samples(brackets, every)
+def _or_rivals(
+    scene: Scene, look: Look, places: _Places, extremes: Extremes, top: FloatArray
+) -> NDArray[np.intp]:
+    """The best instants, with maxima ``top`` about them, (m, 1, 3), or those that turn out to be higher."""
+    best, top, rows = extremes.best.copy(), top.copy(), np.arange(len(top))
     extremes = extremes.next_best()
     # What the nodes cannot tell from the highest instants is looked at, too.
     while (some := np.flatnonzero(extremes.may_exceed(top[rows]).any(axis=(1, 2)))).size:
         rows, extremes = rows[some], extremes.take(some)
-        *_, height = samples(look.take(rows).brackets(extremes.best), rows)
-        higher = height > top[rows]
-        best[rows] = np.where(higher, extremes.best, best[rows])
-        falling[rows] &= ~higher[..., None]
+        scene, look, places = scene.take(some), look.take(some), places.take(some)
+        brackets = look.brackets(extremes.best)
+        height = _tops(brackets, _samples(scene, look, places, brackets)[1])
+        best[rows] = np.where(height > top[rows], extremes.best, best[rows])
         top[rows], extremes = np.maximum(height, top[rows]), extremes.next_best()
-    if rows is not every:
-        brackets = look.brackets(best, falling)
-        wide, at, *_ = samples(brackets, every)
-    narrow, _, weights, _ = samples(brackets.narrowed(at), every)
-    return wide.followed_by(narrow).followed_by(narrow.weighted(weights))
+    return best
+
+
+def _samples(scene: Scene, look: Look, places: _Places, brackets: TimeBrackets) -> tuple[History, FloatArray]:
+    """Building blocks in the brackets of m places, and each curve in its own, shape (m, 1, 3, samples)."""
+    history = look.line.history(brackets.samples())
+    curves = _curves(scene, history, places).reshape(len(scene), 3, 3, -1)
+    return history, curves[:, range(3), range(3)][:, None]
+
+
+def _tops(brackets: TimeBrackets, own: FloatArray) -> FloatArray:
+    """Maxima between the samples of curves in their own brackets, shape (m, 1, 3)."""
+    return np.asarray((own * brackets.weights_at_peak(own)).sum(axis=-1))
+
+
+def _curves(scene: Scene, history: History, places: _Places) -> FloatArray:
+    """The three curves over the cycle at m places on their planes, shape (m, 3, T)."""
+    stress, tensor = (v[:, 0] for v in _circle(scene, history, places.angle[:, None]))
+    tension = (stress @ normal_weights(places.normal)[..., None])[..., 0]
+    swing = scene.criterion.swing.on_plane(tensor, places.normal)
+    return np.stack(scene.criterion.curves(tension, swing), axis=1)
