@@ -11,7 +11,7 @@ import click
 
 from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
 from swtstudy.cli.terminal import fitted, line_length, wrapped
-from swtstudy.vocabulary.mistakes import DEFAULT_RTOL
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import raised
@@ -142,7 +142,7 @@ def _values(text: str) -> str | list[str]:
 )
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
 @with_parameters("VALUE")
-@click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Of that study.")
+@click.option("--body", metavar="BODY", help="Of that study: 1 or 2, or its name.  [default: 1]")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 @click.option(
@@ -155,7 +155,7 @@ def show(
     style: str | None,
     smoothing: float | None,
     width: Any,
-    body: int,
+    body: str | None,
     **texts: str | None,
 ) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
@@ -163,10 +163,10 @@ def show(
     With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
     CSV file with the columns radius and height, in a_H and δ0.
 
-    With a STUDY its contact is drawn in its units, with single values of what are axes there; with one of its
-    profiles or a CSV file alone, that profile in its lengths, pressed by the mean load; with the name of one
-    of its loads alone, that load: its course with the recorded cycles, its path, and how near friction comes
-    to its end.
+    With a STUDY its contact is drawn in its units, with single values of what are axes or blocks there; with
+    one of its profiles or a CSV file alone, that profile in its lengths, pressed by the mean load; with the
+    name of one of its loads alone, that load: its course with the recorded cycles, its path, and how near
+    friction comes to its end.
 
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
@@ -176,14 +176,10 @@ def show(
     words = ""
     if study is None:
         figure = _point_or_profile(values, smoothing or 0.0, style, width)
-    elif [*values] == ["load"]:
+    elif [*values] == ["load"] and body is None:
         figure, words = _load(study, str(values["load"]), style, width)
     else:
-        from swtstudy.contacts.of_results import contact_of_study
-
-        of_shape = _of_shape(values)
-        contact = contact_of_study(study, values, smoothing, of_shape)
-        figure = contact.draw_profile(style, width) if of_shape else contact.inspect(body, style, width)
+        figure = _of_study(study, values, smoothing, body, style, width)
     from swtstudy.figures.style import save_figure
     from swtstudy.vocabulary.files import check_writable
 
@@ -203,6 +199,32 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
     if Path(str(values.get("profile"))).suffix == ".csv":
         values = {**values, "profile": table_from(Path(str(values["profile"])), smoothing)}
     return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
+
+
+def _of_study(
+    study: str,
+    values: dict[str, object],
+    smoothing: float | None,
+    body: str | None,
+    style: str | None,
+    width: Any,
+) -> Figure:
+    """The one contact of a study, in its units if it has them, or a profile of it alone."""
+    from swtstudy.contacts.contact import PhysicalContact
+    from swtstudy.contacts.of_results import one_of_study
+    from swtstudy.units.grid import PhysicalGrid
+
+    of_shape = _of_shape(values)
+    grid = one_of_study(study, values, smoothing, of_shape)
+    if not isinstance(grid, PhysicalGrid):
+        if body is not None:
+            raise StudyError([Mistake("body", literal(body), "no body in a study without units")])
+        names = [name for name in grid.fixed if not of_shape or PARAMETERS[name].part == "shape"]
+        return _point_or_profile({name: grid.fixed[name] for name in names}, 0.0, style, width)
+    contact = PhysicalContact(grid)
+    if of_shape:
+        return contact.draw_profile(style, width)
+    return contact.inspect(int(body) if body in ("1", "2") else body or 1, style, width)
 
 
 def _of_shape(values: dict[str, object]) -> bool:

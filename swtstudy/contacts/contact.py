@@ -140,16 +140,16 @@ class PhysicalContact(InUnits):
             raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
         return self.grid.at_rest.contacts.item()
 
-    def parameters(self, body: int = 1) -> dict[str, Any]:
+    def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
 
         Parameters
         ----------
         body
-            1 or 2. The bodies share all parameters but the Poisson ratio and the bulk stress: the tractions
-            do not depend on these, and the stress beneath them on those of the body itself alone.
+            1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
+            the tractions do not depend on these, and the stress beneath them on those of the body alone.
         """
-        contact, grid = self._one, self._with_bodies((float(checked_body(body)),))
+        contact, grid = self._one, self._with_bodies((float(self._body(body)),))
         control, shape = grid.control, family_of(contact.profile).shape
         names = ("frequency_ratio", "load", "criterion")
         own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
@@ -384,11 +384,16 @@ class PhysicalContact(InUnits):
         grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
         return optimum(grid, over, minimise, float(rtol), seed, asked)
 
-    def _measured(self, body: int) -> Measured:
-        """The scales of one body of one contact."""
-        return Measured(self._one, checked_body(body) - 1, self.grid.labels, str(self.criterion))
+    def _body(self, body: int | str) -> int:
+        """The label of a body, 1 or 2, from that or its name."""
+        return checked_body(body, names=self.grid.body_names)
 
-    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+    def _measured(self, body: int | str) -> Measured:
+        """The scales of one body of one contact."""
+        return Measured(self._one, self._body(body) - 1, self.grid.labels, str(self.criterion))
+
+    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        body = self._body(body)
         grid = replace(self._with_bodies((float(body),)), materials=(), shear_materials=(), blocks=())
         asked = Request((YIELD,) if grid.yield_strengths else ())
         validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))

@@ -239,18 +239,18 @@ class InUnits(ABC):
     """Fields and inspection of one contact in lengths, forces and stresses."""
 
     @abstractmethod
-    def parameters(self, body: int = 1) -> dict[str, Any]:
+    def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact."""
 
     @abstractmethod
-    def _measured(self, body: int) -> Measured:
+    def _measured(self, body: int | str) -> Measured:
         """The scales of one body of one contact."""
 
     @abstractmethod
-    def _headlines(self, body: int, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
         """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
 
-    def stress_field(self, x: Any, y: Any, z: Any, *, body: int = 1, time: object = None) -> xr.Dataset:
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
 
@@ -258,7 +258,7 @@ class InUnits(ABC):
         field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
         return own.with_units(field)
 
-    def swt_field(self, x: Any, y: Any, z: Any, *, body: int = 1) -> xr.Dataset:
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
 
         By a criterion of shear FS, a strain, or findley_stress.
@@ -269,13 +269,13 @@ class InUnits(ABC):
         field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
         return own.with_units(field, {"s_local": KINDS[own.criterion].name})
 
-    def inspect_point(self, body: int = 1) -> xr.Dataset:
+    def inspect_point(self, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
 
         return self._measured(body).with_units(inspect_point(**self.parameters(body)))
 
-    def inspect(self, body: int = 1, style: Style | None = None, width: Width | None = None) -> Figure:
+    def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
         from swtstudy.figures.inspection import draw_inspection

@@ -1,18 +1,25 @@
-"""The contacts of results and of studies with units."""
+"""The contacts of results, and one point of a study."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.study.definition import study_from, tables_of
+from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.grid import Grid
+from swtstudy.points.values import Value
+from swtstudy.study.definition import Study, study_from, tables_of
+from swtstudy.study.shipped import find_study
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.rows import REST_DEPENDS_ON
+from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.parameters import PAIRS
+from swtstudy.vocabulary.quantities import DISTANCE
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -32,15 +39,15 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
     return PhysicalContact(grid)
 
 
-def contact_of_study(
+def one_of_study(
     path: str, values: Mapping[str, object], smoothing: float | None = None, at_rest: bool = False
-) -> PhysicalContact:
-    """The one contact of a study file, with other values of some parameters, or values along its axes.
+) -> Grid:
+    """The one point of a study file, with other values of some parameters, or values along its axes.
 
     Parameters
     ----------
     path
-        The study file.
+        The study file, or the name of a study of the paper.
     values
         Its parameters, over those of the study; the profile may be a CSV file.
     smoothing
@@ -48,34 +55,61 @@ def contact_of_study(
     at_rest
         Whether only the contact at rest counts: then axes that do not change it need no value.
 
+    Returns
+    -------
+    Grid
+        Of one value of each parameter: a `PhysicalGrid`, but for both bodies, if the study has units.
+
     Raises
     ------
     StudyError
-        With every mistake; also if the study has no units, or an axis of it has no value here.
+        With every mistake; also if an axis of the study, or what it samples, has no value here.
     """
-    raw = tables_of(path)
+    path = str(find_study(path))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what is read once more below
+        raw, grid = tables_of(path), Study.from_toml(path).grid
     replaced = {*values}.union(*({*pair} for pair in PAIRS.items() if {*pair} & values.keys()))
-    fixed, axes = (raw.get(key) or {} for key in ("fixed", "axes"))
+    fixed = raw.get("fixed") or {}
     values, profiles = _with_profile(values, fixed, raw.get("profiles") or {}, smoothing)
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
-    open_axes = {name: axes[name] for name in axes if name not in replaced and name != "critical_distance"}
+    replaced |= _not_of(values)
+    several = {name: each for name, each in (grid.axes | grid.samples).items() if name not in replaced}
+    several.pop("body", None)
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
-        moving = {name: _first(value) for name, value in open_axes.items() if name not in REST_DEPENDS_ON}
-        open_axes = {name: value for name, value in open_axes.items() if name not in moving}
+        needed = REST_DEPENDS_ON if isinstance(grid, PhysicalGrid) else ("profile", *SHAPE_COLUMNS)
+        moving = {name: _plain(each[0]) for name, each in several.items() if name not in needed}
+        several = {name: each for name, each in several.items() if name not in moving}
         values = {**moving, **values}
-    if open_axes:
-        found = f"several values of {', '.join(open_axes)}"
-        option = f"--{next(iter(open_axes)).replace('_', '-')} VALUE"
+    if several:
+        found = f"several values of {', '.join(several)}"
+        option = f"--{next(iter(several)).replace('_', '-')} VALUE"
         raise StudyError([Mistake("", found, f"one of each, such as {option}", path)])
-    kept = {key: table for key, table in raw.items() if key not in ("axes", "sample", "figure")}
+    kept = {key: table for key, table in raw.items() if key not in _OF_STUDIES}
     kept |= {"profiles": profiles} if profiles else {}
-    kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced} | dict(values)
-    grid = study_from(kept, "", path, Path(path).parent).grid
-    if not isinstance(grid, PhysicalGrid):
-        raise StudyError([Mistake("units", "a study without units", "one with [units]", path)])
-    return PhysicalContact(grid)
+    if isinstance(grid, PhysicalGrid) and grid.yield_strengths:
+        kept["material"] = {"yield_strength": list(grid.yield_strengths)}
+    if raw.get("blocks") and "load" in grid.fixed:
+        fixed = {**fixed, "load": str(grid.fixed["load"])}
+    others = {name: value for name, value in fixed.items() if name not in replaced and name != DISTANCE}
+    kept["fixed"] = others | dict(values)
+    return study_from(kept, "", path, Path(path).parent).grid
+
+
+#: What a study has that is nothing of one contact.
+_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities", "material")
+
+
+def _not_of(values: Mapping[str, object]) -> set[str]:
+    """Parameters that a profile or a criterion does not have, if it is among these values."""
+    names: set[str] = set()
+    if "profile" in values:
+        names |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
+    if "criterion" in values:
+        names |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
+    return names - values.keys()
 
 
 def _with_profile(
@@ -97,8 +131,6 @@ def _with_profile(
     return values, profiles
 
 
-def _first(axis: object) -> object:
-    """The first value of an axis as a study has it: a list, or a range."""
-    if isinstance(axis, dict):
-        return axis.get("start")
-    return axis[0] if isinstance(axis, list) and axis else axis
+def _plain(value: Value) -> object:
+    """A value as a study file may have it."""
+    return value if isinstance(value, float | str) else str(value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.load.load import Loop, checked_mean, checked_name
+from swtstudy.mechanics.load.load import Loop, checked_name
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
@@ -167,9 +168,20 @@ class Signal:
         """Standard deviation of the cycles from their mean, by column; NaN for a single one."""
         return scatter(self.cycles)
 
+    @property
+    def is_folded_apart(self) -> bool:
+        """Whether cycles have less in common than what tells them apart, in each column: a wrong period."""
+        return bool(np.all(self.scatter > self.mean_cycle.std(axis=0)))
+
     @cached_property
     def mean_normal(self) -> float | None:
-        """The mean normal load; None where the column is its deviation from that."""
+        """The mean normal load; None where the column is its deviation from that.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not positive.
+        """
         if not self.is_absolute:
             return None
         if self.highest:
@@ -178,7 +190,10 @@ class Signal:
             mean = mean_over(self.time, self.values[:, 0], self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
-        return checked_mean(mean, self.name)
+        if not mean > 0.0:
+            allowed = "a mean above 0: bodies are pressed; is it the right column?"
+            raise StudyError([Mistake("absolute", f"a mean normal load of {mean:.3g}", allowed)])
+        return mean
 
     @cached_property
     def loop(self) -> Loop:
@@ -375,4 +390,7 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         found = f"{highest} with {samples * count:.0f} samples"
         allowed = "less than half as many as samples at different phases of the cycle"
         raise StudyError([Mistake("harmonics", found, allowed)])
+    if signal.is_folded_apart:
+        found = f"{name}: its {count} cycles differ by more than their mean moves"
+        warnings.warn(f"{found}; is {key} right?", stacklevel=2)
     return signal

@@ -35,18 +35,23 @@ SWT_ATTRIBUTES = {
 _CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
 
 
-def checked_body(body: object, key: str = "body") -> int:
-    """One of the labels.
+def checked_body(body: object, key: str = "body", names: Sequence[str] = ()) -> int:
+    """The label of a body, from that or from one of the names that the bodies may have.
 
     Raises
     ------
     StudyError
         If it is neither.
     """
-    number = plain_number(body)
+    number = names.index(body) + 1 if isinstance(body, str) and body in names else plain_number(body)
     if number not in LABELS:
-        raise StudyError([Mistake(key, literal(body), "1 or 2")])
+        raise StudyError([Mistake(key, literal(body), labels_or(names))])
     return int(number)
+
+
+def labels_or(names: Sequence[str]) -> str:
+    """What a body may be called, in words."""
+    return " or ".join((*map(str, LABELS), *map(literal, names)))
 
 
 def swt_from(s: ArrayLike | xr.DataArray, scale: Any, moduli: Moduli, bodies: NDArray[np.intp]) -> Values:

@@ -16,7 +16,7 @@ from swtstudy.points.shapes import check_shapes_given
 from swtstudy.points.values import Value, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block
-from swtstudy.units.bodies import LABELS
+from swtstudy.units.bodies import LABELS, labels_or
 from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
@@ -131,8 +131,11 @@ def _body_names(single: dict[str, object], given: tuple[str, ...], report: Repor
     if len(names) != 2 or not sound or names[0] == names[1]:
         report.of(NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         return ()
-    if single.get("body") in names:
-        single["body"] = names.index(str(single["body"])) + 1
+    body = single.get("body")
+    if isinstance(body, str) and body not in map(str, LABELS):
+        if body not in names:
+            report.of("body", literal(body), labels_or(names))
+        single["body"] = names.index(body) + 1 if body in names else 1
     return names
 
 

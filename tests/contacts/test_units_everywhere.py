@@ -11,8 +11,9 @@ from swtstudy import Study, StudyError, physical
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
 from swtstudy.cli import main
+from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.measured import InUnits
-from swtstudy.contacts.of_results import contact_of_study
+from swtstudy.contacts.of_results import one_of_study
 from swtstudy.study.writing import to_toml
 
 RIG = {
@@ -168,6 +169,10 @@ def test_bodies_have_names(tmp_path):
     assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
     with pytest.raises(StudyError, match=r"body: found 'rod' .*; allowed: test piece, pad"):
         found.swt.slice(body="rod")
+    with pytest.raises(
+        StudyError, match=r"fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'"
+    ):
+        Study.from_text(STUDY.replace("bodies =", 'body = "rod"\nbodies ='))
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0
@@ -229,7 +234,7 @@ def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path):
     file = tmp_path / "pad.toml"
     strength = "[material]\nyield_strength = 150\n[fixed]"
     file.write_text(STUDY.replace("[fixed]", strength), encoding="utf-8")
-    contact = contact_of_study(str(file), {"phase": "90 deg"})
+    contact = PhysicalContact(one_of_study(str(file), {"phase": "90 deg"}))
     words = contact.inspect(body=1).get_suptitle().replace("\n", " ")
     for given in ("$F_0$ = 200 N", "$R$ = 50 mm", r"$Q_A$ = 60 N", r"$\sigma_{B,A}$ = 30 MPa"):
         assert given in words
@@ -260,7 +265,9 @@ def test_the_command_shows_a_study(tmp_path, monkeypatch):
     assert picture.exists()
     assert (shown["phase"], shown["body"]) == (np.pi / 2, 2)
     assert "tangential_amplitude" in shown
-    plain = tmp_path / "plain.toml"
-    plain.write_text('title = "t"', encoding="utf-8")
-    done = CliRunner().invoke(main, ["show", str(plain)])
-    assert "a study without units; allowed: one with [units]" in done.stderr
+    assert CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "pad"]).exit_code == 0
+    assert shown["body"] == "pad"
+    done = CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "rod"])
+    assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
+    done = CliRunner().invoke(main, ["show", "plane_contacts", "--profile", "paraboloid", "--body", "1"])
+    assert "body: found '1'; allowed: no body in a study without units" in done.stderr

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -151,6 +152,19 @@ def test_a_period_in_time_folds_a_record_that_ends_within_a_cycle(tmp_path: Path
     assert fit.mean_normal == pytest.approx(200.0, abs=1e-9)
 
 
+@pytest.mark.parametrize(("recorded_cycles", "is_told"), [(20, False), (10, False), (7, True), (21, True)])
+def test_cycles_that_are_no_cycles_are_told(tmp_path: Path, recorded_cycles: int, is_told: bool) -> None:
+    """Folded at a wrong period loads vanish from the mean; a constant one leaves noise at the right one."""
+    noise = np.random.default_rng(1).normal(size=(8000, 3)) * [2.0, 0.6, 0.3]
+    signal = smooth(2.0 * np.pi * np.arange(8000) / 400) * [0.0, 1.0, 1.0] + noise
+    write(tmp_path / "rig.csv", signal, "normal,tangential,bulk")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        read_signal(tmp_path / "rig.csv", recorded_cycles=recorded_cycles)
+    words = f"its {recorded_cycles} cycles differ by more than their mean moves; is recorded_cycles right?"
+    assert [str(each.message) for each in told] == [f"rig: {words}"] * is_told
+
+
 def test_harmonics_are_those_of_least_squares() -> None:
     phase = np.sort(np.random.default_rng(2).uniform(0.0, 2.0 * np.pi, 50))
     values = 3.0 + 2.0 * np.sin(phase + 0.5) + np.sin(7.0 * phase)
@@ -209,6 +223,10 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
         ),
         ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
         ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*time, sample 3\); allowed: times that asc"),
+        (
+            'absolute = true\ncolumns = { normal = "tangential", tangential = "normal" }',
+            "loads.rig.absolute: found a mean normal load of -10; allowed: a mean above 0",
+        ),
         ("mean_normal = 3", "loads.rig: found mean_normal beside a file; allowed: with a file only columns"),
     ],
 )

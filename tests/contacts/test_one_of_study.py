@@ -1,0 +1,113 @@
+"""One point of a study: what is left of its axes, samples and blocks when values are chosen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from real import ALLOY
+
+from swtstudy import StudyError, inspect_point
+from swtstudy.cli import main
+from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.contacts.of_results import one_of_study
+
+FORCES = {"normal_force_amplitude": "0.2", "tangential_force_amplitude": "0.3"}
+RIG = f"""
+title = "Blocks, or criteria"
+{ALLOY}yield_strength = 350
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+"""
+AXIS_OF_CRITERIA = """
+normal_force = 200
+tangential_force_amplitude = 60
+normal_sensitivity = 0.3
+[axes]
+criterion = ["swt", "findley", "fatemi_socie"]
+"""
+BLOCKS = """
+[loads.gentle]
+absolute = true
+vertices = [[200, 40], [200, -40]]
+[loads.rough]
+absolute = true
+vertices = [[200, 80], [200, -80]]
+[[blocks]]
+load = "gentle"
+rounds = 100
+"""
+MORE = '[[blocks]]\nload = "rough"\nrounds = 1\n'
+
+
+def file_of(folder: Path, text: str) -> str:
+    (folder / "rig.toml").write_text(text, encoding="utf-8")
+    return str(folder / "rig.toml")
+
+
+def test_a_profile_of_an_axis_has_its_own_shape_alone() -> None:
+    """The study fixes the shapes of two other profiles."""
+    found = one_of_study("plane_contacts", {"profile": "paraboloid", **FORCES})
+    assert not {"flat_half_width", "exponent", "profile"} & {*found.axes}
+    own = inspect_point(**found.fixed)
+    same = inspect_point(phase="pi/2", **FORCES)
+    np.testing.assert_array_equal(own.s_local, same.s_local)
+    other = one_of_study("plane_contacts", {"profile": "power_law_cylinder", **FORCES})
+    assert (other.fixed["exponent"], "flat_half_width" in other.fixed) == (4.0, False)
+    with pytest.raises(StudyError, match=r"fixed.exponent: found 3, which no profile here has"):
+        one_of_study("plane_contacts", {"profile": "paraboloid", "exponent": 3, **FORCES})
+
+
+def test_every_axis_and_every_sampled_parameter_needs_a_value() -> None:
+    with pytest.raises(
+        StudyError, match=r"several values of frequency_ratio, friction, .*, flat_radius; allow"
+    ):
+        one_of_study("sensitivity", {})
+    given = {"frequency_ratio": "1/2", "friction": "0.3", "poisson_ratio": "0.3", "phase": "1"}
+    given |= {"normal_amplitude": "0.5", "tangential_amplitude": "0.5"}
+    with pytest.raises(StudyError, match="several values of flat_radius; allowed: one of each"):
+        one_of_study("sensitivity", given)
+    assert one_of_study("sensitivity", {**given, "flat_radius": "0.5"}).size == 1
+    # The profile alone does not depend on the others.
+    drawn = one_of_study("sensitivity", {"flat_radius": "0.5"}, at_rest=True)
+    assert drawn.fixed["flat_radius"] == 0.5
+
+
+@pytest.mark.parametrize("criterion", ["swt", "findley", "fatemi_socie"])
+def test_a_criterion_of_an_axis_needs_no_constants_of_the_others(tmp_path: Path, criterion: str) -> None:
+    text = RIG + AXIS_OF_CRITERIA
+    contact = PhysicalContact(one_of_study(file_of(tmp_path, text), {"criterion": criterion}))
+    assert contact.parameters().get("criterion", "swt") == criterion
+    assert contact.grid.yield_strengths == (350.0, 350.0)
+
+
+def test_the_contact_of_one_load_of_blocks(tmp_path: Path) -> None:
+    one = file_of(tmp_path, RIG + BLOCKS)
+    assert str(one_of_study(one, {}).fixed["load"]) == "gentle"
+    both = file_of(tmp_path, RIG + BLOCKS + MORE)
+    with pytest.raises(
+        StudyError, match="several values of load; allowed: one of each, such as --load VALUE"
+    ):
+        one_of_study(both, {})
+    contact = PhysicalContact(one_of_study(both, {"load": "rough"}))
+    assert str(contact.parameters()["load"]) == "rough"
+
+
+def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, *_: drawn.append(figure))
+    both = file_of(tmp_path, RIG + BLOCKS + MORE)
+    for more, panels in (((), 3), (("--body", "2"), 9)):
+        done = CliRunner().invoke(
+            main, ["show", both, "--load", "rough", *more, "-o", str(tmp_path / "a.png")]
+        )
+        assert done.exit_code == 0, done.stderr
+        assert len([axes for axes in drawn[-1].axes if axes.get_title("left")]) >= panels
+    assert len(drawn[0].axes) < len(drawn[1].axes)
