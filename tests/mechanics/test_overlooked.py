@@ -146,6 +146,19 @@ CASES = [
         "2/3",
         0.0177363771,
     ),
+    # And 1e-3 apart: of the one that is 1.3e-4 higher a round sees next to no more than of its neighbours.
+    (
+        {
+            "normal_amplitude": 0.02539727,
+            "tangential_amplitude": 0.00989687,
+            "phase": 5.74224189,
+            "poisson_ratio": 0.38707177,
+            "friction": 0.96453653,
+            "walker_exponent": 0.21960827,
+        },
+        "2/3",
+        0.0311498438,
+    ),
     # Lower than its neighbours at the first instants: 3e-3, and 7e-4 beside a cusp as high.
     (
         {
