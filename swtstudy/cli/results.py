@@ -122,13 +122,16 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     """Merge several ARCHIVEs into one.
 
     Along every axis the merged grid has the values of all archives. Points of it that are in none of them
-    are refused without --sparse; contradictory values are always refused.
+    are refused without --sparse; contradictory values are always refused. What an archive in the place of the
+    merged one has besides is kept in a folder beside it.
     """
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.netcdf import save
-    from swtstudy.archive.parts import parts_folder
+    from swtstudy.archive.parts import keeping, kept_folder, known_records, parts_folder
     from swtstudy.archive.paths import check_archive_path, locked
-    from swtstudy.points.records import MISSING
+    from swtstudy.archive.recall import records_of
+    from swtstudy.points.records import MISSING, made_by
+    from swtstudy.runner.workload import dropped_records
     from swtstudy.vocabulary.files import check_writable
     from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -138,7 +141,17 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
         raise StudyError([Mistake("--output", literal(output), "a file that ends with .nc")])
     check_writable(target)
     with locked(parts_folder(target)):
-        dataset = merge_archives([Path(archive) for archive in archives], sparse)
-        save(dataset, target)
+        dataset, before = (
+            merge_archives([Path(archive) for archive in archives], sparse),
+            known_records(target),
+        )
+        records = records_of(dataset)
+        dropped = dropped_records(records.table, before, records, made_by(records.runs))
+        with keeping(kept_folder(target), dropped):
+            save(dataset, target)
     missing = int((dataset.status == MISSING).sum())
     click.echo(f"{target}: {dataset.s.size} points, {missing} of them missing")
+    if len(dropped):
+        click.echo(
+            f"{len(dropped)} points that were there before are kept in {kept_folder(target)}", err=True
+        )

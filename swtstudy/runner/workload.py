@@ -89,15 +89,15 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Workload:
     records = matching(points.table, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     outdated, coarse = _unusable(points.table[records.status == MISSING], known, study.rtol)
     items, of = wanted(study.grid, study.asked, points)
-    dropped = _dropped(points.table, known, records, items)
+    dropped = dropped_records(points.table, known, records, items)
     records = records.without_others(items)
     return Workload(points, records, items, of, dropped, outdated, coarse)
 
 
-def _dropped(table: Table, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
+def dropped_records(table: Table, known: Records, used: Records, quantities: tuple[str, ...]) -> Records:
     """Known records of points that are not in a table, or of more quantities than are asked.
 
-    The time of a run counts where it is used.
+    The time of a run counts where its records are ``used``.
     """
     everything = Records.missing(table)
     elsewhere = look_up(known.table, everything, everything.status == MISSING) < 0

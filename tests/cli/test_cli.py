@@ -304,6 +304,20 @@ def test_merge_writes_one_archive(finished, tmp_path):
     assert swtstudy.open_results(tmp_path / "merged.nc").s.size == 18
 
 
+def test_merge_keeps_what_another_archive_in_its_place_had(merged, tmp_path):
+    """Three points of it are in the merged archive, two are not, and a study that has these finds them."""
+    text = 'title = "t"\n[axes]\nphase = [0, 1, 2, 2.5, 3]\n[fixed]\nfriction = 0.1\n'
+    before = run(Study.from_text(text), tmp_path / "there.nc", solver=stand_in.smooth)
+    parts = (merged.with_name("0.1.nc"), merged.with_name("0.2.nc"))
+    for _ in range(2):
+        result = call("merge", *parts, "-o", tmp_path / "there.nc")
+        assert result.exit_code == 0, result.output
+        assert f"2 points that were there before are kept in {tmp_path / 'there.nc.kept'}" in result.stderr
+        assert swtstudy.open_results(tmp_path / "there.nc").s.size == 6
+    again = run(Study.from_text(text), tmp_path / "there.nc", solver=None)
+    np.testing.assert_allclose(again.s, before.s, rtol=1e-12)
+
+
 def test_merge_leaves_gaps_only_when_told(tmp_path):
     for name, axis in (("one", "friction = [0.1, 0.2]"), ("two", "phase = [1, 2, 3]")):
         (tmp_path / f"{name}.toml").write_text(f'title = "t"\nrtol = 1e-2\naxes.{axis}\n')
