@@ -159,7 +159,9 @@ class PhysicalContact(InUnits):
                 own[control.given_for(column)] = float(values.squeeze())
         # What scales a loop is 1 unless it is given.
         needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
-        if own["criterion"] != SWT:
+        if own["criterion"] == SWT:
+            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
+        else:
             needed = (*needed, "normal_sensitivity")
         return {
             name: own[name]

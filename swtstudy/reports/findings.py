@@ -14,9 +14,13 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
+from swtstudy.units.blocks import REPETITIONS, sequence_words
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.reading import read_contact
+from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
 from swtstudy.vocabulary.wording import number_words, numbers_words
@@ -57,8 +61,19 @@ class Lever:
 
 
 def measured(dataset: xr.Dataset) -> xr.DataArray:
-    """s; of real contacts SWT, since the unit of s differs from contact to contact."""
-    return dataset["SWT" if "SWT" in dataset else "s"]
+    """s; of real contacts the value of the criterion, since the unit of s differs from contact to contact.
+
+    Of several criteria each has its own unit.
+    """
+    criteria = np.atleast_1d(dataset[CRITERION]) if CRITERION in dataset.coords else [SWT]
+    names = [KINDS[str(each)].name for each in criteria]
+    own = [dataset[name] for name in names if name in dataset]
+    if len(own) < 2:
+        return own[0] if own else dataset.s
+    values = own[0]
+    for other in own[1:]:
+        values = values.fillna(other)
+    return values.drop_attrs().assign_attrs(symbol=r"\text{value}", units="").rename("value")
 
 
 def levers(dataset: xr.Dataset) -> list[Lever]:
@@ -82,9 +97,15 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
 
 def sentences(dataset: xr.Dataset) -> list[str]:
     """List the findings as HTML; the most important sentence first."""
-    swt = symbol_of(measured(dataset)) if "SWT" in dataset else "<i>s</i>"
+    swt = symbol_of(measured(dataset)) if has_units(dataset) else "<i>s</i>"
     said = [_sentence(lever, swt) for lever in levers(dataset) if lever.ratio > _MOVES]
-    return [*said, *_ranges(dataset, swt, bool(said))]
+    if SAMPLE in dataset.s.dims or not said:
+        if CRITERION in dataset.dims:
+            parts = [dataset.isel({CRITERION: k}) for k in range(dataset.sizes[CRITERION])]
+            said += [f"{value_text(CRITERION, p.criterion.item(), {})}: {_range(p)}" for p in parts]
+        else:
+            said.append(_range(dataset))
+    return [*said, *_lives(dataset)]
 
 
 def _sentence(lever: Lever, swt: str) -> str:
@@ -122,29 +143,35 @@ def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
     return f" for {' and '.join(names)}" * bool(names) + f" at {', '.join(numbers)}" * bool(numbers)
 
 
-def _ranges(dataset: xr.Dataset, swt: str, one: bool) -> Iterator[str]:
-    """From where to where values go."""
+def _range(dataset: xr.Dataset) -> str:
+    """From where to where the values of one criterion go."""
     values = measured(dataset)
-    if SAMPLE in values.dims or not one:
-        known = values.values[np.isfinite(values.values)]
-        if known.size > 1:
-            least, greatest = known.min(), known.max()
-            low, middle, high = numbers_words((least, np.median(known), greatest))
-            ends = f"from {low} to {high}, median {middle}"
-            if greatest <= _MOVES * least:
-                ends = f"{low}{_blank(unit_of(values))}: nothing that was varied moves it"
-                yield f"At all {known.size} points {swt} is {ends}."
-            else:
-                yield f"Over {known.size} points {swt} goes {ends}{_blank(unit_of(values))}."
-        elif known.size:
-            yield f"{swt} is <b>{number_words(float(known[0]))}</b>{_blank(unit_of(values))}{_alone(values)}."
-        else:
-            yield f"No point has a finite {swt}."
-    if "cycles" in dataset:
-        lives = dataset.cycles.values[np.isfinite(dataset.cycles.values)]
+    swt = symbol_of(values) if has_units(dataset) else "<i>s</i>"
+    known = values.values[np.isfinite(values.values)]
+    if not known.size:
+        return f"No point has a finite {swt}."
+    unit = _blank(unit_of(values))
+    if known.size == 1:
+        return f"{swt} is <b>{number_words(float(known[0]))}</b>{unit}{_alone(values)}."
+    low, middle, high = numbers_words((known.min(), np.median(known), known.max()))
+    if known.max() <= _MOVES * known.min():
+        return f"At all {known.size} points {swt} is {low}{unit}: nothing that was varied moves it."
+    return f"Over {known.size} points {swt} goes from {low} to {high}, median {middle}{unit}."
+
+
+def _lives(dataset: xr.Dataset) -> Iterator[str]:
+    """How long it takes to a crack, by each criterion that has a life."""
+    blocks = read_contact(dataset.attrs[CONTACT]).blocks if REPETITIONS in dataset else ()
+    if blocks:
+        yield f"The sequence of blocks: {escape(sequence_words(dataset, blocks))}."
+        return
+    names = {kind.life: kind.name for kind in KINDS.values() if kind.life in dataset}
+    for name, criterion in names.items():
+        lives = dataset[name].values[np.isfinite(dataset[name].values)]
         if lives.size:
-            rounds = dict.fromkeys(numbers_words((lives.min(), lives.max()), 2))
-            yield f"A crack starts after {' to '.join(rounds)} rounds of the load, at the worst place."
+            rounds = " to ".join(dict.fromkeys(numbers_words((lives.min(), lives.max()), 2)))
+            by = f" by {criterion}" if len(names) > 1 else ""
+            yield f"A crack starts after {rounds} rounds of the load{by}, at the worst place."
 
 
 def _alone(values: xr.DataArray) -> str:

@@ -47,7 +47,7 @@ def tiles(dataset: xr.Dataset) -> str:
         swt = measured(one)
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
         value = f"{number_words(float(swt))} {escape(unit_of(swt))}".strip()
-        found.append((f"{end} {symbol_of(values)}".strip(), value, where))
+        found.append((f"{end} {symbol_of(swt)}".strip(), value, where))
     if relative.size:
         largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
         words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
@@ -105,7 +105,7 @@ def points_section(dataset: xr.Dataset) -> Section:
     parts = []
     for end, one in _ends(dataset):
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
-        own = f"{'The ' * bool(end)}{end} {symbol_of(measured(dataset))}".strip()
+        own = f"{'The ' * bool(end)}{end} {symbol_of(measured(one))}".strip()
         title = f"<h3>{own}{f': {where}' if where else ''}</h3>"
         try:
             picture = of_point(parameters_of(one))

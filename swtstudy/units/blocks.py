@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number
+from swtstudy.vocabulary.wording import number_words, numbers_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -112,6 +113,26 @@ def miner(
         words = _words(f"share of the damage{where}", "D_k/D", SHARED)
         found[share] = life.dims, of_each if along else of_each.squeeze(axis), words
     return found
+
+
+def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
+    """Say how often a sequence is repeated to a crack, and which load does most of the damage.
+
+    Without means over a critical distance, at the worst place.
+    """
+    rounds = ", ".join(f"{number_words(each.rounds)} of {each.load}" for each in blocks)
+    times = dataset[REPETITIONS]
+    known = times.values[np.isfinite(times.values)]
+    if not known.size:
+        return f"{rounds}: no crack"
+    ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
+    words = f"{rounds}, repeated {' to '.join(ends)} times to a crack"
+    worst = np.unravel_index(np.nanargmin(times.values), times.shape)
+    share = dataset[SHARE].isel(dict(zip(times.dims, worst, strict=True)))
+    if not share.ndim:
+        return words
+    most = share[int(share.values.argmax())]
+    return f"{words}; {most.coords['load'].item()} does {float(most):.0%} of the damage"
 
 
 #: What is said of both.

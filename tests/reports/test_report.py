@@ -20,8 +20,10 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from folders import RESULTS
+from real import ALLOY
 
 import swtstudy
+from swtstudy import Study
 from swtstudy.cli import main
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
@@ -33,6 +35,7 @@ from swtstudy.reports.values import about, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
+from swtstudy.vocabulary.wording import number_words
 
 VOID = {"meta", "link", "img", "br"}
 
@@ -190,6 +193,41 @@ def test_values_of_several_criteria_are_not_compared() -> None:
         "best": float(first.s.min()),
         "worst": float(first.s.max()),
     }
+
+
+def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
+    """A phase moves nothing where the normal load is constant."""
+    text = f"""
+    title = "Criteria in units"
+    rtol = 1e-3
+    {ALLOY}yield_strength = 350
+    [fixed]
+    young_modulus = 73.1e3
+    poisson_ratio = 0.33
+    radius = 50
+    friction = 0.5
+    normal_force = 200
+    tangential_force_amplitude = 60
+    normal_sensitivity = 0.3
+    [axes]
+    criterion = ["swt", "findley", "fatemi_socie"]
+    """
+    still = swtstudy.run(Study.from_text(f"{text}phase = [0, 1]\n"), tmp_path / "still.nc")
+    values = {"SWT": " MPa", "f": " MPa", "FS": ""}
+    names = dict(zip(values, ("SWT", "findley_stress", "FS"), strict=True))
+    said = [re.sub("<[^>]*>", "", each) for each in sentences(still)]
+    for line, (symbol, unit), criterion in zip(said, values.items(), still.criterion.values, strict=False):
+        own = number_words(float(still[names[symbol]].sel(criterion=criterion)[0]))
+        word = criterion.replace("_", " ")
+        assert line == f"{word}: At all 2 points {symbol} is {own}{unit}: nothing that was varied moves it."
+    ends = [line.partition("rounds of the load")[2] for line in said[3:]]
+    assert ends == [" by SWT, at the worst place.", " by FS, at the worst place."]
+    assert "none without a value" in tiles(still)
+    # The sensitivity is that of the others: SWT is drawn without it.
+    (worst,) = extreme_points(still).values()
+    assert "normal_sensitivity" not in parameters_of(worst)
+    again = swtstudy.solve(rtol=1e-3, **parameters_of(worst))
+    assert float(again.s) == pytest.approx(float(worst.s), rel=1e-6)
 
 
 def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_page: str) -> None:

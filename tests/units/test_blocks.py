@@ -11,7 +11,10 @@ from real import ALLOY
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
+from swtstudy.archive.describe import describe
+from swtstudy.reports.findings import sentences
 from swtstudy.runner.workload import assess
+from swtstudy.vocabulary.wording import number_words
 
 RIG = f"""
 title = "Blocks"
@@ -52,6 +55,12 @@ def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) 
     assert found.repetitions.dims == ()
     assert found.cycles.dims == ("load",)
     assert "worst place" in found.repetitions.comment
+    worst = f"{float(found.damage_share.sel(load='running')):.0%}"
+    times = number_words(found.repetitions.item(), 2)
+    words = f"10 of start-up, 1000 of running, 5.5 of start-up, repeated {times} times to a crack; "
+    words += f"running does {worst} of the damage"
+    assert f"  sequence       {words}" in describe(found)
+    assert f"The sequence of blocks: {words}." in sentences(found)
     # The archive knows its blocks, also where they come from files.
     archived = open_results(tmp_path / "blocks.nc")
     assert assess(Study.from_text(archived.attrs["study"]), tmp_path / "blocks.nc").todo == 0
