@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, styled
 from swtstudy.mechanics.load.load import PERIOD, Loop
 from swtstudy.points.values import as_number
@@ -64,6 +64,8 @@ def draw_load(
     if name not in loops:
         raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
     loads = _loads(study, loops[name])
+    if signal is not None and signal.is_absolute:
+        loads = _at_begin(loads, signal.mean_cycle)  # a polygon begins at another vertex than its record
     phase = np.linspace(0.0, 1.0, len(loads))
     forces = study.grid.control == Control(True, True)
     with styled(style, width):
@@ -77,6 +79,7 @@ def draw_load(
             _draw_margin(axes, phase, study, loads)
         words = f"{name}: {signal.words}" if signal else name
         figure.suptitle(as_text(words))
+        wrap_title(figure)
         wrap_texts(figure)
     return figure
 
@@ -137,8 +140,6 @@ def _draw_course(
         share = np.arange(cycles.shape[1]) / cycles.shape[1]
         for column in range(cycles.shape[2]):
             axes.plot(share, cycles[..., column].T, color=f"C{column}", lw=0.5, alpha=0.25, ls="-", marker="")
-        # A polygon begins at another vertex than its record.
-        loads = _at_begin(loads, signal.mean_cycle)
     for column, (name, unit) in enumerate(zip(names[: loads.shape[1]], units, strict=False)):
         axes.plot(phase, loads[:, column], color=f"C{column}", label=name + unit, ls="-", marker="")
     axes.set(xlabel="share of a cycle", ylabel="loads")

@@ -221,8 +221,9 @@ class Signal:
         said = [f"{self.count} cycle{'s' * (self.count > 1)} of {self.cycles.shape[1]} samples"]
         if self.mean_normal is not None:
             said.append(f"mean normal load {self.mean_normal:.5g}")
+        rounding = np.finfo(float).eps * self.count * np.abs(self.values).max(axis=0)
         for verb, found in (("the cycles scatter by", self.scatter), ("the harmonics miss", self.missed)):
-            if np.any(found > 0.0):
+            if np.any(found > rounding):
                 each = zip((*COLUMNS, BULK), found, strict=False)
                 said.append(f"{verb} {', '.join(f'{value:.2g} ({name})' for name, value in each)}")
         return "; ".join(said)

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 from real import UNITS
 
-from swtstudy import Study, StudyError, draw_load
+from swtstudy import Study, StudyError, draw_load, read_signal
 from swtstudy.cli import main
 
 RIG = f"""
@@ -52,6 +52,29 @@ def test_the_picture_has_the_record_the_path_and_the_friction_margin(rig: Path) 
     words = [text.get_text() for text in course.get_legend().get_texts()]
     assert words == ["normal (N)", "tangential (N)", "bulk stress (MPa)"]
     assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (N)", "tangential load (N)")
+
+
+def test_all_panels_begin_where_the_record_does(rig: Path) -> None:
+    signal = read_signal(rig.with_name("rig.csv"), absolute=True, recorded_cycles=3)
+    figure = draw_load(Study.from_toml(rig), "rig", signal, width="column")
+    course, _, margin = figure.axes
+    normal, tangential = (line.get_ydata() for line in course.get_lines()[-3:-1])
+    np.testing.assert_allclose(normal[:-1], signal.mean_cycle[:, 0], atol=1e-9)
+    np.testing.assert_allclose(margin.get_lines()[0].get_ydata(), abs(tangential) / (0.5 * normal), rtol=1e-9)
+    # A long title is broken, on a screen too.
+    smooth = read_signal(rig.with_name("rig.csv"), absolute=True, recorded_cycles=3, harmonics=1)
+    words = draw_load(Study.from_toml(rig), "rig", smooth).get_suptitle()
+    assert words.replace("\n", " ") == f"rig: {smooth.words}"
+    assert "\n" in words
+
+
+def test_cycles_that_are_the_same_do_not_scatter(tmp_path: Path) -> None:
+    """Means of sevenths have roundings."""
+    rows = ["normal,tangential", *(f"{a / 7!r},{b / 7!r}" for a, b, _ in 7 * CYCLE.tolist())]
+    (tmp_path / "rig.csv").write_text("\n".join(rows))
+    found = read_signal(tmp_path / "rig.csv", absolute=True, recorded_cycles=7)
+    assert found.scatter.max() > 0.0
+    assert "scatter" not in found.words
 
 
 def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig: Path) -> None:
