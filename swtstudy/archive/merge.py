@@ -22,6 +22,7 @@ from swtstudy.points.unique import unique_points, wanted
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
+from swtstudy.units.reading import read_contact
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, Request
@@ -62,7 +63,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
     _refuse_other_versions(paths, parts)
-    _refuse_other_contacts(datasets)
+    _refuse_other_contacts(paths, datasets)
     grids = [grid_of(dataset) for dataset in datasets]
     _refuse_other_controls(paths, grids)
     grid = _union(grids)
@@ -158,9 +159,17 @@ def _refuse_gaps_in_quantities(
             )
 
 
-def _refuse_other_contacts(datasets: Sequence[xr.Dataset]) -> None:
-    if len({dataset.attrs.get(CONTACT) for dataset in datasets}) > 1:
-        raise ConflictError("results with other units, materials or pairs of bodies cannot be merged")
+def _refuse_other_contacts(paths: Sequence[Path], datasets: Sequence[xr.Dataset]) -> None:
+    first = datasets[0].attrs.get(CONTACT)
+    for path, other in zip(paths, (dataset.attrs.get(CONTACT) for dataset in datasets), strict=True):
+        if other == first:
+            continue
+        names = ["units"]
+        if first and other:
+            one, two = vars(read_contact(first)), vars(read_contact(other))
+            names = [name.replace("_", " ") for name in one if one[name] != two[name]]
+        words = f"results with other {' and '.join(names)} cannot be merged"
+        raise ConflictError(f"{words}: those in {paths[0]} and in {path}")
 
 
 def _union(grids: list[Grid]) -> Grid:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 #: The page that lists the others.
 INDEX = "index.html"
+_PAGES = (".html", ".htm")
 #: So many archives are worth the seconds that processes take to begin.
 _SEVERAL = 4
 
@@ -81,6 +83,8 @@ def write_reports(
         A ValueError, if none of the files is an archive.
     """
     paths = [Path(each) for each in archives]
+    if output is not None and not _is_folder(output) and Path(output).suffix.lower() not in _PAGES:
+        raise StudyError([Mistake("--output", str(output), "a file that ends with .html, or a folder")])
     if len(paths) > 1 or (output is not None and _is_folder(output)):
         yield from _write_several(paths, _checked_folder(paths, output), workers)
         return
@@ -169,7 +173,8 @@ def _card(one: Entry, address: str) -> str:
 
 
 def _is_folder(output: str | PathLike[str]) -> bool:
-    return Path(output).is_dir() or Path(output).suffix.lower() not in (".html", ".htm")
+    path = os.fspath(output)
+    return Path(path).is_dir() or not Path(path).suffix or path.endswith(("/", os.sep))
 
 
 def _checked_folder(paths: Sequence[Path], output: str | PathLike[str] | None) -> Path:

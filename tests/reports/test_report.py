@@ -185,6 +185,19 @@ def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
         assert float(again.s) == pytest.approx(float(one.s), rel=2e-3)
 
 
+@pytest.mark.parametrize("name", ["page.pdf", "page"])
+def test_a_page_is_html_or_in_a_folder(tmp_path: Path, name: str) -> None:
+    done = CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", str(tmp_path / name)])
+    if name == "page":
+        assert (tmp_path / "page" / "friction.html").exists()
+    else:
+        assert "allowed: a file that ends with .html, or a folder" in done.stderr
+        assert not (tmp_path / name).exists()
+    folder = f"{tmp_path}/v1.2/"
+    assert CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", folder]).exit_code == 0
+    assert Path(folder, "index.html").exists()
+
+
 def test_values_of_several_criteria_are_not_compared() -> None:
     dataset = swtstudy.open_results(RESULTS / "criteria.nc")
     assert "criterion" not in [lever.name for lever in levers(dataset)]

@@ -78,7 +78,13 @@ def test_archives_are_merged(tmp_path):
     assert Study.from_text(merged.attrs["study"]).grid.shape == (2, 2, 2)
     other = SHORT.replace('"MPa"', '"N/mm²"')
     run(Study.from_text(other), tmp_path / "other.nc", workers=1, solver=stand_in.smooth)
-    with pytest.raises(ValueError, match="other units"):
+    with pytest.raises(
+        ValueError, match=r"with other units cannot be merged: those in .*0.nc and in .*other.nc"
+    ):
+        merge([tmp_path / "0.nc", tmp_path / "1.nc", tmp_path / "other.nc"])
+    stronger = SHORT.replace("strength = 927", "strength = 900\nyield_strength = 350")
+    run(Study.from_text(stronger), tmp_path / "other.nc", workers=1, solver=stand_in.smooth)
+    with pytest.raises(ValueError, match="with other materials and yield strengths cannot be merged"):
         merge([tmp_path / "0.nc", tmp_path / "other.nc"])
 
 
