@@ -159,6 +159,20 @@ CASES = [
         "2/3",
         0.0311498438,
     ),
+    # A smooth maximum on one plane beside that on another, between the values of a round: 4e-4.
+    (
+        {
+            "profile": "rounded_punch",
+            "flat_radius": 1.27851706,
+            "normal_amplitude": 0.32312666,
+            "tangential_amplitude": 0.00223102,
+            "phase": 3.53556411,
+            "poisson_ratio": 0.35259681,
+            "friction": 0.7031355,
+        },
+        "4/3",
+        0.00517269732,
+    ),
     # Lower than its neighbours at the first instants: 3e-3, and 7e-4 beside a cusp as high.
     (
         {

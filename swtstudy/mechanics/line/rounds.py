@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb, refine
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, SAME_PLANE, SHRINKING, Climb, refine
 from swtstudy.mechanics.line.first_look import SHARE
 from swtstudy.mechanics.line.look import SETTLED, Accuracy
 from swtstudy.mechanics.line.positions import Positions
@@ -190,9 +190,7 @@ def _vertex(climb: Climb, seen: _Seen, accuracy: Accuracy) -> _Vertex:
     clear[smooth] = remaining[smooth] <= SETTLED * accuracy.tolerance * top[smooth]
     # A maximum below what was seen is none.
     clear &= top >= seen.largest
-    # Values on different planes are no polynomial: one turn is far ahead of the others.
-    turn = np.sort(apart(np.diff(seen.angles)) / np.diff(OFFSETS), axis=1)
-    clear &= turn[:, -1] <= SUDDEN * turn[:, -2]
+    clear[_jumps(seen.angles)[0]] = False  # values on different planes are no polynomial
     return _Vertex(centre, top, remaining, clear)
 
 
@@ -227,15 +225,31 @@ def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tol
 
 
 def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
-    """Climbs to other values of a first round that are local maxima and almost as high as the best."""
+    """Climbs to other values of a first round that are almost as high as the best.
+
+    These are local maxima, or on another plane, whose maximum may hide beside the flank of the best one's.
+    """
     new = np.flatnonzero(climb.rounds == 0)
     values, best = seen.values[new], seen.best[new]
     padded = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
     peak = (1.0 - TIE * tolerance) * values > np.maximum(padded[:, 2:], padded[:, :-2])
+    last, jump = _jumps(seen.angles[new])
+    other = np.where(best[last] > jump, jump, jump + 1)
+    peak[last, other] = True
     high = values >= (1.0 - SHARE) * pick(values, best)[:, None]
     row, column = np.nonzero(peak & high & (np.arange(values.shape[1]) != best[:, None]))
     at = new[row], column
     return climb.twins(at[0], seen.c[at], seen.values[at], seen.angles[at])
+
+
+def _jumps(angles: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Which of m climbs have a sudden turn of their planes, 2θ of shape (m, k), and between which columns."""
+    turn = apart(np.diff(angles))
+    speed = turn / np.diff(OFFSETS)
+    jump = speed.argmax(axis=1)
+    others = np.sort(speed, axis=1)[:, -2]
+    sudden = (pick(speed, jump) > SUDDEN * others) & (pick(turn, jump) > SAME_PLANE)
+    return np.flatnonzero(sudden), jump[sudden]
 
 
 def _beside_corners(climb: Climb, seen: _Seen, accuracy: Accuracy) -> Climb:
