@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,14 +10,15 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value
-from swtstudy.study.definition import Study, study_from, tables_of
+from swtstudy.study.definition import study_from, tables_of
+from swtstudy.study.sample import read_sample
 from swtstudy.study.shipped import find_study
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.material import STRENGTH
 from swtstudy.units.rows import REST_DEPENDS_ON
 from swtstudy.vocabulary.choices import SWT, families_with
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.parameters import AXES, PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE
 
 if TYPE_CHECKING:
@@ -66,22 +66,19 @@ def one_of_study(
         With every mistake; also if an axis of the study, or what it samples, has no value here.
     """
     path = str(find_study(path))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of what is read once more below
-        raw, grid = tables_of(path), Study.from_toml(path).grid
+    raw = tables_of(path)
     replaced = {*values}.union(*({*pair} for pair in PAIRS.items() if {*pair} & values.keys()))
-    fixed = raw.get("fixed") or {}
+    fixed, axes = _with_loads(raw.get("fixed") or {}, _several(raw, Path(path).parent), raw)
     values, profiles = _with_profile(values, fixed, raw.get("profiles") or {}, smoothing)
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
     replaced |= _not_of(values)
-    several = {name: each for name, each in (grid.axes | grid.samples).items() if name not in replaced}
-    several.pop("body", None)
+    several = {name: first for name, first in axes.items() if name not in replaced}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
-        needed = REST_DEPENDS_ON if isinstance(grid, PhysicalGrid) else ("profile", *SHAPE_COLUMNS)
-        moving = {name: _plain(each[0]) for name, each in several.items() if name not in needed}
-        several = {name: each for name, each in several.items() if name not in moving}
+        needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)
+        moving = {name: first for name, first in several.items() if name not in needed}
+        several = {name: first for name, first in several.items() if name not in moving}
         values = {**moving, **values}
     if several:
         found = f"several values of {', '.join(several)}"
@@ -89,17 +86,44 @@ def one_of_study(
         raise StudyError([Mistake("", found, f"one of each, such as {option}", path)])
     kept = {key: table for key, table in raw.items() if key not in _OF_STUDIES}
     kept |= {"profiles": profiles} if profiles else {}
-    if isinstance(grid, PhysicalGrid) and grid.yield_strengths:
-        kept["material"] = {"yield_strength": list(grid.yield_strengths)}
-    if raw.get("blocks") and "load" in grid.fixed:
-        fixed = {**fixed, "load": str(grid.fixed["load"])}
+    if "criterion" in values and "material" in kept:
+        own = {key: value for key, value in kept.pop("material").items() if key == STRENGTH}
+        kept |= {"material": own} if own else {}
     others = {name: value for name, value in fixed.items() if name not in replaced and name != DISTANCE}
     kept["fixed"] = others | dict(values)
     return study_from(kept, "", path, Path(path).parent).grid
 
 
+def _several(raw: Mapping[str, Any], folder: Path) -> dict[str, object]:
+    """The first value of each axis of a study, and of each parameter that it samples."""
+    axes = {name: _first(axis) for name, axis in (raw.get("axes") or {}).items()}
+    axes = {name: first for name, first in axes.items() if name not in (DISTANCE, "body")}
+    if not isinstance(raw.get("sample"), dict):
+        return axes
+    sample, names = read_sample(raw["sample"], folder, Report(), {}, AXES)
+    return axes | {name: sample.values[name][0] if sample else None for name in names}
+
+
+def _with_loads(
+    fixed: Mapping[str, Any], axes: dict[str, object], raw: Mapping[str, Any]
+) -> tuple[Mapping[str, Any], dict[str, object]]:
+    """The same with the loads of blocks, one as a fixed value, several as an axis."""
+    blocks = raw.get("blocks") or []
+    loads = list(dict.fromkeys(block.get("load") for block in blocks))
+    if not loads:
+        return fixed, axes
+    return ({**fixed, "load": loads[0]}, axes) if len(loads) == 1 else (fixed, {**axes, "load": loads[0]})
+
+
+def _first(axis: object) -> object:
+    """The first value of an axis as a study has it: a list, or a range."""
+    if isinstance(axis, dict):
+        return axis.get("start")
+    return axis[0] if isinstance(axis, list) and axis else axis
+
+
 #: What a study has that is nothing of one contact.
-_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities", "material")
+_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
 
 
 def _not_of(values: Mapping[str, object]) -> set[str]:
@@ -129,8 +153,3 @@ def _with_profile(
         raise StudyError([Mistake("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")])
     profiles[str(name)] = {**profiles[str(name)], "smoothing": smoothing}
     return values, profiles
-
-
-def _plain(value: Value) -> object:
-    """A value as a study file may have it."""
-    return value if isinstance(value, float | str) else str(value)

@@ -160,7 +160,7 @@ def _range(dataset: xr.Dataset) -> str:
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:
-    """How long it takes to a crack, by each criterion that has a life."""
+    """The lives to a crack, by each criterion that has a life."""
     blocks = read_contact(dataset.attrs[CONTACT]).blocks if REPETITIONS in dataset else ()
     if blocks:
         yield f"The sequence of blocks: {escape(sequence_words(dataset, blocks))}."

@@ -170,7 +170,7 @@ class Signal:
 
     @property
     def is_folded_apart(self) -> bool:
-        """Whether cycles have less in common than what tells them apart, in each column: a wrong period."""
+        """True if cycles have less in common than what tells them apart, in each column: a wrong period."""
         return bool(np.all(self.scatter > self.mean_cycle.std(axis=0)))
 
     @cached_property

@@ -50,7 +50,7 @@ def checked_body(body: object, key: str = "body", names: Sequence[str] = ()) -> 
 
 
 def labels_or(names: Sequence[str]) -> str:
-    """What a body may be called, in words."""
+    """The labels and names that a body may be called by, in words."""
     return " or ".join((*map(str, LABELS), *map(literal, names)))
 
 

@@ -186,7 +186,9 @@ def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["page.pdf", "page"])
-def test_a_page_is_html_or_in_a_folder(tmp_path: Path, name: str) -> None:
+def test_a_page_is_html_or_in_a_folder(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("swtstudy.reports.site.page", lambda *_: "a page")
+    monkeypatch.setattr("swtstudy.reports.site.listing", lambda *_: "a list")
     done = CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", str(tmp_path / name)])
     if name == "page":
         assert (tmp_path / "page" / "friction.html").exists()

@@ -89,7 +89,7 @@ def test_nothing_but_a_regular_file_is_replaced(tmp_path: Path) -> None:
 def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
     far = tmp_path / "far"
     far.mkdir()
-    (far / "kept.nc").write_text("old")
+    computed(far).rename(far / "kept.nc")
     computed(far)
     (tmp_path / "mine.nc").symlink_to(far / "mine.nc")
     path = computed(tmp_path, STUDY.replace("0.2]", "0.2, 0.3]"))
