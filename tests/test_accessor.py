@@ -193,10 +193,15 @@ def test_results_of_solve():
         "import swtstudy, xarray",
         "import xarray, swtstudy",
         "import swtstudy.accessor",
-        "from swtstudy.archive.archive import open_results; import xarray",
-        "from swtstudy.solving import solve",
-        "import swtstudy.points.labelled",
         "from swtstudy import Study; import dask.array, xarray.core.dataset",
+        *(
+            pytest.param(each, marks=pytest.mark.slow)
+            for each in (
+                "from swtstudy.archive.archive import open_results; import xarray",
+                "from swtstudy.solving import solve",
+                "import swtstudy.points.labelled",
+            )
+        ),
     ],
 )
 def test_the_accessor_is_there_whatever_is_imported_first(imports):
