@@ -13,6 +13,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.sample import read_sample
 from swtstudy.study.shipped import find_study
+from swtstudy.study.tables import read_structure
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.material import STRENGTH
 from swtstudy.units.rows import REST_DEPENDS_ON
@@ -67,6 +68,8 @@ def one_of_study(
     """
     path = str(find_study(path))
     raw = tables_of(path)
+    if mistakes := read_structure(raw, path)[1]:
+        raise StudyError(mistakes)
     replaced = {*values}.union(*({*pair} for pair in PAIRS.items() if {*pair} & values.keys()))
     fixed, axes = _with_loads(raw.get("fixed") or {}, _several(raw, Path(path).parent), raw)
     values, profiles = _with_profile(values, fixed, raw.get("profiles") or {}, smoothing)
