@@ -141,10 +141,8 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
         raise StudyError([Mistake("--output", literal(output), "a file that ends with .nc")])
     check_writable(target)
     with locked(parts_folder(target)):
-        dataset, before = (
-            merge_archives([Path(archive) for archive in archives], sparse),
-            known_records(target),
-        )
+        before = known_records(target)
+        dataset = merge_archives([Path(archive) for archive in archives], sparse)
         records = records_of(dataset)
         dropped = dropped_records(records.table, before, records, made_by(records.runs))
         with keeping(kept_folder(target), dropped):
@@ -152,6 +150,4 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     missing = int((dataset.status == MISSING).sum())
     click.echo(f"{target}: {dataset.s.size} points, {missing} of them missing")
     if len(dropped):
-        click.echo(
-            f"{len(dropped)} points that were there before are kept in {kept_folder(target)}", err=True
-        )
+        click.echo(f"{len(dropped)} points of before are kept in {kept_folder(target)}", err=True)

@@ -312,7 +312,7 @@ def test_merge_keeps_what_another_archive_in_its_place_had(merged, tmp_path):
     for _ in range(2):
         result = call("merge", *parts, "-o", tmp_path / "there.nc")
         assert result.exit_code == 0, result.output
-        assert f"2 points that were there before are kept in {tmp_path / 'there.nc.kept'}" in result.stderr
+        assert f"2 points of before are kept in {tmp_path / 'there.nc.kept'}" in result.stderr
         assert swtstudy.open_results(tmp_path / "there.nc").s.size == 6
     again = run(Study.from_text(text), tmp_path / "there.nc", solver=None)
     np.testing.assert_allclose(again.s, before.s, rtol=1e-12)
