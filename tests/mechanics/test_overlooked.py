@@ -159,6 +159,18 @@ CASES = [
         "2/3",
         0.0311498438,
     ),
+    # A maximum of two peaks in time, which the nodes of a climb see on another plane: 1e-3.
+    (
+        {
+            "normal_amplitude": 0.3138620139935916,
+            "tangential_amplitude": 0.10358940021820613,
+            "phase": 4.149434194540718,
+            "poisson_ratio": 0.46327635483772944,
+            "friction": 0.909626701038321,
+        },
+        "3",
+        0.119295604,
+    ),
     # A smooth maximum on one plane beside that on another, between the values of a round: 4e-4.
     (
         {

@@ -138,7 +138,8 @@ def refine(
     """
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
-    best = climb_over_planes(planes, double_angle, ANGLE_ROUNDS)
+    # Not the best plane near by on these nodes: there the summit of a narrow peak may be none.
+    best = double_angle
     extremes = Extremes.of(planes.criterion.curves(*planes.on_plane(best)), look.inside)
     zoom = _Zoom(scene, look, side, resolution)
     samples = zoom.around(extremes)
@@ -279,7 +280,7 @@ class Climb(Rows):
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
         """Without those that have just moved to a position around which another one searches no lower.
 
-        On another plane the position itself may be higher than the other one has seen.
+        On another plane the position itself may be higher than the other one has seen, or what is beyond it.
         """
         order = np.lexsort((moved, self.place, self.side, self.point))
         key = np.stack([self.point, self.side, self.place])[:, order]
@@ -288,6 +289,7 @@ class Climb(Rows):
         first = np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))
         seen = self.seen[order]
         higher = seen > (1.0 + SAME) * seen[first]
+        higher |= apart(self.angle[order] - self.angle[order][first]) > SAME_PLANE
         return self.take(order[~(same & moved[order]) | higher])
 
     def twins(
