@@ -37,6 +37,24 @@ hue = "tangential_amplitude"
 panels = "normal_force"
 y = ["SWT", "cycles", "SWT_volume", "critical_position"]
 """
+#: A contact that lacks its loads, of a metal that yields.
+CONTACT = f"""
+title = "A contact"
+rtol = 1e-3
+{ALLOY}yield_strength = 350
+[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+"""
+#: It with two forces, by all criteria.
+CRITERIA = f"""{CONTACT}normal_force = 200
+tangential_force_amplitude = 60
+normal_sensitivity = 0.3
+[axes]
+criterion = ["swt", "findley", "fatemi_socie"]
+"""
 ALUMINIUM = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
 #: Two bodies of which each has its own constants, alike in (1 − 2ν)/G as steel and brass nearly are.
 BODIES = (

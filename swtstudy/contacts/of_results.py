@@ -10,7 +10,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.study.definition import study_from, tables_of
+from swtstudy.study.definition import study_from, tables_of, with_loads
 from swtstudy.study.sample import read_sample
 from swtstudy.study.shipped import find_study
 from swtstudy.study.tables import read_structure
@@ -71,12 +71,14 @@ def one_of_study(
     if mistakes := read_structure(raw, path)[1]:
         raise StudyError(mistakes)
     replaced = {*values}.union(*({*pair} for pair in PAIRS.items() if {*pair} & values.keys()))
-    fixed, axes = _with_loads(raw.get("fixed") or {}, _several(raw, Path(path).parent), raw)
-    values, profiles = _with_profile(values, fixed, raw.get("profiles") or {}, smoothing)
+    loads = [block["load"] for block in raw.get("blocks", ())]
+    fixed, axes = with_loads(raw.get("fixed", {}), raw.get("axes", {}), loads)
+    values, profiles = _with_profile(values, fixed, raw.get("profiles", {}), smoothing)
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
     replaced |= _not_of(values)
-    several = {name: first for name, first in axes.items() if name not in replaced}
+    firsts = _firsts(axes, raw, Path(path).parent)
+    several = {name: first for name, first in firsts.items() if name not in replaced}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
         needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)
@@ -97,25 +99,13 @@ def one_of_study(
     return study_from(kept, "", path, Path(path).parent).grid
 
 
-def _several(raw: Mapping[str, Any], folder: Path) -> dict[str, object]:
+def _firsts(axes: Mapping[str, Any], raw: Mapping[str, Any], folder: Path) -> dict[str, object]:
     """The first value of each axis of a study, and of each parameter that it samples."""
-    axes = {name: _first(axis) for name, axis in (raw.get("axes") or {}).items()}
-    axes = {name: first for name, first in axes.items() if name not in (DISTANCE, "body")}
-    if not isinstance(raw.get("sample"), dict):
-        return axes
+    found = {name: _first(axis) for name, axis in axes.items() if name not in (DISTANCE, "body")}
+    if "sample" not in raw:
+        return found
     sample, names = read_sample(raw["sample"], folder, Report(), {}, AXES)
-    return axes | {name: sample.values[name][0] if sample else None for name in names}
-
-
-def _with_loads(
-    fixed: Mapping[str, Any], axes: dict[str, object], raw: Mapping[str, Any]
-) -> tuple[Mapping[str, Any], dict[str, object]]:
-    """The same with the loads of blocks, one as a fixed value, several as an axis."""
-    blocks = raw.get("blocks") or []
-    loads = list(dict.fromkeys(block.get("load") for block in blocks))
-    if not loads:
-        return fixed, axes
-    return ({**fixed, "load": loads[0]}, axes) if len(loads) == 1 else (fixed, {**axes, "load": loads[0]})
+    return found | {name: sample.values[name][0] if sample else None for name in names}
 
 
 def _first(axis: object) -> object:

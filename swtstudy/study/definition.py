@@ -31,7 +31,6 @@ from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quanti
 
 if TYPE_CHECKING:
     from swtstudy.study.sample import Sample
-    from swtstudy.units.blocks import Block
     from swtstudy.vocabulary.parameter import Parameter
 
 
@@ -168,7 +167,7 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     fixed, axes = _parts(raw)
     known = _definitions(raw, folder, report)
     blocks = read_blocks(raw, known.get("load", {}), report)
-    fixed, axes = _with_loads(fixed, axes, blocks)
+    fixed, axes = with_loads(fixed, axes, [block.load for block in blocks])
     contacts, distance = read_given(raw, fixed, folder, report)
     if distance is not None:
         if DISTANCE in {*fixed, *axes}:
@@ -210,11 +209,11 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     return Study(table.title, grid, table.rtol, asked, figure, text, sample)
 
 
-def _with_loads(
-    fixed: dict[str, Any], axes: dict[str, Any], blocks: Sequence[Block]
+def with_loads(
+    fixed: dict[str, Any], axes: dict[str, Any], of_blocks: Sequence[str]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """The same with the loads of blocks, as the last axis if there are several."""
-    loads = list(dict.fromkeys(block.load for block in blocks))
+    loads = list(dict.fromkeys(of_blocks))
     if not loads:
         return fixed, axes
     fixed, axes = ({n: v for n, v in part.items() if n != "load"} for part in (fixed, axes))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from real import ALLOY
+from real import CONTACT, CRITERIA
 
 from swtstudy import StudyError, inspect_point
 from swtstudy.cli import main
@@ -15,22 +15,6 @@ from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.of_results import one_of_study
 
 FORCES = {"normal_force_amplitude": "0.2", "tangential_force_amplitude": "0.3"}
-RIG = f"""
-title = "Blocks, or criteria"
-{ALLOY}yield_strength = 350
-[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-"""
-AXIS_OF_CRITERIA = """
-normal_force = 200
-tangential_force_amplitude = 60
-normal_sensitivity = 0.3
-[axes]
-criterion = ["swt", "findley", "fatemi_socie"]
-"""
 BLOCKS = """
 [loads.gentle]
 absolute = true
@@ -80,16 +64,15 @@ def test_every_axis_and_every_sampled_parameter_needs_a_value() -> None:
 
 @pytest.mark.parametrize("criterion", ["swt", "findley", "fatemi_socie"])
 def test_a_criterion_of_an_axis_needs_no_constants_of_the_others(tmp_path: Path, criterion: str) -> None:
-    text = RIG + AXIS_OF_CRITERIA
-    contact = PhysicalContact(one_of_study(file_of(tmp_path, text), {"criterion": criterion}))
+    contact = PhysicalContact(one_of_study(file_of(tmp_path, CRITERIA), {"criterion": criterion}))
     assert contact.parameters().get("criterion", "swt") == criterion
     assert contact.grid.yield_strengths == (350.0, 350.0)
 
 
 def test_the_contact_of_one_load_of_blocks(tmp_path: Path) -> None:
-    one = file_of(tmp_path, RIG + BLOCKS)
+    one = file_of(tmp_path, CONTACT + BLOCKS)
     assert str(one_of_study(one, {}).fixed["load"]) == "gentle"
-    both = file_of(tmp_path, RIG + BLOCKS + MORE)
+    both = file_of(tmp_path, CONTACT + BLOCKS + MORE)
     with pytest.raises(
         StudyError, match="several values of load; allowed: one of each, such as --load VALUE"
     ):
@@ -112,7 +95,7 @@ def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(
 ) -> None:
     drawn = []
     monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, *_: drawn.append(figure))
-    both = file_of(tmp_path, RIG + BLOCKS + MORE)
+    both = file_of(tmp_path, CONTACT + BLOCKS + MORE)
     for more, panels in (((), 3), (("--body", "2"), 9)):
         done = CliRunner().invoke(
             main, ["show", both, "--load", "rough", *more, "-o", str(tmp_path / "a.png")]

@@ -20,7 +20,7 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from folders import RESULTS
-from real import ALLOY
+from real import CRITERIA
 
 import swtstudy
 from swtstudy import Study
@@ -212,22 +212,7 @@ def test_values_of_several_criteria_are_not_compared() -> None:
 
 def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     """A phase moves nothing where the normal load is constant."""
-    text = f"""
-    title = "Criteria in units"
-    rtol = 1e-3
-    {ALLOY}yield_strength = 350
-    [fixed]
-    young_modulus = 73.1e3
-    poisson_ratio = 0.33
-    radius = 50
-    friction = 0.5
-    normal_force = 200
-    tangential_force_amplitude = 60
-    normal_sensitivity = 0.3
-    [axes]
-    criterion = ["swt", "findley", "fatemi_socie"]
-    """
-    still = swtstudy.run(Study.from_text(f"{text}phase = [0, 1]\n"), tmp_path / "still.nc")
+    still = swtstudy.run(Study.from_text(f"{CRITERIA}phase = [0, 1]\n"), tmp_path / "still.nc")
     values = {"SWT": " MPa", "f": " MPa", "FS": ""}
     names = dict(zip(values, ("SWT", "findley_stress", "FS"), strict=True))
     said = [re.sub("<[^>]*>", "", each) for each in sentences(still)]

@@ -280,7 +280,7 @@ class Climb(Rows):
     def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
         """Without those that have just moved to a position around which another one searches no lower.
 
-        On another plane the position itself may be higher than the other one has seen, or what is beyond it.
+        On another plane the position itself may be higher than the other one has seen.
         """
         order = np.lexsort((moved, self.place, self.side, self.point))
         key = np.stack([self.point, self.side, self.place])[:, order]
@@ -289,7 +289,6 @@ class Climb(Rows):
         first = np.maximum.accumulate(np.where(same, 0, np.arange(len(order))))
         seen = self.seen[order]
         higher = seen > (1.0 + SAME) * seen[first]
-        higher |= apart(self.angle[order] - self.angle[order][first]) > SAME_PLANE
         return self.take(order[~(same & moved[order]) | higher])
 
     def twins(
