@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
@@ -21,9 +23,6 @@ from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 from swtstudy.vocabulary.parameters import AXES, PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def contact_of(dataset: xr.Dataset) -> PhysicalContact:

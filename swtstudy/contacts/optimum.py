@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 from swtstudy.results.objective import Box, read_ranges
 from swtstudy.results.optimise import mistakes_in, optimum_in
@@ -15,9 +17,6 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def optimum(

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.contour import ContourSet
 from matplotlib.path import Path
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.contour import ContourSet
-
-    from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray
 
 #: All in shares of the panel: steps along a contour; half of the stretch that a label covers.
 _STEP, _HALF = 0.01, 0.07

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
 
 from swtstudy.figures.legend import add_legend, loops_of
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.marks import mark_borders, mark_cells
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
+from swtstudy.figures.sheet import Figure, Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.points.grid import SAMPLE
@@ -22,12 +23,6 @@ from swtstudy.study.figure import LINE_KINDS, NO_AXIS, FigureLayout, wrong_axes,
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import axis_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-    from swtstudy.figures.sheet import Figure
 
 #: Width of a colour bar on a screen, inches.
 _SCALE_WIDTH = 1.5
@@ -172,8 +167,6 @@ def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
     """Collect what is drawn of a quantity: values, errors, and marks where known, with attributes."""
-    import xarray as xr
-
     # Of the whole results: a part may lack the place that normalises the quantity.
     shown = {"value": values, "error": quantity_error(dataset, y)}
     if "regime" in dataset:

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
 
 from swtstudy.figures.legend import add_legend
-from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
+from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_texts, wrap_title
 from swtstudy.figures.style import COLOURS, Style, styled
 from swtstudy.study.figure import wrong_formula
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, place_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-
-    from swtstudy.figures.sheet import Figure
 
 #: Size of a panel, inches: its width grows with the number of parameters.
 _BAR_WIDTH, _MARGIN, _PANEL_HEIGHT = 0.75, 1.0, 3.0

@@ -5,20 +5,19 @@ Guide lines, limits and instants are marked as in its other panels.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib import rcParams
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from numpy.typing import NDArray
 
 from swtstudy.figures.maps import STATE_COLOURS, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels
 from swtstudy.figures.style import DASHES
 from swtstudy.mechanics.points import FloatArray
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
 
 #: Grey of guide lines, and of the second of two curves. A colour is a state of the contact, or an instant.
 FAINT, SECOND = "0.55", "0.4"
@@ -53,8 +52,6 @@ def thin() -> float:
 
 def draw_edge_states(axes: Axes, x: FloatArray, y: FloatArray, state: NDArray[np.int8]) -> None:
     """A wide band under a loop: whether the contact sticks or slips, in the colours of the slip map."""
-    from matplotlib.collections import LineCollection
-
     path = np.stack([x, y], axis=1)
     steps = np.stack([path[:-1], path[1:]], axis=1)
     colours = [STATE_COLOURS[each] for each in state[:-1]]

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
 
 from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.force_panels import draw_force_loop, draw_forces, draw_load_plane
@@ -24,10 +27,6 @@ from swtstudy.points.validity import validity_lines
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.figure import Figure
 
 #: The panels, and those of a plane contact, whose displacements are not known.
 _OF_BOTH = (draw_slip, draw_springs, draw_tractions, draw_stress, draw_swt)

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from swtstudy.figures.force_panels import (
     DASHED,
@@ -26,12 +30,6 @@ from swtstudy.figures.style import DASHES
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.choices import SWT, SYMBOLS
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
 
 #: Heights of the labels of radii, over the largest swt.
 _LOWEST, _LOWER, _UPPER = 1.02, 1.24, 1.39

@@ -10,17 +10,16 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.legend import Legend
 from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load_path import LoadPath
 
 if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.artist import Artist
-    from matplotlib.legend import Legend
-    from numpy.typing import NDArray
-
     from swtstudy.figures.sheet import Figure
 
 #: Length and height of a handle with a loop, in em.

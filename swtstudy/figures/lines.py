@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from matplotlib import rcParams
+import xarray as xr
+from matplotlib import colormaps, rcParams
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from swtstudy.figures.marks import mark_along
@@ -16,12 +21,6 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 from swtstudy.vocabulary.wording import axis_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.figure import Figure
 
 #: Markers at the point where a regime begins; for those without s at the last point before.
 MARKS = {
@@ -111,10 +110,6 @@ _END = 0.9
 
 def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
     """Colours of many numerical values; None for few values, or for names."""
-    from matplotlib import colormaps, rcParams
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import ListedColormap, LogNorm, Normalize
-
     if values.size < _MANY or values.dtype.kind not in "fi":
         return None
     known = np.sort(values.values)

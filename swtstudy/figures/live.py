@@ -12,9 +12,11 @@ from io import BytesIO
 from math import pi
 from os import PathLike
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import load_and_springs
@@ -28,10 +30,6 @@ from swtstudy.solving import solve
 from swtstudy.vocabulary.choices import FAMILIES
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
 from swtstudy.vocabulary.wording import axis_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
 
 #: Phases from 0 to 2π, no fewer in a period of s(ψ), and the accuracy asked of s: what a picture shows.
 _PHASES, _LEAST, _RTOL = 24, 12, 1e-3

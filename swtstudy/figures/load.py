@@ -6,20 +6,19 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, styled
 from swtstudy.mechanics.load.load import PERIOD, Loop
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.values import as_number
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.wording import as_text
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from swtstudy.mechanics.points import FloatArray
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import Signal
 

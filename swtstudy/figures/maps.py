@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patches import Patch
 
 from swtstudy.figures.style import COLOURS, DASHES
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import FloatArray
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.collections import QuadMesh
-    from matplotlib.patches import Patch
 
 #: A component below this fraction of the largest one is 0 but for rounding.
 _ROUNDING = 1e-9
@@ -100,9 +99,6 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     handles
         For a legend of the states.
     """
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-    from matplotlib.patches import Patch
-
     colours = ListedColormap(STATE_COLOURS)
     norm = BoundaryNorm(np.arange(len(STATE_COLOURS) + 1) - 0.5, colours.N)
     state = dataset.state.transpose("r", "time")

@@ -5,19 +5,16 @@ Along lines the former are a grey band, elsewhere dots.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib import rcParams
+from matplotlib.axes import Axes
 from matplotlib.patheffects import Normal, Stroke
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.figures.quantity_words import flag_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike
 
 #: Colours of the band and of its rim, which is seen beside the lightest line; width over that of a line.
 _BAND, _RIM, _WIDE = "0.9", "0.45", 4.5

@@ -4,27 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
-from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
+from swtstudy.mechanics.indenter import Profile, TabulatedProfile, make_profile
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from swtstudy.mechanics.indenter import Profile
-    from swtstudy.mechanics.points import FloatArray
 
 #: Size of a panel on a screen, inches.
 _PANEL = (4.8, 4.0)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from matplotlib import rcParams
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.marks import mark_points
 from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
-from swtstudy.figures.sheet import Sheet, Width
+from swtstudy.figures.sheet import Figure, Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.points.grid import SAMPLE
@@ -20,13 +23,6 @@ from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import axis_words, place_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from numpy.typing import NDArray
-
-    from swtstudy.figures.sheet import Figure
 
 #: The most panels of a scatter plot side by side.
 _ACROSS = 3

@@ -9,17 +9,16 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import matplotlib.figure
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.text import Text
+from numpy.typing import NDArray
 
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.text import Text
-    from numpy.typing import NDArray
 
 
 class Figure(matplotlib.figure.Figure):
@@ -171,8 +170,6 @@ def check_width(width: object) -> None:
 
 def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
     """An empty figure whose panels leave room for all that is written around them."""
-    from matplotlib.layout_engine import ConstrainedLayoutEngine
-
     pad = 0.06 if width is None else 0.03
     layout = ConstrainedLayoutEngine(w_pad=pad, h_pad=pad, wspace=0.05 if width is None else 0.03)
     figure = Figure(size, layout=layout)

@@ -12,17 +12,16 @@ from contextlib import ExitStack, contextmanager
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib
+import matplotlib.style
 from cycler import cycler
 from matplotlib import rcParamsDefault
+from matplotlib.figure import Figure
 
 from swtstudy.vocabulary.files import read_text, replacing
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 #: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
@@ -110,8 +109,6 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
     ValueError
         If a file is none.
     """
-    import matplotlib.style
-
     for each in style if isinstance(style, list) else [style]:
         if isinstance(each, str | Path) and each not in matplotlib.style.library and Path(each).exists():
             _check_file(each)

@@ -7,11 +7,19 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from matplotlib import rcParams
+import xarray as xr
+from matplotlib import colormaps, rcParams
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
+from matplotlib.contour import ContourSet
+from matplotlib.figure import Figure
 from matplotlib.path import Path
+from matplotlib.ticker import MaxNLocator
+from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
 
 from swtstudy.figures.contour_labels import parts_of, places_of_labels
@@ -20,15 +28,6 @@ from swtstudy.figures.ticks import tick_cells, tick_in_pi
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
-    from matplotlib.contour import ContourSet
-    from matplotlib.figure import Figure
-    from matplotlib.transforms import BboxBase
 
 #: A row whose range is a smaller share of the whole surface's is flat: it has no place of an extremum.
 _FLAT = 0.02
@@ -184,9 +183,6 @@ def _in_common(surfaces: list[xr.DataArray]) -> bool:
 
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     """One colour scale for all panels of a row, in steps for contours."""
-    from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
-    from matplotlib.ticker import MaxNLocator
-
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
@@ -202,8 +198,6 @@ def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
 
 def _decades(low: float, high: float) -> Normalize:
     """Levels in equal ratios, whole or broken parts of decades."""
-    from matplotlib.colors import BoundaryNorm
-
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
     levels = [digit * 10.0**power for power in range(first, last + 1) for digit in digits]
@@ -215,9 +209,6 @@ def _decades(low: float, high: float) -> Normalize:
 
 def _flag_colours(names: list[str]) -> dict[str, Any]:
     """A colour for each flag, in order from dark to light."""
-    from matplotlib import colormaps
-    from matplotlib.colors import BoundaryNorm
-
     colours = colormaps[rcParams["image.cmap"]].resampled(len(names))
     return {"cmap": colours, "norm": BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))}
 

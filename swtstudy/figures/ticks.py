@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.ticker import (
     FuncFormatter,
     Locator,
@@ -17,10 +19,6 @@ from matplotlib.ticker import (
 )
 
 from swtstudy.vocabulary.wording import pi_words
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
 
 #: An end of an axis is a multiple of π if it is relatively this close to it.
 _TOLERANCE = 1e-9

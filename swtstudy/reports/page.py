@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import xarray as xr
 
 from swtstudy.archive.describe import facts
 from swtstudy.paper.statements.check import about_archive
@@ -22,9 +24,6 @@ from swtstudy.reports.sections import (
 from swtstudy.reports.values import about, packed, rows_of, symbol_of, table_of
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.shipped import shipped_studies
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: What the model is, for whoever is sent a page.
 _MEANING = (

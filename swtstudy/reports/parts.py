@@ -13,10 +13,12 @@ from dataclasses import dataclass, replace
 from html import escape
 from importlib.resources import files
 from io import BytesIO
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
+import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from PIL import Image
 
 from swtstudy.figures.draw import draw, layout_of
@@ -26,10 +28,6 @@ from swtstudy.figures.style import picture, styled
 from swtstudy.reports.findings import worst_place
 from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.figure import Figure
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.
 _LARGEST_DRAWING = 400_000

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 from urllib.parse import quote
+
+import xarray as xr
 
 from swtstudy.archive.archive import open_results
 from swtstudy.archive.paths import ArchiveError
@@ -21,9 +22,6 @@ from swtstudy.study.shipped import in_groups
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: The page that lists the others.
 INDEX = "index.html"

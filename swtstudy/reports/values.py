@@ -12,9 +12,11 @@ import re
 import unicodedata
 from collections.abc import Iterator, Mapping
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
+import xarray as xr
 
 from swtstudy.figures.lines import in_equal_ratios
 from swtstudy.figures.quantity_words import flag_words
@@ -22,10 +24,6 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import dims_beside, to_table
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import coordinate_words, number_words
-
-if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
 
 _TOKENS = re.compile(r"\\([a-zA-Z]+|.)|([{}_^])|(\s+)|([A-Za-z])|(.)", re.DOTALL)
 _SIGNS = {"ell": "<i>ℓ</i>", "cdot": "·", "infty": "∞", "approx": "≈", ",": " ", ";": " ", " ": " "}

@@ -7,10 +7,12 @@ place.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
@@ -20,10 +22,6 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, n
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
 from swtstudy.vocabulary.wording import coordinate_words
-
-if TYPE_CHECKING:
-    import pandas as pd
-    from numpy.typing import NDArray
 
 #: Values of an axis that a message lists one by one; of longer axes the first and the last.
 _LISTED = 12
@@ -191,8 +189,6 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
 
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     """Results as a table, one row per point: see ``to_table`` of the accessor."""
-    import pandas as pd
-
     # A point has several cycles, which are no column.
     dataset = dataset.drop_vars([*COUNTED], errors="ignore")
     beside = dims_beside(dataset)
@@ -243,8 +239,6 @@ def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
 
 def _as_words(flat: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
     """Flags by their meanings."""
-    import pandas as pd
-
     if "flag_meanings" not in attributes:
         return flat
     # xarray's operations leave NaN where a flag is missing.

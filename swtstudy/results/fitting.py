@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
@@ -32,7 +33,6 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
-    import xarray as xr
     from scipy.interpolate import CubicSpline
 
 #: The column of a table of tests with the lives that were observed, in rounds of the load.
@@ -219,8 +219,6 @@ def _labelled(
     confidence: float,
 ) -> xr.Dataset:
     """The fit as a Dataset."""
-    import xarray as xr
-
     found: dict[str, Any] = {}
     for name, value, half in zip(names, logarithms, spread, strict=True):
         row = model.grid.row(name)

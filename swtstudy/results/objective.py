@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE, Grid
@@ -14,9 +14,6 @@ from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
 from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.points.grid import SAMPLE
+from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
@@ -28,11 +29,6 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
 )
 from swtstudy.vocabulary.quantities import NAMED, Request
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from swtstudy.points.grid import Grid
 
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.
 MINIMISED = (
@@ -72,8 +68,6 @@ def _neighbourhood(
     box: Box, units: FloatArray, quantity: str, own: dict[str, str], solve: Callable[[Grid], xr.Dataset]
 ) -> xr.Dataset:
     """The quantity along each parameter through each of n points of the unit cube, shape (n, d)."""
-    import xarray as xr
-
     d = units.shape[1]
     # Shape (cases, d, steps, d): every parameter is stepped by itself.
     places = units[:, None, None, :] + np.eye(d)[:, None, :] * _STEPS[:, None]

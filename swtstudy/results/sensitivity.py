@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.points.grid import SAMPLE
@@ -14,9 +15,6 @@ from swtstudy.study.design import saltelli
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Bootstrap samples: the ends of a confidence interval of 95 % are then known to a tenth of its width.
 _RESAMPLES = 999
@@ -62,8 +60,6 @@ def sensitivity(
     -----
     Computed by `scipy.stats.sobol_indices`, the confidence intervals by `scipy.stats.bootstrap`.
     """
-    import xarray as xr
-
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
     names, size = _design(dataset)

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from swtstudy.paper.audit.point import AuditedPoint
 
 #: Seconds between two saves of what is audited so far: short enough to lose, long against a save.

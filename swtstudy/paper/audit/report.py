@@ -6,9 +6,10 @@ import itertools
 from collections.abc import Iterator, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
@@ -26,9 +27,6 @@ from swtstudy.points.canonical import (
     value_of,
 )
 from swtstudy.vocabulary.parameters import PARAMETERS
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _LENGTH = "in units of a_H = sqrt(R delta0)"
 _MEANINGS = {
@@ -70,8 +68,6 @@ def audit_dataset(rows: Table, points: Sequence[AuditedPoint], definitions: Defi
     xarray.Dataset
         One dimension, ``sample``; the parameters are coordinates along it.
     """
-    import xarray as xr
-
     # What loops cost is known with them.
     coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS if name != COST}
     for name in _WITH_NAMES & {*COLUMNS}:

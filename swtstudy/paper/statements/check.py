@@ -10,14 +10,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+
+import xarray as xr
 
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.statements import critical_point, face, parameters, phase, waviness
 from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Statement
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: All statements, in the order of the figures.
 STATEMENTS: tuple[Statement, ...] = (

@@ -6,9 +6,8 @@ that line only.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from swtstudy.archive.recall import grid_of
 from swtstudy.mechanics.contact.slip_front import stick_coordinate
@@ -19,9 +18,6 @@ from swtstudy.mechanics.points import REGIMES, FloatArray, Points
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.statements.statement import Finding, Statement
 from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, points_from
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 def stick_radius(dataset: xr.Dataset) -> xr.DataArray:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+import xarray as xr
 
 from swtstudy.paper.statements.statement import (
     Finding,
@@ -17,9 +16,6 @@ from swtstudy.paper.statements.statement import (
     with_dims,
 )
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Largest share of the variance of ln s for a coupling that is called weak, or negligible.
 WEAK, NEGLIGIBLE = 0.1, 0.01

@@ -6,16 +6,13 @@ The paper's words on the latter stand beside the measured share of the variance.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.paper.statements.statement import Finding, Statement, largest_fall, listed, with_dims
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Poisson ratios of most metals.
 _METALS = slice(0.25, 0.35)

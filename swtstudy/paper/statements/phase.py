@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.paper.statements.statement import (
     Finding,
@@ -19,9 +19,6 @@ from swtstudy.paper.statements.statement import (
     with_dims,
 )
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Table 1's amplitude of the tangential oscillation.
 _TANGENTIAL = 5 / 6

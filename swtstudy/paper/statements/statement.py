@@ -8,17 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.results.evaluate import slice_at
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @dataclass(frozen=True)

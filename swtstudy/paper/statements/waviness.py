@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.paper.statements.face import WEAK, coupling_with
@@ -22,9 +22,6 @@ from swtstudy.paper.statements.statement import (
     with_dims,
 )
 from swtstudy.vocabulary.wording import value_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 #: Ripples below this fraction of a curve's range do not count as oscillations.
 _RIPPLE = 0.1
