@@ -6,61 +6,35 @@ import importlib
 from typing import TYPE_CHECKING
 
 from swtstudy.results.registration import register_with_xarray
-from swtstudy.vocabulary.version import __version__
+from swtstudy.vocabulary.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from swtstudy.archive.archive import open_results
-    from swtstudy.contacts.physical import physical
-    from swtstudy.fields.history import criterion_of_history, swt_of_history
-    from swtstudy.fields.inspection import inspect_point
-    from swtstudy.fields.stress import slip_map, stress_field, swt_field
-    from swtstudy.figures.inspection import inspect
-    from swtstudy.figures.load import draw_load
-    from swtstudy.figures.profile import draw_profile
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-    from swtstudy.mechanics.load.load_path import LoadPath
-    from swtstudy.paper.audit.audit import audit_study
-    from swtstudy.results.fitting import fit
-    from swtstudy.results.optimise import optimise
-    from swtstudy.results.sensitivity import sensitivity
-    from swtstudy.runner.run import run
-    from swtstudy.runner.suite import run_suite
-    from swtstudy.solving import solve
-    from swtstudy.study.definition import Study
-    from swtstudy.study.signal import read_signal
-    from swtstudy.study.trace import read_trace
-    from swtstudy.units.life import FatigueConstants, ShearConstants
-    from swtstudy.vocabulary.mistakes import StudyError
-
-__all__ = [
-    "FatigueConstants",
-    "LoadPath",
-    "ShearConstants",
-    "Study",
-    "StudyError",
-    "TabulatedProfile",
-    "__version__",
-    "audit_study",
-    "criterion_of_history",
-    "draw_load",
-    "draw_profile",
-    "fit",
-    "inspect",
-    "inspect_point",
-    "open_results",
-    "optimise",
-    "physical",
-    "read_signal",
-    "read_trace",
-    "run",
-    "run_suite",
-    "sensitivity",
-    "slip_map",
-    "solve",
-    "stress_field",
-    "swt_field",
-    "swt_of_history",
-]
+    from swtstudy.archive.archive import open_results as open_results
+    from swtstudy.contacts.physical import physical as physical
+    from swtstudy.fields.history import criterion_of_history as criterion_of_history
+    from swtstudy.fields.history import swt_of_history as swt_of_history
+    from swtstudy.fields.inspection import inspect_point as inspect_point
+    from swtstudy.fields.stress import slip_map as slip_map
+    from swtstudy.fields.stress import stress_field as stress_field
+    from swtstudy.fields.stress import swt_field as swt_field
+    from swtstudy.figures.inspection import inspect as inspect
+    from swtstudy.figures.load import draw_load as draw_load
+    from swtstudy.figures.profile import draw_profile as draw_profile
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile as TabulatedProfile
+    from swtstudy.mechanics.load.load_path import LoadPath as LoadPath
+    from swtstudy.paper.audit.audit import audit_study as audit_study
+    from swtstudy.results.fitting import fit as fit
+    from swtstudy.results.optimise import optimise as optimise
+    from swtstudy.results.sensitivity import sensitivity as sensitivity
+    from swtstudy.runner.run import run as run
+    from swtstudy.runner.suite import run_suite as run_suite
+    from swtstudy.solving import solve as solve
+    from swtstudy.study.definition import Study as Study
+    from swtstudy.study.signal import read_signal as read_signal
+    from swtstudy.study.trace import read_trace as read_trace
+    from swtstudy.units.life import FatigueConstants as FatigueConstants
+    from swtstudy.units.life import ShearConstants as ShearConstants
+    from swtstudy.vocabulary.mistakes import StudyError as StudyError
 
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
@@ -91,6 +65,8 @@ _HOMES = {
     "swt_field": "swtstudy.fields.stress",
     "swt_of_history": "swtstudy.fields.history",
 }
+
+__all__ = ["__version__", *_HOMES]
 
 
 def __getattr__(name: str) -> object:
