@@ -11,6 +11,7 @@ from memory import slopes
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.force_march import ForceMarch, second_round
+from scenes import prescribed_scene
 from scipy.special import struve
 
 from swtstudy.mechanics.contact.cycle import out_of_equilibrium
@@ -21,7 +22,7 @@ from swtstudy.mechanics.line.singular_edge import _seen_from_edge, at_edge, may_
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
-from swtstudy.mechanics.stress.scene import Scene, prescribed_scene
+from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.work import (
     dissipated_work,
     largest_contact_radius,

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
-from scenes import PLANE_NAMES, plane_points, random_plane_points, take
+from scenes import PLANE_NAMES, plane_points, prescribed_scene, random_plane_points, take
 from scipy.interpolate import PPoly
 
 import swtstudy
@@ -22,7 +22,7 @@ from swtstudy.mechanics.margins import Margins, bulk_shift
 from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
-from swtstudy.mechanics.stress.scene import Scene, prescribed_scene, scene_of
+from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.parameters import Control
 

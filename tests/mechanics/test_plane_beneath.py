@@ -16,7 +16,7 @@ from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.mechanics.stress.strip import normal_components, strip_functions, tangential_components
+from swtstudy.mechanics.stress.strip import StripFunctions, normal_components, tangential_components
 from swtstudy.mechanics.stress.superposition import STRIP, slope_cells, stress_history
 
 Array = NDArray[np.float64]
@@ -64,7 +64,10 @@ def test_one_strip_is_its_line_loads() -> None:
     x, z, xi = rng.uniform(-2.0, 2.0, 50), rng.uniform(0.2, 2.0, 50), 0.8
     s = xi * np.sin(np.pi * (np.arange(400) + 0.5) / 400 - 0.5 * np.pi)
     off, square = x[:, None] - s, (x[:, None] - s) ** 2 + z[:, None] ** 2
-    f = strip_functions(x, z, np.array(xi))
+    w = np.abs(x) + 1j * z
+    inverse = 1.0 / (np.sqrt(w - xi) * np.sqrt(w + xi))
+    bend = -z * w * inverse**3
+    f = StripFunctions(inverse.real, inverse.imag, bend.real, bend.imag)
     weight = -2.0 / np.pi / square**2 * np.pi / 400
     depth = z[:, None]
     pressed = ((weight * part).sum(axis=1) for part in (off**2 * depth, depth**3, off * depth**2))

@@ -7,6 +7,7 @@ import pytest
 from memory import tangential_force
 from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
+from scenes import prescribed_scene
 
 from swtstudy.mechanics.contact.cycle import solve_cycle
 from swtstudy.mechanics.contact.memory import GrowthTimes, Memory
@@ -16,7 +17,6 @@ from swtstudy.mechanics.line.maximum import Maximum, maximum
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad, without_collinear
-from swtstudy.mechanics.stress.scene import prescribed_scene
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
@@ -160,13 +160,6 @@ def test_only_vertices_on_a_straight_line_are_left_out() -> None:
 
 def test_a_load_at_rest_makes_no_damage() -> None:
     assert s_of(PolygonLoad.of([np.array([[1.0, 0.2]])])).swt[0] == pytest.approx(0.0, abs=1e-9)
-
-
-def test_bad_vertices_are_refused() -> None:
-    with pytest.raises(ValueError, match="finite"):
-        PolygonLoad.of([np.array([[1.0, np.nan]])])
-    with pytest.raises(ValueError, match="shape"):
-        PolygonLoad.of([np.zeros((3, 3))])
 
 
 def test_passages_are_where_the_loads_have_the_values() -> None:

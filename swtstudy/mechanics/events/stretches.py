@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import (
     ROUNDING,
     SAME,
+    T,
     between,
     count_below,
     filled_rows,
@@ -153,9 +153,6 @@ def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
     """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)
     return np.asarray((gap <= SAME) | (PERIOD - gap <= SAME))
-
-
-T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)

@@ -10,17 +10,14 @@ are graded from its thickness on.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.stretches import PER_INTERVAL, Nodes, Stretches, meet
-from swtstudy.mechanics.numerics.arrays import between, gather, pick
+from swtstudy.mechanics.numerics.arrays import T, between, gather, pick
 from swtstudy.mechanics.numerics.roots import parabola, polynomial_maximum, powers_from_values
 from swtstudy.mechanics.points import FloatArray, Rows
-
-T = TypeVar("T", bound=np.generic)
 
 #: Steps into which each side of a bracket is divided. One: 2e-3 at 18 of 128 points at rtol 1e-5; six: 2e-6,
 #: no faster.

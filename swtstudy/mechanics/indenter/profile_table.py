@@ -73,48 +73,27 @@ class TabulatedProfile(Definition):
         smoothing: float = 0.0,
         geometry: str = AXISYMMETRIC,
     ) -> None:
-        self.name, self._geometry = name, geometry
-        self._radius, self._height = (_frozen(values) for values in (radius, height))
-        self._smoothing = smoothing
-        mistakes = list(_mistakes(name, self._radius, self._height, smoothing))
+        self.name, self.geometry = name, geometry
+        self.radius, self.height = (_frozen(values) for values in (radius, height))
+        mistakes = list(_mistakes(name, self.radius, self.height, smoothing))
         mistakes += _wrong_geometry(name, geometry)
         if mistakes:
             raise StudyError(mistakes)
-        self._smoothing = float(smoothing)
-
-    @property
-    def radius(self) -> FloatArray:
-        """Shape (k,)."""
-        return self._radius
-
-    @property
-    def height(self) -> FloatArray:
-        """Shape (k,)."""
-        return self._height
-
-    @property
-    def smoothing(self) -> float:
-        """Root mean square of what the fit may miss."""
-        return self._smoothing
-
-    @property
-    def geometry(self) -> str:
-        """The noun for its contact, as of a ``Family``."""
-        return self._geometry
+        self.smoothing = float(smoothing)
 
     @property
     def plane(self) -> bool:
         """True if it is a profile of a plane contact."""
-        return self._geometry == PLANE
+        return self.geometry == PLANE
 
     def __repr__(self) -> str:
-        return f"TabulatedProfile({self.name!r}, {self._radius.size} points up to {self._radius[-1]:g})"
+        return f"TabulatedProfile({self.name!r}, {self.radius.size} points up to {self.radius[-1]:g})"
 
     def content(self) -> dict[str, Any]:
         content = {
-            "radius": self._radius.tolist(),
-            "height": self._height.tolist(),
-            "smoothing": self._smoothing,
+            "radius": self.radius.tolist(),
+            "height": self.height.tolist(),
+            "smoothing": self.smoothing,
         }
         return content | {"geometry": PLANE} if self.plane else content
 
@@ -128,26 +107,26 @@ class TabulatedProfile(Definition):
 
     def scaled(self, length: float, depth: float) -> TabulatedProfile:
         """The same profile in other units: radii in ``length``, heights in ``depth``."""
-        scaled = self._radius / length, self._height / depth, self._smoothing / depth
-        return TabulatedProfile(self.name, *scaled, self._geometry)
+        scaled = self.radius / length, self.height / depth, self.smoothing / depth
+        return TabulatedProfile(self.name, *scaled, self.geometry)
 
     @cached_property
     def fit(self) -> PPoly:
         """The spline f, from the edge of the face."""
-        return spline(self._radius, self._height, self._smoothing)
+        return spline(self.radius, self.height, self.smoothing)
 
     @cached_property
     def pieces(self) -> SlopePieces:
         """g′ by pieces, or N′ in the plane."""
-        coarse = spline(_every_other(self._radius), _every_other(self._height), self._smoothing)
+        coarse = spline(_every_other(self.radius), _every_other(self.height), self.smoothing)
         slope_of = exact_load_slope if self.plane else exact_slope
         return SlopePieces.of(self.fit, resolved(self.fit, coarse, slope_of), slope_of)
 
     @property
     def deviation(self) -> float:
         """The largest distance of the fit from the heights."""
-        on_curve = self._radius >= self.fit.x[0]
-        missed = np.where(on_curve, self.fit(self._radius), 0.0) - self._height
+        on_curve = self.radius >= self.fit.x[0]
+        missed = np.where(on_curve, self.fit(self.radius), 0.0) - self.height
         return float(np.abs(missed).max())
 
     @cached_property

@@ -47,16 +47,7 @@ class PolygonLoad(Load):
         """The polygons through vertices of shape (k, 2), one each: the normal and the tangential load.
 
         Vertices on the straight line between their neighbours are left out.
-
-        Raises
-        ------
-        ValueError
-            If a loop has no vertices, or one that is no finite number.
         """
-        if any(loop.ndim != 2 or loop.shape[1:] != (2,) or not len(loop) for loop in loops):
-            raise ValueError("a loop must have vertices of shape (k, 2), k ≥ 1")
-        if not all(np.isfinite(loop).all() for loop in loops):
-            raise ValueError("the vertices of a loop must be finite numbers")
         return cls.through([without_collinear(np.asarray(loop, dtype=float)) for loop in loops])
 
     @classmethod

@@ -295,13 +295,9 @@ class Findley(ShearCriterion):
         return 0.5 * (pull + np.hypot(amplitude, pull)), np.arctan2(amplitude, pull)
 
 
-def _swt(points: Points) -> Criterion:
-    return Swt.of(points.walker_exponent, 1.0 - points.poisson_ratio**2)
-
-
 #: What makes the criterion of points, by its name.
 CRITERIA: dict[str, Callable[[Points], Criterion]] = {
-    Swt.name: _swt,
+    Swt.name: lambda points: Swt.of(points.walker_exponent, 1.0 - points.poisson_ratio**2),
     FatemiSocie.name: lambda points: FatemiSocie(points.normal_sensitivity),
     Findley.name: lambda points: Findley(points.normal_sensitivity),
 }

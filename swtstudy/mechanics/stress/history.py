@@ -11,9 +11,7 @@ L³/R = 2 L² − L/R.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -61,7 +59,7 @@ class History(Rows):
     def followed_by(self, other: History) -> History:
         """These instants, then the other ones."""
         both = zip(vars(self).values(), vars(other).values(), strict=True)
-        return self._of(None if one is None else np.concatenate((one, more), axis=-1) for one, more in both)
+        return self._made(None if one is None else np.concatenate((one, more), axis=-1) for one, more in both)
 
     def weighted(self, weights: FloatArray) -> History:
         """Weighted means over samples, of e · k instants and weights (n, X, e, k), at e instants."""
@@ -70,16 +68,11 @@ class History(Rows):
         def mean(values: FloatArray | None) -> FloatArray | None:
             return None if values is None else (values.reshape(shape) * weights).sum(axis=-1)
 
-        return self._of(map(mean, vars(self).values()))
+        return self._made(map(mean, vars(self).values()))
 
     def carrying(self, bulk: FloatArray | None) -> History:
         """The same with a bulk stress, shape (n, X, T)."""
         return replace(self, bulk=bulk)
-
-    @classmethod
-    def _of(cls, blocks: Iterable[Any]) -> History:
-        """From all blocks in order."""
-        return cls(*blocks)
 
 
 def stresses(

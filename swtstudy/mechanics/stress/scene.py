@@ -9,15 +9,12 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.events.stretches import split_at, split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Profile
-from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.bimodal import load_of
-from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.planes.criterion import SWT, Criterion, criterion_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
 from swtstudy.mechanics.points import FloatArray, Points, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
-from swtstudy.vocabulary.parameters import Control
 
 
 @dataclass(frozen=True)
@@ -109,35 +106,6 @@ class Scene(Rows):
 
 def scene_of(points: Points) -> Scene:
     """The scenes of points whose loads are alike, each with a contact solution of its own."""
-    own = points.poisson_ratio, points.friction, points.profile, points.shape
-    return prescribed_scene(load_of(points), points.control, *own).with_own(points)
-
-
-def prescribed_scene(
-    load: Load,
-    control: Control,
-    poisson_ratio: FloatArray,
-    friction: FloatArray,
-    profile: str | TabulatedProfile = "paraboloid",
-    shape: dict[str, FloatArray] | None = None,
-) -> Scene:
-    """The scenes of n loads of one kind, prescribed as displacements or forces.
-
-    Parameters
-    ----------
-    load
-        n loads as they are prescribed.
-    control
-        What of them is a force.
-    poisson_ratio, friction
-        Shape (n,).
-    profile, shape
-        Family and shape parameters, each of shape (n,), of n profiles of one roughness.
-
-    Raises
-    ------
-    ValueError
-        See `swtstudy.mechanics.control.diagram.diagram`.
-    """
-    in_diagram, coordinate = diagram(control, profile, shape or {}, load)
-    return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)
+    in_diagram, coordinate = diagram(points.control, points.profile, points.shape, load_of(points))
+    own = points.poisson_ratio, points.friction
+    return Scene(solve_cycle(in_diagram), coordinate, *own).with_own(points)

@@ -28,14 +28,6 @@ class StripFunctions(NamedTuple):
     z_imaginary: NDArray  # z Im I′
 
 
-def strip_functions(x: FloatArray, z: FloatArray, radius: FloatArray) -> StripFunctions:
-    """The functions of one strip at |x|, z ≥ 0 and half-width ξ, broadcastable."""
-    w = _place(x, z)
-    inverse = 1.0 / _root(w, radius)
-    bend = -z * w * inverse**3
-    return StripFunctions(inverse.real, inverse.imag, bend.real, bend.imag)
-
-
 def strip_primitives(
     x: FloatArray, z: FloatArray, radius: FloatArray
 ) -> tuple[StripFunctions, StripFunctions]:
