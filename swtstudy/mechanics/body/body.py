@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from swtstudy.mechanics.events.stretches import cosine_nodes, stretches
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, swt_of_history
 from swtstudy.mechanics.planes.weights import normal_weights
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -26,7 +26,7 @@ VALUES = 65536
 
 
 @dataclass(frozen=True)
-class TimeNodes:
+class TimeNodes(Rows):
     """Instants of a cycle, each with its interval, shape (T,)."""
 
     interval: NDArray[np.intp]

@@ -68,7 +68,7 @@ def _instants(scene: Scene) -> tuple[TimeNodes, TimeNodes]:
     """All instants, and those looked at first: of a long cycle some, the load's extremes among them."""
     nodes = time_nodes(scene, STEPS if scene.cycle.end.shape[1] <= MOST_INSTANTS else 1)
     if scene.mirrored_half:  # the other half of the cycle is that of the other side
-        nodes = _at(nodes, np.flatnonzero(nodes.instant <= np.pi))
+        nodes = nodes.take(nodes.instant <= np.pi)
     every = np.arange(nodes.instant.size)
     if every.size <= MOST_INSTANTS:
         return nodes, nodes
@@ -79,11 +79,7 @@ def _instants(scene: Scene) -> tuple[TimeNodes, TimeNodes]:
     if scene.bulk is not None:
         courses.append(scene.bulk.at(nodes.instant[None])[0])
     ends = [find(course) for course in courses for find in (np.argmin, np.argmax)]
-    return nodes, _at(nodes, np.union1d(every[:: -(-every.size // MOST_INSTANTS)], ends))
-
-
-def _at(nodes: TimeNodes, index: NDArray[np.intp]) -> TimeNodes:
-    return TimeNodes(nodes.interval[index], nodes.instant[index])
+    return nodes, nodes.take(np.union1d(every[:: -(-every.size // MOST_INSTANTS)], ends))
 
 
 def _mesh(scene: Scene, reach: float) -> FloatArray:

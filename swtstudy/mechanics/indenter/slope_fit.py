@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.numerics.arrays import TINY
+from swtstudy.mechanics.numerics.arrays import TINY, polynomial_in
 from swtstudy.mechanics.points import FloatArray
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ class SlopePieces:
 
     def value(self, coefficients: FloatArray, w: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
         """One of the functions at w in its pieces."""
-        return _horner_of(coefficients, piece, w - self.start.take(piece))
+        return polynomial_in(coefficients, piece, w - self.start.take(piece))
 
 
 def resolved(f: PPoly, coarse: PPoly, slope_of: SlopeOf = exact_slope) -> float:
@@ -271,11 +271,3 @@ def _horner(coefficients: FloatArray, t: FloatArray) -> FloatArray:
     for c in coefficients[-2::-1]:
         value = value * t + c
     return np.asarray(value)
-
-
-def _horner_of(coefficients: FloatArray, piece: NDArray[np.intp], t: FloatArray) -> FloatArray:
-    value = coefficients[-1].take(piece)
-    for c in coefficients[-2::-1]:
-        value *= t
-        value += c.take(piece)
-    return value

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from swtstudy.mechanics.numerics.arrays import polynomial_in
 from swtstudy.mechanics.points import FloatArray
 
 #: Spacing of the table; the error between is h⁴/384 times the fourth derivative, about 3e-11.
@@ -28,20 +28,11 @@ def struve_functions(z: FloatArray) -> tuple[FloatArray, FloatArray]:
     near = np.minimum(z, LARGEST_RANGE)
     cell = (near * (1.0 / STEP)).astype(np.intp)
     rest = near - cell * STEP
-    zeroth, first = (_cubic(c, cell, rest) for c in _table(min(reach, LARGEST_RANGE)))
+    zeroth, first = (polynomial_in(c, cell, rest) for c in _table(min(reach, LARGEST_RANGE)))
     if reach > LARGEST_RANGE:
         far = z > LARGEST_RANGE
         zeroth[far], first[far] = struve_expansions(z[far])
     return zeroth, first
-
-
-def _cubic(coefficients: FloatArray, cell: NDArray[np.intp], rest: FloatArray) -> FloatArray:
-    """Value of a piecewise cubic polynomial; its evenly spaced cells need no search."""
-    value = coefficients[0].take(cell)
-    for c in coefficients[1:]:
-        value *= rest
-        value += c.take(cell)
-    return value
 
 
 @lru_cache(maxsize=8)
@@ -56,11 +47,11 @@ def _table(reach: float) -> FloatArray:
 
 
 def _hermite(value: FloatArray, slope: FloatArray) -> FloatArray:
-    """Coefficients of the cubics with the values and slopes at both ends of each cell, shape (4, cells)."""
+    """Coefficients of t⁰ to t³ tith the values and slopes at both ends of each cell, shape (4, cells)."""
     chord = np.diff(value) / STEP
     left, right = slope[:-1], slope[1:]
     cubic, square = (left + right - 2.0 * chord) / STEP**2, (3.0 * chord - 2.0 * left - right) / STEP
-    return np.stack([cubic, square, left, value[:-1]])
+    return np.stack([value[:-1], left, square, cubic])
 
 
 def struve_integrals(z: FloatArray) -> FloatArray:

@@ -48,8 +48,7 @@ class WavyParaboloid(Profile):
     ) -> None:
         super().__init__(largest_depth)
         self.waviness_amplitude, self.wavelength = waviness_amplitude, wavelength
-        length = wavelength * np.sqrt(waviness_amplitude)
-        self.wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        self.wave_number = _wave_number(waviness_amplitude, wavelength)
         self.reach = _upper_radius(largest_depth, waviness_amplitude, self.wave_number)
         # Of the batch's roughness, not of its roughest point: a point's value must not depend on others.
         shape = {"waviness_amplitude": waviness_amplitude, "wavelength": wavelength}
@@ -62,8 +61,7 @@ class WavyParaboloid(Profile):
     @classmethod
     def roughness(cls, largest_depth: FloatArray, **shape: FloatArray) -> IntArray:
         amplitude, wavelength = shape["waviness_amplitude"], shape["wavelength"]
-        length = wavelength * np.sqrt(amplitude)
-        wave_number = np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
+        wave_number = _wave_number(amplitude, wavelength)
         reach = _upper_radius(largest_depth, amplitude, wave_number)
         level = np.minimum(wave_number * reach / ROUGHNESS_STEP, ROUGHEST + 1.0)
         return np.ceil(level).astype(np.int64)
@@ -216,6 +214,12 @@ def _steepest_falls() -> tuple[FloatArray, FloatArray]:
     z = np.linspace(1e-3, 8.0, 2001)
     zeroth, first = struve_functions(z)
     return z, np.maximum.accumulate(-(zeroth / z + 2.0 / np.pi - first))
+
+
+def _wave_number(amplitude: FloatArray, wavelength: FloatArray) -> FloatArray:
+    """k of h and λ/√(hR); 0 without waves."""
+    length = wavelength * np.sqrt(amplitude)
+    return np.divide(2.0 * np.pi, length, out=np.zeros_like(length), where=length > 0.0)
 
 
 def _upper_radius(depth: FloatArray, amplitude: FloatArray, wave_number: FloatArray) -> FloatArray:

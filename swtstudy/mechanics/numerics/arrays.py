@@ -206,6 +206,15 @@ def between(low: FloatArray, high: FloatArray, angle: FloatArray) -> FloatArray:
     return low + (high - low) * (0.5 - 0.5 * np.cos(angle))
 
 
+def polynomial_in(coefficients: FloatArray, piece: NDArray[np.intp], t: FloatArray) -> FloatArray:
+    """Values at t of the polynomials of its pieces, from coefficients of t⁰, t¹, …, shape (d, pieces)."""
+    value = coefficients[-1].take(piece)
+    for c in coefficients[-2::-1]:
+        value *= t
+        value += c.take(piece)
+    return value
+
+
 @lru_cache(maxsize=4)
 def hemisphere(planes: int) -> FloatArray:
     """Unit normals on a Fibonacci spiral over the half sphere z > 0.
