@@ -52,7 +52,7 @@ def of_rounding(
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= r[:, 0] - flat >= flat * reach_of_edge(scene.profile)
-    of_both = np.asarray(rounding * size if is_product else rounding)
+    of_both = np.asarray(2.0 * rounding * size if is_product else rounding)
     if scene.bulk is None:
         return of_both
     look = Look.at(scene, r, accuracy.search.nodes, accuracy.search.digits)
