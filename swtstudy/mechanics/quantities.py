@@ -16,6 +16,7 @@ from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal
 from swtstudy.mechanics.control.coordinate import unit_half_load
 from swtstudy.mechanics.line.counted import FewCycles
 from swtstudy.mechanics.line.maximum import SAME_MAXIMUM, candidates
+from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
 from swtstudy.mechanics.solver import scenes
 from swtstudy.mechanics.stress import work
@@ -103,18 +104,18 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     -------
     dict
         By `swtstudy.vocabulary.quantities.columns_of`, of shape (n,); NaN where there is no cycle, and the
-        nonlocal ones where there is no critical point.
+        nonlocal ones where s is not finite.
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
     for index, scene in scenes(points):
         some = points.take(index)
         parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
-        place = solution.critical_x[index], solution.critical_angle[index]
+        own = solution.take(index)
         if asked.distances:
-            parts |= _nonlocal(scene, *place, asked.distances)
+            parts |= _nonlocal(scene, own, asked.distances)
         if asked.counts:
-            parts |= _counted(scene, *place)
+            parts |= _counted(scene, own)
         for column, values in parts.items():
             found[column][index] = values
     return found
@@ -130,10 +131,14 @@ def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str
     return found
 
 
-def _nonlocal(
-    scene: Scene, position: FloatArray, angle: FloatArray, distances: Sequence[float]
-) -> dict[str, FloatArray]:
-    made = worst_means(scene, position, angle, np.array(distances))
+def _nonlocal(scene: Scene, solution: Solution, distances: Sequence[float]) -> dict[str, FloatArray]:
+    made = worst_means(scene, solution.critical_x, solution.critical_angle, np.array(distances))
+    # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
+    rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
+    for kind in KINDS:
+        for name, own in ((kind, solution.s), (f"{kind}_error", solution.s_error)):
+            means = getattr(made, name)
+            means[rows] = align(own[rows], means)
     found: dict[str, FloatArray] = {}
     for row in NONLOCAL.values():
         for variable, function in zip(row.variables, (row.function, error_of(row.function)), strict=False):
@@ -143,10 +148,10 @@ def _nonlocal(
     return found
 
 
-def _counted(scene: Scene, position: FloatArray, angle: FloatArray) -> dict[str, FloatArray]:
-    made = FewCycles.of(scene, position, np.radians(2.0 * angle))
+def _counted(scene: Scene, solution: Solution) -> dict[str, FloatArray]:
+    made = FewCycles.of(scene, solution.critical_x, np.radians(2.0 * solution.critical_angle))
     found: dict[str, FloatArray] = {}
     for row in COUNTED.values():
-        values = getattr(made, row.function).reshape(len(position), -1)
+        values = getattr(made, row.function).reshape(len(scene), -1)
         found |= zip(columns_in(row, row.name, COUNTS), values.T, strict=True)
     return found

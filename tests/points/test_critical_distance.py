@@ -260,3 +260,17 @@ critical_distance = [3, 30, 300]
     grid = study.grid
     (life,) = (each for each in variables(grid, study.asked) if each.name == "cycles_volume")
     assert life.values(found.assign(s_volume=stored), grid)[:2].values.tolist() == [np.inf, np.inf]
+
+
+def test_means_of_what_is_the_same_everywhere() -> None:
+    """Pressure alone swings no tension at ν = 1/2; where a bulk stress is the worst, s is that far away."""
+    nothing = swtstudy.solve(friction=0.0, poisson_ratio=0.5, critical_distance=0.05)
+    assert nothing.s == 0.0
+    far = swtstudy.solve(friction=0.0, poisson_ratio=0.5, bulk_stress_amplitude=0.5, critical_distance=0.05)
+    assert far.s > 0.0
+    for found in nothing, far:
+        assert np.isnan(found.critical_x)
+        for name in ("s_volume", "s_point", "s_line"):
+            np.testing.assert_array_equal(found[name], found.s)
+            np.testing.assert_array_equal(found[f"{name}_error"], found.s_error)
+        assert np.isnan(found.volume_x)
