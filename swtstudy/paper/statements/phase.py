@@ -103,20 +103,16 @@ PROMINENT = (0.25, 0.5, 1.5)
 
 def prominent_among_all(figure4: xr.Dataset) -> Finding:
     """Check whether every other ratio of the figure stays below the three prominent ones."""
-    return _prominent(figure4)
-
-
-def prominent_among_different(figure4: xr.Dataset) -> Finding:
-    """The same, without ω2 = ω1."""
-    return _prominent(figure4.sel(frequency_ratio=figure4.frequency_ratio != 1))
-
-
-def _prominent(figure4: xr.Dataset) -> Finding:
     ratios = _ratios_by_amplitude_and_frequency(figure4)
     chosen = ratios.frequency_ratio.isin(PROMINENT)
     others = ratios.sel(frequency_ratio=~chosen)
     holds = (others.max("frequency_ratio") < ratios.sel(frequency_ratio=chosen).min("frequency_ratio")).all()
     return Finding(_by_amplitude(ratios), bool(holds))
+
+
+def prominent_among_different(figure4: xr.Dataset) -> Finding:
+    """The same, without ω2 = ω1."""
+    return prominent_among_all(figure4.sel(frequency_ratio=figure4.frequency_ratio != 1))
 
 
 def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
@@ -129,17 +125,8 @@ def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
     )
 
 
-def period_shrinks(figure4: xr.Dataset) -> Finding:
-    """Periods of s(ψ) at the ratios of the figure."""
-    return _periods(figure4)
-
-
-def period_shrinks_everywhere(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
-    """Periods of s(ψ) at all ratios tested."""
-    return _periods(figure4, others)
-
-
-def _periods(*archives: xr.Dataset) -> Finding:
+def period_shrinks(*archives: xr.Dataset) -> Finding:
+    """Periods of s(ψ) at all ratios of the archives."""
     found: dict[float, float] = {}
     for archive in archives:
         curves = even(with_dims(archive, "frequency_ratio"), "phase").s.isel(normal_amplitude=-1)
@@ -218,7 +205,7 @@ OF_PHASE_AND_FREQUENCY = (
         "The same at every ratio that was tested.",
         "as above, with the less simple ratios in between",
         ("figure4", "other_frequencies"),
-        period_shrinks_everywhere,
+        period_shrinks,
     ),
     Statement(
         "Figure 4",
