@@ -64,38 +64,6 @@ rounded_punch_uncoupled = partial(_coupling, profile="rounded_punch", largest=NE
 truncated_paraboloid_weakly_coupled = partial(_coupling, profile="truncated_paraboloid", largest=WEAK)
 
 
-OF_FACE = (
-    Statement(
-        "Figure 5",
-        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
-        "no step of b/a_H raises s beyond its error at any phase",
-        ("figure5",),
-        rounded_punch_falls,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
-        "no step of b/a_H lowers s beyond its error at any phase",
-        ("figure5",),
-        truncated_paraboloid_rises,
-    ),
-    Statement(
-        "Figure 5",
-        "Rounded punch: b/a_H and phase are practically not coupled.",
-        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        ("figure5",),
-        rounded_punch_uncoupled,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
-        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        ("figure5",),
-        truncated_paraboloid_weakly_coupled,
-    ),
-)
-
-
 #: Largest distance of two curves that look like one in a figure, as a fraction of its height.
 _LINE = 0.02
 
@@ -135,7 +103,35 @@ def _distance(normalised: xr.DataArray, over: list[str]) -> xr.DataArray:
 loads_do_not_couple = partial(coupling_with, dim="flat_radius", largest=NEGLIGIBLE)
 
 
-OF_FACE_AND_FREQUENCY = (
+STATEMENTS = (
+    Statement(
+        "Figure 5",
+        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
+        "no step of b/a_H raises s beyond its error at any phase",
+        ("figure5",),
+        rounded_punch_falls,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
+        "no step of b/a_H lowers s beyond its error at any phase",
+        ("figure5",),
+        truncated_paraboloid_rises,
+    ),
+    Statement(
+        "Figure 5",
+        "Rounded punch: b/a_H and phase are practically not coupled.",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        rounded_punch_uncoupled,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
+        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        truncated_paraboloid_weakly_coupled,
+    ),
     Statement(
         "Figure 6",
         "Rounded punch: s falls with b/a_H for every frequency ratio and phase.",

@@ -65,38 +65,6 @@ def _ratios_by_amplitude(figure3: xr.Dataset) -> xr.DataArray:
     return spread(ordered.s, "phase")
 
 
-OF_PHASE = (
-    Statement(
-        "Figure 3",
-        "For small amplitudes of the normal oscillation s hardly depends on the phase.",
-        "max/min over ψ at most 1.1 at the smallest δA/δ0",
-        ("figure3",),
-        small_amplitude_is_flat,
-    ),
-    Statement(
-        "Figure 3",
-        "The dependence on the phase grows with the amplitude of the normal oscillation.",
-        "max/min over ψ grows with every step of δA/δ0",
-        ("figure3",),
-        phase_matters_more_with_amplitude,
-    ),
-    Statement(
-        "Figure 3",
-        "At δA/δ0 = 8/9 the largest and the smallest s differ by almost a factor of two.",
-        "the factor rounds to 2 and is below it: from 1.5 to 2",
-        ("figure3",),
-        almost_a_factor_of_two,
-    ),
-    Statement(
-        "Abstract",
-        "A normal oscillation can raise or lower s markedly, depending on phase and frequency ratio.",
-        "by 10% or more either way, against s without it",
-        ("figure3", "figure4", "tangential_amplitude"),
-        oscillation_raises_and_lowers,
-    ),
-)
-
-
 #: The ratios for which the paper finds that the phase matters most.
 PROMINENT = (0.25, 0.5, 1.5)
 
@@ -171,7 +139,35 @@ def _by_amplitude(ratios: xr.DataArray) -> str:
     return "max/min over ψ; " + "; ".join(rows)
 
 
-OF_PHASE_AND_FREQUENCY = (
+STATEMENTS = (
+    Statement(
+        "Figure 3",
+        "For small amplitudes of the normal oscillation s hardly depends on the phase.",
+        "max/min over ψ at most 1.1 at the smallest δA/δ0",
+        ("figure3",),
+        small_amplitude_is_flat,
+    ),
+    Statement(
+        "Figure 3",
+        "The dependence on the phase grows with the amplitude of the normal oscillation.",
+        "max/min over ψ grows with every step of δA/δ0",
+        ("figure3",),
+        phase_matters_more_with_amplitude,
+    ),
+    Statement(
+        "Figure 3",
+        "At δA/δ0 = 8/9 the largest and the smallest s differ by almost a factor of two.",
+        "the factor rounds to 2 and is below it: from 1.5 to 2",
+        ("figure3",),
+        almost_a_factor_of_two,
+    ),
+    Statement(
+        "Abstract",
+        "A normal oscillation can raise or lower s markedly, depending on phase and frequency ratio.",
+        "by 10% or more either way, against s without it",
+        ("figure3", "figure4", "tangential_amplitude"),
+        oscillation_raises_and_lowers,
+    ),
     Statement(
         "Figure 4",
         "The phase matters most at ω2/ω1 = 1/4, 1/2 and 3/2.",
