@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.marks import mark_along
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words
+from swtstudy.figures.style import stroke
 from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
 from swtstudy.mechanics.points import WITHOUT_S
 from swtstudy.study.figure import FigureLayout
@@ -162,7 +163,7 @@ def draw_lines(
     for part in parts:
         look: dict[str, Any] = {"markevery": _MARK_EVERY}
         if scale:
-            look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
+            look = stroke(scale.to_rgba(part[layout.hue].item()))
         elif layout.hue:
             look["label"] = part_words(part, layout.hue)
         if flag_words(whole):
