@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
+from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.mechanics.load.load import PERIOD, Loop
 from swtstudy.mechanics.points import FloatArray
@@ -58,7 +58,6 @@ def draw_load(
     StudyError
         A ValueError, if the study has no such loop.
     """
-    check_width(width)
     loops = {str(load): load for load in study.grid.loops}
     if name not in loops:
         raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
+from swtstudy.figures.sheet import Sheet, Width, wrap_texts
 from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, make_profile
 from swtstudy.mechanics.points import FloatArray
@@ -76,7 +76,6 @@ def draw_shape(
     given
         What is given of it, for the title.
     """
-    check_width(width)
     still = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
     grid, mistakes = read_grid({**still, **parameters}, {})
     if grid is None:
