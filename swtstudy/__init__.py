@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from swtstudy.results.fitting import fit
     from swtstudy.results.optimise import optimise
     from swtstudy.results.sensitivity import sensitivity
-    from swtstudy.runner.run import run
-    from swtstudy.runner.suite import run_suite
+    from swtstudy.runner.run import run, run_suite
     from swtstudy.solving import solve
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import read_signal
@@ -83,7 +82,7 @@ _HOMES = {
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
-    "run_suite": "swtstudy.runner.suite",
+    "run_suite": "swtstudy.runner.run",
     "sensitivity": "swtstudy.results.sensitivity",
     "slip_map": "swtstudy.fields.stress",
     "solve": "swtstudy.solving",

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from swtstudy.cli.options import examples, study_completion, with_width, with_workers
-from swtstudy.runner.suite import run_and_draw
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -95,6 +94,8 @@ def run(
     targets = archive_paths(defined, results)
     for target in targets.values():
         check_writable(target)
+
+    from swtstudy.runner.run import run_and_draw
 
     client = _connect(scheduler) if scheduler else None
     before = {target: _written(target) for target in targets.values()}
