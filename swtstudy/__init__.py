@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from swtstudy.results.optimise import optimise as optimise
     from swtstudy.results.sensitivity import sensitivity as sensitivity
     from swtstudy.runner.run import run as run
-    from swtstudy.runner.suite import run_suite as run_suite
+    from swtstudy.runner.run import run_suite as run_suite
     from swtstudy.solving import solve as solve
     from swtstudy.study.definition import Study as Study
     from swtstudy.study.signal import read_signal as read_signal
@@ -57,7 +57,7 @@ _HOMES = {
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",
-    "run_suite": "swtstudy.runner.suite",
+    "run_suite": "swtstudy.runner.run",
     "sensitivity": "swtstudy.results.sensitivity",
     "slip_map": "swtstudy.fields.stress",
     "solve": "swtstudy.solving",

@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 from swtstudy.figures.live import Explorer
 from swtstudy.figures.sheet import new_figure
-from swtstudy.figures.style import COLOURS, save_figure, styled
+from swtstudy.figures.style import COLOURS, save_figure, stroke, styled
 
 #: Dots per inch of the panels, inches of a row of the sliders, and the share of a column that its words have.
 DOTS, ROW, WORDS = 150.0, 0.27, 0.56
@@ -58,8 +58,8 @@ def draw(axes, control, column: int, row: float) -> None:
         axes.text(begin + 0.005, row, f"{control.value}  ▾", va="center", bbox=box)
         return
     place = begin + (control.value - control.min) / (control.max - control.min) * (end - begin)
-    axes.plot([begin, end], [row, row], color="0.75", linewidth=3, linestyle="-", marker="")
-    axes.plot([begin, place], [row, row], color=COLOURS[0], linewidth=3, linestyle="-", marker="")
+    axes.plot([begin, end], [row, row], **stroke("0.75", linewidth=3))
+    axes.plot([begin, place], [row, row], **stroke(COLOURS[0], linewidth=3))
     axes.plot([place], [row], "o", color=COLOURS[0], markersize=9)
     axes.text(column + 0.89, row, f"{control.value:.3g}", va="center")
 

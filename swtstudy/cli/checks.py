@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_width
+from swtstudy.cli.options import examples, study_completion, with_studies, with_width, with_workers
 from swtstudy.cli.terminal import line_length, of_markdown, wrapped
 
 
@@ -22,7 +22,7 @@ from swtstudy.cli.terminal import line_length, of_markdown, wrapped
     "--results", default="results", show_default=True, help="Folder for archive, indices and figure."
 )
 @with_width
-@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+@with_workers
 def sensitivity(
     study: str, y: tuple[str, ...], confidence: float, seed: int, results: str, width: Any, workers: int
 ) -> None:
@@ -139,11 +139,11 @@ def check(results: str, output: str | None) -> None:
 
 
 @click.command(epilog=examples("swtstudy audit figure3 --points 100"))
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+@with_studies
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
 @click.option("--seed", default=0, show_default=True, help="Seed of the random numbers.")
 @click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
-@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+@with_workers
 @click.option(
     "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
 )

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import click
 from click import Context, Parameter
@@ -42,13 +40,6 @@ class InSections(click.Command):
         for title, records in sections.items():
             with formatter.section(title):
                 formatter.write_dl(records)
-
-
-def with_width(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the option of what a figure is made for."""
-    widths = click.Choice(["column", "page"])
-    words = "For print: 8.5 or 17.5 cm wide, letters of 8 pt; by default for a screen."
-    return click.option("--width", type=widths, help=words)(command)
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:
@@ -102,6 +93,20 @@ def _offered(names: list[str], incomplete: str) -> list[CompletionItem]:
     """Names that begin with the incomplete word, or else the files that the shell finds."""
     items = [CompletionItem(name) for name in names if name.startswith(incomplete)]
     return items or [CompletionItem(incomplete, type="file")]
+
+
+#: What several commands take.
+with_studies = click.argument(
+    "studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion
+)
+with_width = click.option(
+    "--width",
+    type=click.Choice(["column", "page"]),
+    help="For print: 8.5 or 17.5 cm wide, letters of 8 pt; by default for a screen.",
+)
+with_workers = click.option(
+    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes."
+)
 
 
 def examples(*lines: str) -> str:

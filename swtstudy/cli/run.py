@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_width
-from swtstudy.runner.suite import run_and_draw
+from swtstudy.cli.options import examples, study_completion, with_width, with_workers
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ _NAMED = 5
     help="Format of the figure; may be given more than once.",
 )
 @with_width
-@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+@with_workers
 @click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
 @click.option("--retry-failed", is_flag=True, help="Recompute points that failed before.")
 def run(
@@ -95,6 +94,8 @@ def run(
     targets = archive_paths(defined, results)
     for target in targets.values():
         check_writable(target)
+
+    from swtstudy.runner.run import run_and_draw
 
     client = _connect(scheduler) if scheduler else None
     before = {target: _written(target) for target in targets.values()}

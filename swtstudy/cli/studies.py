@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.options import examples, study_completion
+from swtstudy.cli.options import examples, with_studies, with_workers
 from swtstudy.cli.terminal import cut, line_length, wrapped
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -52,7 +52,7 @@ def new(name: str, units: bool) -> None:
 
 
 @click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+@with_studies
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything."""
     from swtstudy.archive.paths import archive_paths
@@ -69,9 +69,9 @@ def validate(studies: tuple[str, ...]) -> None:
 
 
 @click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
-@click.argument("studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion)
+@with_studies
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
-@click.option("--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes.")
+@with_workers
 def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     """Show what a run of each STUDY would compute, and how long it would take.
 

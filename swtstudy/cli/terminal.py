@@ -14,14 +14,9 @@ _GAP = "  "
 _NARROWEST = 12
 
 
-def on_terminal() -> bool:
-    """Return whether people read what is printed: not in a pipe or a file."""
-    return sys.stdout.isatty()
-
-
 def line_length() -> int | None:
     """Letters in a line of the terminal; None for a pipe or a file, whose lines may be of any length."""
-    return get_terminal_size().columns if on_terminal() else None
+    return get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def cut(line: str, width: int | None) -> str:

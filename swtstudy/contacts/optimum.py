@@ -8,13 +8,13 @@ from typing import Any
 import xarray as xr
 
 from swtstudy.results.objective import Box, read_ranges
-from swtstudy.results.optimise import mistakes_in, optimum_in
+from swtstudy.results.optimise import check_asked, optimum_in
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contacts
 from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
 from swtstudy.units.variables import variables
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.mistakes import Report, StudyError
 from swtstudy.vocabulary.parameters import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
@@ -34,13 +34,12 @@ def optimum(
         What is asked beside s.
     """
     known = ["s", "s_surface", *(each.name for each in variables(grid, asked) if each.of), *grid.margins]
-    report = mistakes_in(minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
+    report = Report()
+    with report:
+        box = _box(grid, over)
+    check_asked(report, minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
     if asked.is_axis:
         report(DISTANCE, "several", "one: what is made least is one value")
-    try:
-        box = _box(grid, over)
-    except StudyError as error:
-        raise StudyError([*error.mistakes, *report]) from None
     report.refuse()
     return optimum_in(box, minimise, rtol, int(seed), asked)
 

@@ -6,7 +6,6 @@ The springs show the memory diagram over the radius; forces are known whichever 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,52 +22,6 @@ from swtstudy.mechanics.stress.work import LARGEST_SIZE, Conjugate
 
 #: Gauss nodes for each growth of the memory: 1e-6 of the amplitude and better.
 NODES = 64
-
-
-@dataclass(frozen=True)
-class Course:
-    """Both components of load and answer at T instants, each of shape (T,).
-
-    Attributes
-    ----------
-    depth, displacement
-        δ/δ0 and G* u/(μ E* δ0); NaN in the plane, where only their changes at constant load are known.
-    normal_force, tangential_force
-        F_N/F_0 and F_x/(μ F_0).
-    """
-
-    depth: FloatArray
-    displacement: FloatArray
-    normal_force: FloatArray
-    tangential_force: FloatArray
-
-
-def course(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Course:
-    """The prescribed loads and the responses over the cycle.
-
-    Parameters
-    ----------
-    scene
-        A batch of one point.
-    unit
-        Shape (1,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
-    nodes
-        T instants of its cycle.
-    """
-    load, whole = scene.cycle.load, Conjugate.whole(scene, unit, NODES)
-    normal, tangential = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
-    if scene.profile.plane:
-        unknown = np.full_like(normal, np.nan)
-        return Course(unknown, unknown, normal, tangential)
-    other_normal = whole.other.of(scene.coordinate.radius(np.maximum(normal, 0.0)[None]))[0]
-    size = max(1, LARGEST_SIZE // (scene.cycle.memory.start.shape[2] * NODES))
-    answer = np.empty_like(tangential)
-    for first in range(0, answer.size, size):
-        part = slice(first, first + size)
-        answer[part] = of_instants(whole, nodes.interval[part]).at(nodes.instant[part, None, None])[:, 0, 0]
-    if whole.by_force:
-        return Course(other_normal, answer, normal, tangential)
-    return Course(normal, tangential, other_normal, answer)
 
 
 def of_instants(whole: Conjugate, interval: NDArray[np.intp]) -> Conjugate:
@@ -149,23 +102,45 @@ def instants_of(scene: Scene, special: list[float]) -> TimeNodes:
 
 
 def course_of_load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
-    """Forces and displacements over time; see `course`. In the plane forces alone."""
-    both = course(scene, unit, nodes)
-    forces: Variables = {
-        "normal_force": ("time", both.normal_force, named("normal force", "F_N/F_0")),
-        "tangential_force": ("time", both.tangential_force, named("tangential force", r"F_x/(\mu F_0)")),
-    }
-    if scene.profile.plane:
-        return forces
-    return {
-        "depth": ("time", both.depth, named("indentation depth", r"\delta/\delta_0")),
-        "displacement": (
-            "time",
-            both.displacement,
-            named("tangential displacement", r"G^* u/(\mu E^* \delta_0)"),
-        ),
-        **forces,
-    }
+    """The prescribed loads and the responses over time; in the plane forces alone.
+
+    Parameters
+    ----------
+    scene
+        A batch of one point.
+    unit
+        Shape (1,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
+    nodes
+        T instants of its cycle.
+    """
+    load = scene.cycle.load
+    normal, tangential = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
+    if scene.profile.plane:  # of displacements only changes at constant load are known
+        return _over_time(normal_force=normal, tangential_force=tangential)
+    whole = Conjugate.whole(scene, unit, NODES)
+    other_normal = whole.other.of(scene.coordinate.radius(np.maximum(normal, 0.0)[None]))[0]
+    size = max(1, LARGEST_SIZE // (scene.cycle.memory.start.shape[2] * NODES))
+    answer = np.empty_like(tangential)
+    for first in range(0, answer.size, size):
+        part = slice(first, first + size)
+        answer[part] = of_instants(whole, nodes.interval[part]).at(nodes.instant[part, None, None])[:, 0, 0]
+    given, answers = (normal, tangential), (other_normal, answer)
+    forces, motion = (given, answers) if whole.by_force else (answers, given)
+    return _over_time(
+        depth=motion[0], displacement=motion[1], normal_force=forces[0], tangential_force=forces[1]
+    )
+
+
+_MEANINGS = {
+    "depth": named("indentation depth", r"\delta/\delta_0"),
+    "displacement": named("tangential displacement", r"G^* u/(\mu E^* \delta_0)"),
+    "normal_force": named("normal force", "F_N/F_0"),
+    "tangential_force": named("tangential force", r"F_x/(\mu F_0)"),
+}
+
+
+def _over_time(**curves: FloatArray) -> Variables:
+    return {name: ("time", values, _MEANINGS[name]) for name, values in curves.items()}
 
 
 def edge_states(scene: Scene, nodes: TimeNodes) -> NDArray[np.int8]:

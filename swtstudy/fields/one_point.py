@@ -150,12 +150,12 @@ def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.D
     return result
 
 
-def read_distances(name: str, values: object, allowed: str) -> FloatArray:
-    """A number or a one-dimensional sequence of them, finite, shape (k,), k > 0; the sign is not checked."""
-    distances = np.atleast_1d(read_numbers(name, values, allowed))
-    if distances.ndim > 1 or distances.size == 0 or not np.isfinite(distances).all():
+def read_finite(name: str, values: object, allowed: str) -> FloatArray:
+    """A finite number, or a one-dimensional sequence of them, one at least; the sign is not checked."""
+    array = read_numbers(name, values, allowed)
+    if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise StudyError([Mistake(name, literal(values), allowed)])
-    return distances
+    return array
 
 
 def _coordinate(name: str, values: object, allowed: str = POSITIONS) -> xr.DataArray:
@@ -189,10 +189,7 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
     time, nodes
         These, and the same instants of the cycle in the order of time.
     """
-    allowed = "a finite number or a sequence of them, ω1 t in rad"
-    array = read_numbers("time", time, allowed)
-    if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
-        raise StudyError([Mistake("time", literal(time), allowed)])
+    array = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
     nodes = nodes_at(scene, np.mod(array.ravel() / turns(scene), 2.0 * np.pi))
     return label_time(scene, array, ("time",) * array.ndim), nodes
 

@@ -14,7 +14,7 @@ from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
     label_time,
-    read_distances,
+    read_finite,
     read_places,
     read_scene,
     read_time,
@@ -228,7 +228,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         time = 2.0 * np.pi * turns(scene) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
     instants, nodes = read_time(scene, time)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
-    distances = read_distances("r", r, allowed)
+    distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")

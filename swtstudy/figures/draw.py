@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from swtstudy.figures.legend import add_legend, loops_of
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.marks import mark_borders, mark_cells
-from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, title_words
+from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, slices, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.sheet import Figure, Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
@@ -111,7 +111,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
-    parts = _slices(dataset, layout.panels)
+    parts = slices(dataset, layout.panels)
     lines = layout.kind in LINE_KINDS
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), len(parts), width)
@@ -122,7 +122,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
     )
     for row, y in enumerate(layout.y):
         values = quantity(dataset, y)
-        panels = _slices(_shown(dataset, y, values, layout.validity), layout.panels)
+        panels = slices(_shown(dataset, y, values, layout.validity), layout.panels)
         words = quantity_words(values, y)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
@@ -174,10 +174,6 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
     if validity:
         shown["outside"] = outside(dataset, values)
     return xr.Dataset({name: values for name, values in shown.items() if values is not None})
-
-
-def _slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
-    return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
 
 
 def _title_panel(

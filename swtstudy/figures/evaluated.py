@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_texts, wrap_title
-from swtstudy.figures.style import COLOURS, Style, styled
+from swtstudy.figures.style import COLOURS, Style, stroke, styled
 from swtstudy.study.figure import wrong_formula
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, place_words
@@ -100,7 +100,7 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
         both = np.concatenate([fitted.observed.values, fitted.predicted.values])
         ends = np.array([both.min() / 8.0, both.max() * 8.0])
         for factor, dashes in _FACTORS.items():
-            look: dict[str, Any] = {"linestyle": dashes, "color": "0.4", "marker": "", "linewidth": 0.8}
+            look = stroke("0.4", dashes, linewidth=0.8)
             label = "equal" if factor == 1 else f"factor of {factor}"
             axes.plot(ends, ends * factor, label=label, **look)
             if factor > 1:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.maps import STATE_COLOURS, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels
-from swtstudy.figures.style import DASHES
+from swtstudy.figures.style import DASHES, stroke
 from swtstudy.mechanics.points import FloatArray
 
 #: Grey of guide lines, and of the second of two curves. A colour is a state of the contact, or an instant.
@@ -136,8 +136,7 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset) -> None:
     highest = axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     for sign in (1.0, -1.0):
-        look: dict[str, Any] = {"color": FAINT, "linewidth": thin(), "linestyle": "-", "marker": ""}
-        axes.plot([0.0, sign * highest], [0.0, highest], **look)
+        axes.plot([0.0, sign * highest], [0.0, highest], **stroke(FAINT, linewidth=thin()))
     axes.set_xlim(limits(force, 0.14, 0.14, 1.0))
     axes.set_ylim(limits(normal, 0.14, 0.14, 1.0))
     axes.set_title(r"load plane of forces, $|F_x| \leq \mu F_N$", loc="left")
@@ -148,14 +147,13 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     time, names = dataset.time, ("normal_force", "tangential_force")
     normal, tangential = (dataset[n] * (labels[n].scale if n in labels else 1.0) for n in names)
     words = [f"${labels[n].symbol}$" if n in labels else _words(dataset, n) for n in names]
-    axes.plot(time, normal, color="black", linestyle="-", marker="", label=words[0])
-    look: dict[str, Any] = {"color": SECOND, "linestyle": DASHES[1], "marker": ""}
-    axes.plot(time, tangential, label=words[1], **look)
+    axes.plot(time, normal, **stroke(label=words[0]))
+    axes.plot(time, tangential, **stroke(SECOND, DASHES[1], label=words[1]))
     # What friction bears is a force of the tangential one's unit.
     bound = dataset.normal_force * (labels[names[1]].scale if labels else 1.0)
-    look = {"color": "black", "linestyle": DOTTED, "linewidth": thin(), "marker": ""}
+    look = stroke(dashes=DOTTED, linewidth=thin(), label="" if labels else f"$-${words[0]}")
     for sign in (1.0, -1.0) if labels else (-1.0,):
-        axes.plot(time, sign * bound, label="" if labels else f"$-${words[0]}", **look)
+        axes.plot(time, sign * bound, **look)
     axes.axhline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     axes.set_ylim(limits(np.concatenate([normal.values, tangential.values]), 0.08, 0.34))
     for when in dataset.instant_time.values:
@@ -181,9 +179,8 @@ def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
 
 def draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     x, y = dataset[across].values, dataset[up].values
-    look: dict[str, Any] = {"color": "black", "linestyle": "-", "marker": ""}
     draw_edge_states(axes, x, y, dataset.edge_state.values)
-    axes.plot(x, y, **look)
+    axes.plot(x, y, **stroke())
     axes.axvline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     axes.axhline(1.0 if up in ("normal_force", "depth") else 0.0, color=FAINT, linewidth=thin(), zorder=0)
     axes.set_xlim(limits(x, 0.14, 0.14, 1.0))

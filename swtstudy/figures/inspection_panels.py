@@ -26,7 +26,7 @@ from swtstudy.figures.force_panels import (
 )
 from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
-from swtstudy.figures.style import DASHES
+from swtstudy.figures.style import DASHES, stroke
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.choices import SWT, SYMBOLS
@@ -121,11 +121,10 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     time, stress = dataset.time, dataset.normal_stress
     swing = next(dataset[each.name] for each in (NORMAL_STRAIN, SHEAR_STRESS) if each.name in dataset)
     symbol, is_strain = swing.attrs["symbol"], swing.name == NORMAL_STRAIN.name
-    (line,) = axes.plot(time, stress, color="black", linestyle="-", marker="", label=r"$\sigma_n$")
+    (line,) = axes.plot(time, stress, **stroke(label=r"$\sigma_n$"))
     # A shear stress has the axis of the normal one.
     other = axes.twinx() if is_strain else axes
-    look: dict[str, Any] = {"color": SECOND, "linestyle": DASHES[1], "marker": ""}
-    (dashed,) = other.plot(time, swing, label=f"${symbol}$", **look)
+    (dashed,) = other.plot(time, swing, **stroke(SECOND, DASHES[1], label=f"${symbol}$"))
     peak = int(stress.values.argmax())
     axes.plot(time[peak], stress[peak], marker="o", markersize=dot(), color=line.get_color(), linestyle="")
     high, low = float(swing.max()), float(swing.min())
@@ -142,7 +141,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     draw_time_axis(axes, dataset.time)
     handles, shown = [line, dashed], stress.values
     if "bulk_stress" in dataset:
-        (dotted,) = axes.plot(time, dataset.bulk_stress, color="black", linestyle=DOTTED, label=r"$\sigma_B$")
+        (dotted,) = axes.plot(time, dataset.bulk_stress, **stroke(dashes=DOTTED, label=r"$\sigma_B$"))
         handles.append(dotted)
         shown = np.concatenate([shown, dataset.bulk_stress.values])
     _scale_stress(axes, other, shown, swing.values)
@@ -178,7 +177,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     x, largest = float(dataset.shown_x), float(dataset.largest_radius)
     found = float(dataset.s) if _is_finite(dataset) else float(dataset.s_local.max())
     top = found or 1.0
-    axes.plot(dataset.x, dataset.s_local, color="black", linestyle="-", marker="")
+    axes.plot(dataset.x, dataset.s_local, **stroke())
     stick, least = float(dataset.permanent_stick_radius), float(dataset.least_radius)
     if stick > 0.0:
         axes.axvspan(-stick, stick, color="0.85", zorder=0)
@@ -212,15 +211,8 @@ def _draw_plane(axes: Axes, dataset: xr.Dataset) -> None:
     plane = np.array([-normal[1], normal[0]])
     plane = plane if plane[1] < 0.0 else -plane
     inset.axhspan(-1.0, 0.0, color="0.9")
-    inset.plot([-1.2, 1.2], [0, 0], color="black", linestyle="-", linewidth=thin(), marker="")
-    inset.plot(
-        [0, 0.85 * plane[0]],
-        [0, 0.85 * plane[1]],
-        color="black",
-        linestyle="-",
-        linewidth=1.5 * bold(),
-        marker="",
-    )
+    inset.plot([-1.2, 1.2], [0, 0], **stroke(linewidth=thin()))
+    inset.plot([0, 0.85 * plane[0]], [0, 0.85 * plane[1]], **stroke(linewidth=1.5 * bold()))
     start = 0.42 * plane
     arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
     inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)
@@ -247,11 +239,8 @@ def _lines(axes: Axes, dataset: xr.Dataset, name: str, along: str) -> list[tuple
     lines = []
     for number in dataset.instant.values:
         values = dataset[name].sel(instant=number)
-        look: dict[str, Any] = {
-            "color": instant_colour(number),
-            "linestyle": DASHES[(number - 1) % len(DASHES)],
-        }
-        (line,) = axes.plot(dataset[along], values, label=str(number), marker="", **look)
+        look = stroke(instant_colour(number), DASHES[(number - 1) % len(DASHES)], label=str(number))
+        (line,) = axes.plot(dataset[along], values, **look)
         lines.append((int(number), line))
     axes.axhline(0.0, color=FAINT, linewidth=thin(), zorder=0)
     return lines
@@ -265,5 +254,4 @@ def _caption(axes: Axes, words: str) -> None:
 
 def _bound(line: Line2D) -> dict[str, Any]:
     """Keywords that draw the bounds of a line."""
-    colour = line.get_color()
-    return {"color": colour, "linestyle": "-", "linewidth": 0.7, "alpha": 0.45, "marker": ""}
+    return stroke(line.get_color(), linewidth=0.7, alpha=0.45)

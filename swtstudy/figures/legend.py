@@ -17,6 +17,7 @@ from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from swtstudy.figures.style import stroke
 from swtstudy.mechanics.load.load_path import LoadPath
 
 if TYPE_CHECKING:
@@ -57,8 +58,8 @@ class LoopHandler(HandlerLine2D):
         side = 0.85 * height
         left, bottom = width - side - xdescent, -ydescent + 0.5 * (height - side)
         x, y = left + side * _unit(tangential), bottom + side * _unit(normal)
-        look: dict[str, Any] = {"color": orig_handle.get_color(), "linestyle": "-", "linewidth": 1.0}
-        return [*artists, Line2D(x, y, marker="", transform=trans, **look)]
+        look = stroke(orig_handle.get_color(), linewidth=1.0)
+        return [*artists, Line2D(x, y, transform=trans, **look)]
 
 
 def _unit(values: np.ndarray) -> np.ndarray:

@@ -14,8 +14,9 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from swtstudy.figures.marks import mark_along
-from swtstudy.figures.quantity_words import flag_words, is_life, part_words
-from swtstudy.figures.ticks import tick_in_pi, tick_in_ratios
+from swtstudy.figures.quantity_words import flag_words, is_life, part_words, slices
+from swtstudy.figures.style import stroke
+from swtstudy.figures.ticks import tick_flags, tick_in_pi, tick_in_ratios
 from swtstudy.mechanics.points import WITHOUT_S
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import AXES
@@ -157,12 +158,12 @@ def draw_lines(
     """
     panel = panel.sortby(layout.x)
     x, whole = panel[layout.x].values, panel.value
-    parts = [panel.isel({layout.hue: i}) for i in range(panel.sizes[layout.hue])] if layout.hue else [panel]
+    parts = slices(panel, layout.hue)
     visible = _VISIBLE_ERROR * float(whole.max() - whole.min())
     for part in parts:
         look: dict[str, Any] = {"markevery": _MARK_EVERY}
         if scale:
-            look = {"color": scale.to_rgba(part[layout.hue].item()), "linestyle": "-", "marker": ""}
+            look = stroke(scale.to_rgba(part[layout.hue].item()))
         elif layout.hue:
             look["label"] = part_words(part, layout.hue)
         if flag_words(whole):
@@ -258,9 +259,7 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) ->
     """Set limits, logarithmic axes and ticks that suit the curves."""
     axes.set_xlim(*_ends(x))
     words = flag_words(values)
-    if words:
-        axes.set_yticks(range(len(words)), words)
-        axes.set_ylim(-0.5, len(words) - 0.5)
+    tick_flags(axes, words)
     if in_equal_ratios(x):
         axes.set_xscale("log")
         tick_in_ratios(axes.xaxis, float(x[0]), float(x[-1]))

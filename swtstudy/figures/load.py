@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
-from swtstudy.figures.style import Style, styled
+from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
+from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.mechanics.load.load import PERIOD, Loop
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.values import as_number
@@ -58,7 +58,6 @@ def draw_load(
     StudyError
         A ValueError, if the study has no such loop.
     """
-    check_width(width)
     loops = {str(load): load for load in study.grid.loops}
     if name not in loops:
         raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
@@ -138,9 +137,9 @@ def _draw_course(
         cycles = signal.cycles
         share = np.arange(cycles.shape[1]) / cycles.shape[1]
         for column in range(cycles.shape[2]):
-            axes.plot(share, cycles[..., column].T, color=f"C{column}", lw=0.5, alpha=0.25, ls="-", marker="")
+            axes.plot(share, cycles[..., column].T, **stroke(f"C{column}", linewidth=0.5, alpha=0.25))
     for column, (name, unit) in enumerate(zip(names[: loads.shape[1]], units, strict=False)):
-        axes.plot(phase, loads[:, column], color=f"C{column}", label=name + unit, ls="-", marker="")
+        axes.plot(phase, loads[:, column], **stroke(f"C{column}", label=name + unit))
     axes.set(xlabel="share of a cycle", ylabel="loads")
     axes.set_title("course", loc="left")
     axes.legend(frameon=False)
@@ -156,20 +155,20 @@ def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
 
 def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool, units: Sequence[str]) -> None:
     """The path in the plane of both loads, and where friction ends."""
-    axes.plot(loads[:, 0], loads[:, 1], color="C0", ls="-", marker="")
+    axes.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
     axes.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
     axes.set_title("path", loc="left")
     if forces:
         ends = np.array([0.0, 1.05 * loads[:, 0].max()])
         for sign in (1.0, -1.0):
-            axes.plot(ends, sign * _slope(study) * ends, color="0.5", lw=0.8, ls="--", marker="")
+            axes.plot(ends, sign * _slope(study) * ends, **stroke("0.5", "--", linewidth=0.8))
 
 
 def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray) -> None:
     """|Q|/(μP) over the cycle."""
     with np.errstate(divide="ignore", invalid="ignore"):
         margin = np.abs(loads[:, 1]) / (_slope(study) * loads[:, 0])
-    axes.plot(phase, margin, color="C3", ls="-", marker="")
+    axes.plot(phase, margin, **stroke("C3"))
     axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
     axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
     axes.set_title(f"friction, at most {np.nanmax(margin):.2f}", loc="left")

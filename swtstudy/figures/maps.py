@@ -11,7 +11,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
-from swtstudy.figures.style import COLOURS, DASHES
+from swtstudy.figures.style import COLOURS, DASHES, stroke
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import FloatArray
 
@@ -76,8 +76,8 @@ def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
     shown = [name for name in names if float(abs(dataset[name]).max()) > _ROUNDING * largest]
     for index, name in enumerate(shown):
         words = f"${dataset[name].attrs['symbol']}$"
-        look = {"color": COLOURS[index], "linestyle": DASHES[index % len(DASHES)], "marker": ""}
-        axes.plot(dataset.time, dataset[name], label=words, **look)
+        look = stroke(COLOURS[index], DASHES[index % len(DASHES)], label=words)
+        axes.plot(dataset.time, dataset[name], **look)
     draw_time_axis(axes, dataset.time)
     axes.set_ylabel(r"$\sigma\,a_H/(E^* \delta_0)$")
     axes.grid(color="0.9", linewidth=0.6)
@@ -106,7 +106,7 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     axes.pcolorfast(
         _edges(state.time), _edges(state.r), state.values, cmap=colours, norm=norm, rasterized=True
     )
-    axes.plot(dataset.time, dataset.contact_radius, color="black", linestyle="-", marker="", linewidth=1.2)
+    axes.plot(dataset.time, dataset.contact_radius, **stroke(linewidth=1.2))
     words = state.attrs["flag_meanings"].split()
     draw_time_axis(axes, dataset.time)
     axes.set_ylabel("$r/a_H$")

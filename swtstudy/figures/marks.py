@@ -15,6 +15,7 @@ from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.figures.quantity_words import flag_words
+from swtstudy.figures.style import stroke
 
 #: Colours of the band and of its rim, which is seen beside the lightest line; width over that of a line.
 _BAND, _RIM, _WIDE = "0.9", "0.45", 4.5
@@ -48,8 +49,7 @@ def mark_along(
         return
     width = _WIDE * rcParams["lines.linewidth"]
     rim = [Stroke(linewidth=width + 2.0 * _RIM_WIDTH, foreground=_RIM), Normal()]
-    look: dict[str, Any] = {"color": _BAND, "linestyle": "-", "linewidth": width, "solid_capstyle": "round"}
-    look |= {"marker": "", "zorder": 1.5, "path_effects": rim}
+    look = stroke(_BAND, linewidth=width, solid_capstyle="round", zorder=1.5, path_effects=rim)
     band = np.where(outside[:, None], _with_stubs(x, y), np.nan).reshape(2, -1)
     axes.plot(*band, drawstyle=drawstyle, label=words, **look)
 

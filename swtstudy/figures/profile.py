@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
-from swtstudy.figures.style import Style, styled
+from swtstudy.figures.sheet import Sheet, Width, wrap_texts
+from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, make_profile
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.reading import read_grid
@@ -76,7 +76,6 @@ def draw_shape(
     given
         What is given of it, for the title.
     """
-    check_width(width)
     still = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
     grid, mistakes = read_grid({**still, **parameters}, {})
     if grid is None:
@@ -145,7 +144,7 @@ def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float], labe
     if face:
         end = min(face, right)
         axes.annotate("", (end, -0.8), (0.0, -0.8), arrowprops={**look, "mutation_scale": 8.0})
-        axes.plot([face, face], [-1.0, -0.72], color="k", lw=0.6, ls="-", marker="")
+        axes.plot([face, face], [-1.0, -0.72], **stroke(linewidth=0.6))
         axes.annotate("$b$", (0.5 * end, -0.77), ha="center", va="bottom")
     height = shape.get("waviness_amplitude", 0.0)
     length = shape.get("wavelength", 0.0) * height**0.5

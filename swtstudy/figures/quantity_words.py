@@ -90,6 +90,11 @@ def part_words(part: xr.Dataset, name: str) -> str:
     return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
 
 
+def slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
+    """The parts of a Dataset at each value of a dimension; the whole without one."""
+    return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
+
+
 def is_life(attributes: Mapping[Any, Any]) -> bool:
     """Return whether a quantity with these attributes is a number of cycles, which people read in decades."""
     return str(attributes.get("symbol", "")).startswith("N")

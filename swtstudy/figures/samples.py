@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.marks import mark_points
-from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words
+from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, slices
 from swtstudy.figures.sheet import Figure, Sheet, Width
 from swtstudy.figures.style import COLOURS
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.ticks import tick_flags, tick_in_pi
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import quantity
@@ -132,10 +132,7 @@ def _edges(values: xr.DataArray) -> list[float]:
 
 
 def _scale_axes(axes: Axes, dataset: xr.Dataset, name: str, values: xr.DataArray) -> None:
-    words = flag_words(values)
-    if words:
-        axes.set_yticks(range(len(words)), words)
-        axes.set_ylim(-0.5, len(words) - 0.5)
+    tick_flags(axes, flag_words(values))
     if PARAMETERS[name].units == "rad":
         tick_in_pi(axes.xaxis, float(dataset[name].min()), float(dataset[name].max()))
 
@@ -149,11 +146,8 @@ def _numbers(values: xr.DataArray) -> tuple[NDArray[Any], list[str] | None]:
 
 
 def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:
-    """The parts of a Dataset at each value of a dimension, in words."""
-    if name is None:
-        return [(None, dataset)]
-    parts = [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
-    return [(part_words(part, name), part) for part in parts]
+    """The slices of a Dataset along a dimension, with their values in words."""
+    return [(part_words(part, name) if name else None, part) for part in slices(dataset, name)]
 
 
 def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:

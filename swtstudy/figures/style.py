@@ -90,6 +90,11 @@ PRINT: dict[str, Any] = {
 }
 
 
+def stroke(color: Any = "black", dashes: Any = "-", **own: Any) -> dict[str, Any]:
+    """The look of a line that has nothing of the cycle of colours, dashes and markers."""
+    return {"color": color, "linestyle": dashes, "marker": "", **own}
+
+
 @contextmanager
 def styled(style: Style | None = None, width: str | None = None) -> Iterator[None]:
     """The package's style while a figure is drawn or saved.

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.contour_labels import parts_of, places_of_labels
 from swtstudy.figures.quantity_words import flag_words, is_life
-from swtstudy.figures.ticks import tick_cells, tick_in_pi
+from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, value_words
@@ -155,7 +155,7 @@ def draw_surfaces(
             filled = draw_contours(one, surface, look)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
     if is_life(surfaces[0].attrs) and kind == "contour":
-        bar.ax.yaxis.set_major_formatter(lambda value, _: _power(value))
+        bar.ax.yaxis.set_major_formatter(lambda value, _: power_words(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
@@ -239,7 +239,7 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
     shown = levels if is_life(surface.attrs) else levels[::2]
-    look_of_labels: dict[str, Any] = {"fmt": _power} if is_life(surface.attrs) else {"fmt": "%g"}
+    look_of_labels: dict[str, Any] = {"fmt": power_words} if is_life(surface.attrs) else {"fmt": "%g"}
     inks = [_ink(filled, float(level)) for level in shown]
     if surface.name == "s":
         _draw_extrema(axes, surface)
@@ -257,13 +257,6 @@ def _ink(colours: ScalarMappable, level: float) -> str:
     """Black or white, whichever is read on the colours beside a level."""
     red, green, blue, _ = colours.to_rgba(level)  # type: ignore[arg-type]
     return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > _DARK else "white"
-
-
-def _power(value: float) -> str:
-    """A number of cycles: 5·10⁴."""
-    power = math.floor(math.log10(value) + 1e-9)
-    digit = round(value / 10.0**power)
-    return f"$10^{{{power}}}$" if digit == 1 else rf"${digit} \cdot 10^{{{power}}}$"
 
 
 def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:

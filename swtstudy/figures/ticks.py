@@ -75,7 +75,7 @@ def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
         axis.set_major_locator(MaxNLocator(_EVEN, steps=[1, 2, 2.5, 5, 10]))
     else:
         axis.set_major_locator(LogLocator(subs=digits))
-    axis.set_major_formatter(FuncFormatter(lambda x, _: _power_words(x) if powers else f"{x:g}"))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: power_words(x) if powers else f"{x:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
@@ -84,7 +84,7 @@ def _powers(low: float, high: float) -> range:
     return range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
 
 
-def _power_words(value: float) -> str:
+def power_words(value: float) -> str:
     """A number below 10 and a power of ten, such as 5·10⁶."""
     if value <= 0.0:
         return ""
@@ -92,6 +92,13 @@ def _power_words(value: float) -> str:
     digits = f"{value / 10.0**exponent:.3g}"
     power = f"10^{{{exponent}}}"
     return f"${power}$" if digits == "1" else rf"${digits}\cdot{power}$"
+
+
+def tick_flags(axes: Axes, words: Sequence[str]) -> None:
+    """Put a tick with its words at each of the flags up a panel, if there are any."""
+    if words:
+        axes.set_yticks(range(len(words)), words)
+        axes.set_ylim(-0.5, len(words) - 0.5)
 
 
 def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:

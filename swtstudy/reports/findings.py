@@ -150,7 +150,7 @@ def _range(dataset: xr.Dataset) -> str:
     known = values.values[np.isfinite(values.values)]
     if not known.size:
         return f"No point has a finite {swt}."
-    unit = _blank(unit_of(values))
+    unit = f" {escape(unit_of(values))}".rstrip()
     if known.size == 1:
         return f"{swt} is <b>{number_words(float(known[0]))}</b>{unit}{_alone(values)}."
     low, middle, high = numbers_words((known.min(), np.median(known), known.max()))
@@ -177,10 +177,6 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
 def _alone(values: xr.DataArray) -> str:
     """That one of several points has a value."""
     return f" at one of {values.size} points; the others have none" if values.size > 1 else ""
-
-
-def _blank(unit: str) -> str:
-    return f" {escape(unit)}" if unit else ""
 
 
 def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:

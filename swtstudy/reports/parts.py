@@ -260,21 +260,19 @@ def whole(title: str, body: str, script: bool = False) -> str:
     style, act = (
         files("swtstudy.reports").joinpath(f"page.{end}").read_text("utf-8") for end in ("css", "js")
     )
-    return "\n".join(
-        (
-            "<!DOCTYPE html>",
-            '<html lang="en">',
-            "<head>",
-            '<meta charset="utf-8">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<title>{escape(title)}</title>",
-            f'<link rel="icon" href="{_ICON}">',
-            f"<style>\n{style}</style>",
-            "</head>",
-            "<body>",
-            body,
-            *([f"<script>\n{act}</script>"] if script else []),
-            "</body>",
-            "</html>\n",
-        )
-    )
+    own = f"<script>\n{act}</script>\n" if script else ""
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<link rel="icon" href="{_ICON}">
+<style>
+{style}</style>
+</head>
+<body>
+{body}
+{own}</body>
+</html>
+"""

@@ -15,6 +15,8 @@ import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.labelled import margins
+from swtstudy.points.unique import unique_points
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
@@ -149,9 +151,6 @@ class _Model:
         """Least and greatest logarithms: friction must bear the tangential forces."""
         low, high = [self.distances[0]], [self.distances[-1]]
         if self.with_friction:
-            from swtstudy.points.labelled import margins
-            from swtstudy.points.unique import unique_points
-
             ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
             own = float(self.grid.values("friction")[0])  # type: ignore[arg-type]
             low.append(max(1.001 * float(np.max(ratios)) * own, 1e-3))

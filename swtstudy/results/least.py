@@ -32,24 +32,16 @@ _GENERATIONS = 100
 _SPREAD = 0.01
 
 
-@dataclass(frozen=True)
-class Found:
-    """The result of a search.
+def search(function: Function, dimensions: int, seed: int) -> tuple[FloatArray, bool]:
+    """Search the unit cube for the least value of a function, which keeps where that is.
 
-    Attributes
-    ----------
+    Returns
+    -------
     progress
         Least value after each generation, the first population included.
     converged
         Whether the population has converged.
     """
-
-    progress: FloatArray
-    converged: bool
-
-
-def search(function: Function, dimensions: int, seed: int) -> Found:
-    """Search the unit cube for the least value of a function; the function keeps where that is."""
     from scipy.optimize import OptimizeResult, differential_evolution
 
     lowest: list[float] = []
@@ -71,7 +63,7 @@ def search(function: Function, dimensions: int, seed: int) -> Found:
         updating="deferred",
         vectorized=True,
     )
-    return Found(np.minimum.accumulate(lowest), bool(found.success))
+    return np.minimum.accumulate(lowest), bool(found.success)
 
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
@@ -263,7 +255,7 @@ def least(objective: Objective, dimensions: int, seed: int) -> Least:
     StudyError
         If it has no finite value anywhere.
     """
-    found = search(objective, dimensions, seed)
+    progress, converged = search(objective, dimensions, seed)
     searched = float(objective.values.min())
     if not np.isfinite(searched):
         words = f"no finite value at any of {len(objective.values)} points"
@@ -271,7 +263,7 @@ def least(objective: Objective, dimensions: int, seed: int) -> Least:
     _polish_together(objective, seed)
     unit = objective.points[objective.values.argmin()]
     sign = objective.sign
-    return Least(unit, sign * searched, sign * found.progress, found.converged, len(objective.values))
+    return Least(unit, sign * searched, sign * progress, converged, len(objective.values))
 
 
 def _polish_together(objective: Objective, seed: int) -> None:

@@ -23,7 +23,6 @@ from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     DEFAULT_RTOL,
     Report,
-    StudyError,
     is_rtol,
     literal,
     nearest,
@@ -142,11 +141,10 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    report = mistakes_in(minimise, rtol, seed)
-    try:
+    report = Report()
+    with report:
         box = read_box(over, parameters)
-    except StudyError as error:
-        raise StudyError([*error.mistakes, *report]) from None
+    check_asked(report, minimise, rtol, seed)
     report.refuse()
     return optimum_in(
         box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
@@ -164,13 +162,13 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
     return dataset_of(box, found, minimise, solve).assign_attrs(words)
 
 
-def mistakes_in(minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED) -> Report:
+def check_asked(
+    report: Report, minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
+) -> None:
     """Report mistakes in how an optimum is asked for; ``known`` may be minimised."""
-    found = Report()
     if minimise not in known:
-        found("minimise", literal(minimise), nearest(str(minimise), known))
+        report("minimise", literal(minimise), nearest(str(minimise), known))
     if not is_rtol(rtol):
-        found("rtol", literal(rtol), ALLOWED_RTOL)
+        report("rtol", literal(rtol), ALLOWED_RTOL)
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:
-        found("seed", literal(seed), "a whole number from 0 to 2**32 - 1")
-    return found
+        report("seed", literal(seed), "a whole number from 0 to 2**32 - 1")

@@ -132,11 +132,11 @@ def _check(name: str, values: xr.DataArray, dataset: xr.Dataset, report: Report)
     wrong = np.argwhere(~np.isfinite(values.values))
     if not len(wrong):
         return
-    place = values.isel(dict(zip(values.dims, wrong[0].tolist(), strict=True)))
+    at = dict(zip(values.dims, wrong[0].tolist(), strict=True))
+    place = values.isel(at)
     varying = [*str(dataset[SAMPLE].attrs["parameters"]).split(), *(d for d in values.dims if d != SAMPLE)]
     where = ", ".join(f"{name}={value_words(str(name), place[name].item())}" for name in varying)
     # A mean over several distances has more dimensions than the points.
-    at = dict(zip(values.dims, wrong[0].tolist(), strict=True))
     regime = dataset["regime"].isel(at, missing_dims="ignore")
     state = dataset["regime"].attrs["flag_meanings"].split()[int(regime)].replace("_", " ")
     found = f"no number at {len(wrong)} of {values.size} points, such as {where} ({state})"

@@ -7,20 +7,24 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from swtstudy.archive.paths import archive_paths
 from swtstudy.runner.chunk import Solver, solve_points
 from swtstudy.runner.engine import Pool
 from swtstudy.runner.job import Job, Stopped
 from swtstudy.runner.workers import LocalPool
-from swtstudy.study.definition import Study
+from swtstudy.study.definition import Study, read_studies
+from swtstudy.study.shipped import shipped_folder
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-__all__ = ["Stopped", "run", "run_several"]
+    from swtstudy.figures.sheet import Width
+
+__all__ = ["Stopped", "run", "run_and_draw", "run_several", "run_suite"]
 
 #: Seconds of work that one process does alone: worker processes take as long to start.
 _SMALL_SECONDS = 1.0
@@ -94,6 +98,87 @@ def run(
         solver=solver,
     )
     return found[0]
+
+
+def run_suite(
+    folder: str | PathLike[str] | None = None,
+    results: str | PathLike[str] = "results",
+    formats: Iterable[str] = ("png",),
+    width: Width | None = None,
+    **options: Any,
+) -> dict[str, xr.Dataset]:
+    """Compute every study in a folder, and write their archives and figures.
+
+    Parameters
+    ----------
+    folder
+        Folder with study files (TOML); by default the studies of the paper, which come with the package.
+    results
+        Folder for archives and figures, which are named after their studies.
+    formats
+        Formats of the figures: "png", "pdf", "svg".
+    width
+        What the figures are made for: "column", "page", or None for a screen.
+    **options
+        Further arguments of `swtstudy.run`.
+
+    Returns
+    -------
+    dict of xarray.Dataset
+        The archives, loaded, by the name of the study.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in every study, before anything is computed.
+    """
+    folder = shipped_folder() if folder is None else folder
+    studies = read_studies([str(folder)])
+    targets = archive_paths(studies, results)
+    found: dict[str, xr.Dataset] = {}
+
+    def done(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        found[path.stem] = dataset
+
+    pairs = [(study, targets[path]) for path, study in studies.items()]
+    run_and_draw(pairs, formats, done, width, **options)
+    return found
+
+
+def run_and_draw(
+    studies: Iterable[tuple[Study, Path]],
+    formats: Iterable[str],
+    done: Finished,
+    width: Width | None = None,
+    **options: Any,
+) -> None:
+    """Run studies with the same workers, and draw the figures of those that have one beside their archives.
+
+    Parameters
+    ----------
+    studies
+        Studies and the paths of their archives.
+    formats
+        Formats of the figures.
+    done
+        Called with every archive once its figure is drawn; not always in this thread.
+    width
+        What the figures are made for, as for `swtstudy.accessor.SwtAccessor.figure`.
+    **options
+        Further arguments of `swtstudy.run`.
+    """
+
+    def finished(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        if study.figure is not None:
+            from swtstudy.figures.draw import draw
+            from swtstudy.figures.style import save_figure
+
+            figure = draw(dataset, width=width)
+            for ending in formats:
+                save_figure(figure, path.with_suffix(f".{ending}"))
+        done(study, path, dataset)
+
+    run_several(studies, finished, **options)
 
 
 def run_several(

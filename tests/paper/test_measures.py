@@ -10,8 +10,7 @@ from swtstudy.paper.statements.statement import (
     NotInArchiveError,
     coupling,
     even,
-    largest_fall,
-    largest_rise,
+    largest_change,
     period,
     turning_points,
 )
@@ -19,9 +18,9 @@ from swtstudy.paper.statements.statement import (
 
 def test_measures():
     curve = made_up(lambda friction: friction**2, friction=[0.1, 0.2, 0.3])
-    assert largest_fall(curve, "friction") == 0
-    assert largest_rise(curve, "friction") == pytest.approx(3, abs=1e-3)
-    assert largest_fall(curve.isel(friction=[2, 0, 1]), "friction") == 0
+    assert largest_change(curve, "friction", -1) == 0
+    assert largest_change(curve, "friction", 1) == pytest.approx(3, abs=1e-3)
+    assert largest_change(curve.isel(friction=[2, 0, 1]), "friction", -1) == 0
     product = made_up(
         lambda friction, phase: friction * (2 + np.cos(phase)), friction=[1.0, 2.0], phase=PHASES
     )

@@ -21,12 +21,9 @@ from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Stat
 STATEMENTS: tuple[Statement, ...] = (
     *critical_point.STATEMENTS,
     *parameters.STATEMENTS,
-    *phase.OF_PHASE,
-    *phase.OF_PHASE_AND_FREQUENCY,
-    *face.OF_FACE,
-    *face.OF_FACE_AND_FREQUENCY,
-    *waviness.OF_WAVINESS,
-    *waviness.OF_WAVINESS_AND_FREQUENCY,
+    *phase.STATEMENTS,
+    *face.STATEMENTS,
+    *waviness.STATEMENTS,
 )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
@@ -11,7 +13,7 @@ from swtstudy.paper.statements.statement import (
     at,
     coupling,
     even,
-    largest_rise,
+    largest_change,
     listed,
     with_dims,
 )
@@ -19,16 +21,6 @@ from swtstudy.vocabulary.wording import value_words
 
 #: Largest share of the variance of ln s for a coupling that is called weak, or negligible.
 WEAK, NEGLIGIBLE = 0.1, 0.01
-
-
-def rounded_punch_falls(figure5: xr.Dataset) -> Finding:
-    """Check whether s of the rounded punch falls with b at every phase."""
-    return _monotone(figure5, "rounded_punch", -1)
-
-
-def truncated_paraboloid_rises(figure5: xr.Dataset) -> Finding:
-    """Check whether s of the truncated paraboloid rises with b at every phase."""
-    return _monotone(figure5, "truncated_paraboloid", 1)
 
 
 def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
@@ -53,14 +45,8 @@ def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
     return Finding(measured, not wrong.any())
 
 
-def rounded_punch_uncoupled(figure5: xr.Dataset) -> Finding:
-    """Coupling of b and ψ for the rounded punch."""
-    return coupling_with(even(at(figure5, profile="rounded_punch"), "phase"), "flat_radius", NEGLIGIBLE)
-
-
-def truncated_paraboloid_weakly_coupled(figure5: xr.Dataset) -> Finding:
-    """Coupling of b and ψ for the truncated paraboloid."""
-    return coupling_with(even(at(figure5, profile="truncated_paraboloid"), "phase"), "flat_radius", WEAK)
+rounded_punch_falls = partial(_monotone, profile="rounded_punch", sense=-1)
+truncated_paraboloid_rises = partial(_monotone, profile="truncated_paraboloid", sense=1)
 
 
 def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:
@@ -69,36 +55,13 @@ def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:
     return Finding(f"{share:.1%} of the variance of ln s is coupling", share <= largest)
 
 
-OF_FACE = (
-    Statement(
-        "Figure 5",
-        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
-        "no step of b/a_H raises s beyond its error at any phase",
-        ("figure5",),
-        rounded_punch_falls,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
-        "no step of b/a_H lowers s beyond its error at any phase",
-        ("figure5",),
-        truncated_paraboloid_rises,
-    ),
-    Statement(
-        "Figure 5",
-        "Rounded punch: b/a_H and phase are practically not coupled.",
-        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        ("figure5",),
-        rounded_punch_uncoupled,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
-        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        ("figure5",),
-        truncated_paraboloid_weakly_coupled,
-    ),
-)
+def _coupling(figure5: xr.Dataset, profile: str, largest: float) -> Finding:
+    """Coupling of b and ψ for one of the profiles."""
+    return coupling_with(even(at(figure5, profile=profile), "phase"), "flat_radius", largest)
+
+
+rounded_punch_uncoupled = partial(_coupling, profile="rounded_punch", largest=NEGLIGIBLE)
+truncated_paraboloid_weakly_coupled = partial(_coupling, profile="truncated_paraboloid", largest=WEAK)
 
 
 #: Largest distance of two curves that look like one in a figure, as a fraction of its height.
@@ -107,7 +70,7 @@ _LINE = 0.02
 
 def all_curves_fall(figure6: xr.Dataset) -> Finding:
     """Check whether s falls with b for every load."""
-    rise = largest_rise(with_dims(figure6, "flat_radius"), "flat_radius")
+    rise = largest_change(with_dims(figure6, "flat_radius"), "flat_radius", 1)
     ordered = figure6.s.sortby("flat_radius")
     end = ordered.isel(flat_radius=-1) / ordered.isel(flat_radius=0)
     words = f"rises by up to {rise:.1e} from one b to the next" if rise else "rises nowhere"
@@ -137,12 +100,38 @@ def _distance(normalised: xr.DataArray, over: list[str]) -> xr.DataArray:
     return (normalised.max(over) - normalised.min(over)).max("flat_radius")
 
 
-def loads_do_not_couple(figure6: xr.Dataset) -> Finding:
-    """Coupling of b with phase and frequency ratio."""
-    return coupling_with(figure6, "flat_radius", NEGLIGIBLE)
+loads_do_not_couple = partial(coupling_with, dim="flat_radius", largest=NEGLIGIBLE)
 
 
-OF_FACE_AND_FREQUENCY = (
+STATEMENTS = (
+    Statement(
+        "Figure 5",
+        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
+        "no step of b/a_H raises s beyond its error at any phase",
+        ("figure5",),
+        rounded_punch_falls,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
+        "no step of b/a_H lowers s beyond its error at any phase",
+        ("figure5",),
+        truncated_paraboloid_rises,
+    ),
+    Statement(
+        "Figure 5",
+        "Rounded punch: b/a_H and phase are practically not coupled.",
+        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        rounded_punch_uncoupled,
+    ),
+    Statement(
+        "Figure 5",
+        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
+        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
+        ("figure5",),
+        truncated_paraboloid_weakly_coupled,
+    ),
     Statement(
         "Figure 6",
         "Rounded punch: s falls with b/a_H for every frequency ratio and phase.",

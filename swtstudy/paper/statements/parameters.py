@@ -6,11 +6,12 @@ The paper's words on the latter stand beside the measured share of the variance.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.paper.statements.statement import Finding, Statement, largest_fall, listed, with_dims
+from swtstudy.paper.statements.statement import Finding, Statement, largest_change, listed, with_dims
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
 
@@ -18,22 +19,17 @@ from swtstudy.vocabulary.wording import value_words
 _METALS = slice(0.25, 0.35)
 
 
-def rises_with_friction(friction: xr.Dataset) -> Finding:
-    """Largest fall of s over μ."""
-    return _rises(friction, "friction", "μ")
-
-
-def rises_with_tangential_amplitude(tangential: xr.Dataset) -> Finding:
-    """Largest fall of s over G*uA/(μE*δ0)."""
-    return _rises(tangential, "tangential_amplitude", "G*uA/(μE*δ0)")
-
-
 def _rises(archive: xr.Dataset, dim: str, symbol: str) -> Finding:
-    fall = largest_fall(with_dims(archive, dim), dim)
+    """Largest fall of s over a parameter."""
+    fall = largest_change(with_dims(archive, dim), dim, -1)
     low, high = float(archive[dim].min()), float(archive[dim].max())
     curves = archive.s.size // archive.sizes[dim]
     words = f"falls by up to {fall:.1e} from one value to the next" if fall else "falls nowhere"
     return Finding(f"s {words}, {symbol} from {low:g} to {high:g} on {curves} curves", fall == 0)
+
+
+rises_with_friction = partial(_rises, dim="friction", symbol="μ")
+rises_with_tangential_amplitude = partial(_rises, dim="tangential_amplitude", symbol="G*uA/(μE*δ0)")
 
 
 def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:

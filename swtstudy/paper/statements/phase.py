@@ -65,58 +65,22 @@ def _ratios_by_amplitude(figure3: xr.Dataset) -> xr.DataArray:
     return spread(ordered.s, "phase")
 
 
-OF_PHASE = (
-    Statement(
-        "Figure 3",
-        "For small amplitudes of the normal oscillation s hardly depends on the phase.",
-        "max/min over ψ at most 1.1 at the smallest δA/δ0",
-        ("figure3",),
-        small_amplitude_is_flat,
-    ),
-    Statement(
-        "Figure 3",
-        "The dependence on the phase grows with the amplitude of the normal oscillation.",
-        "max/min over ψ grows with every step of δA/δ0",
-        ("figure3",),
-        phase_matters_more_with_amplitude,
-    ),
-    Statement(
-        "Figure 3",
-        "At δA/δ0 = 8/9 the largest and the smallest s differ by almost a factor of two.",
-        "the factor rounds to 2 and is below it: from 1.5 to 2",
-        ("figure3",),
-        almost_a_factor_of_two,
-    ),
-    Statement(
-        "Abstract",
-        "A normal oscillation can raise or lower s markedly, depending on phase and frequency ratio.",
-        "by 10% or more either way, against s without it",
-        ("figure3", "figure4", "tangential_amplitude"),
-        oscillation_raises_and_lowers,
-    ),
-)
-
-
 #: The ratios for which the paper finds that the phase matters most.
 PROMINENT = (0.25, 0.5, 1.5)
 
 
 def prominent_among_all(figure4: xr.Dataset) -> Finding:
     """Check whether every other ratio of the figure stays below the three prominent ones."""
-    return _prominent(figure4)
-
-
-def prominent_among_different(figure4: xr.Dataset) -> Finding:
-    """The same, without ω2 = ω1."""
-    return _prominent(figure4.sel(frequency_ratio=figure4.frequency_ratio != 1))
-
-
-def _prominent(figure4: xr.Dataset) -> Finding:
     ratios = _ratios_by_amplitude_and_frequency(figure4)
     chosen = ratios.frequency_ratio.isin(PROMINENT)
     others = ratios.sel(frequency_ratio=~chosen)
     holds = (others.max("frequency_ratio") < ratios.sel(frequency_ratio=chosen).min("frequency_ratio")).all()
     return Finding(_by_amplitude(ratios), bool(holds))
+
+
+def prominent_among_different(figure4: xr.Dataset) -> Finding:
+    """The same, without ω2 = ω1."""
+    return prominent_among_all(figure4.sel(frequency_ratio=figure4.frequency_ratio != 1))
 
 
 def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
@@ -129,17 +93,8 @@ def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
     )
 
 
-def period_shrinks(figure4: xr.Dataset) -> Finding:
-    """Periods of s(ψ) at the ratios of the figure."""
-    return _periods(figure4)
-
-
-def period_shrinks_everywhere(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
-    """Periods of s(ψ) at all ratios tested."""
-    return _periods(figure4, others)
-
-
-def _periods(*archives: xr.Dataset) -> Finding:
+def period_shrinks(*archives: xr.Dataset) -> Finding:
+    """Periods of s(ψ) at all ratios of the archives."""
     found: dict[float, float] = {}
     for archive in archives:
         curves = even(with_dims(archive, "frequency_ratio"), "phase").s.isel(normal_amplitude=-1)
@@ -184,7 +139,35 @@ def _by_amplitude(ratios: xr.DataArray) -> str:
     return "max/min over ψ; " + "; ".join(rows)
 
 
-OF_PHASE_AND_FREQUENCY = (
+STATEMENTS = (
+    Statement(
+        "Figure 3",
+        "For small amplitudes of the normal oscillation s hardly depends on the phase.",
+        "max/min over ψ at most 1.1 at the smallest δA/δ0",
+        ("figure3",),
+        small_amplitude_is_flat,
+    ),
+    Statement(
+        "Figure 3",
+        "The dependence on the phase grows with the amplitude of the normal oscillation.",
+        "max/min over ψ grows with every step of δA/δ0",
+        ("figure3",),
+        phase_matters_more_with_amplitude,
+    ),
+    Statement(
+        "Figure 3",
+        "At δA/δ0 = 8/9 the largest and the smallest s differ by almost a factor of two.",
+        "the factor rounds to 2 and is below it: from 1.5 to 2",
+        ("figure3",),
+        almost_a_factor_of_two,
+    ),
+    Statement(
+        "Abstract",
+        "A normal oscillation can raise or lower s markedly, depending on phase and frequency ratio.",
+        "by 10% or more either way, against s without it",
+        ("figure3", "figure4", "tangential_amplitude"),
+        oscillation_raises_and_lowers,
+    ),
     Statement(
         "Figure 4",
         "The phase matters most at ω2/ω1 = 1/4, 1/2 and 3/2.",
@@ -218,7 +201,7 @@ OF_PHASE_AND_FREQUENCY = (
         "The same at every ratio that was tested.",
         "as above, with the less simple ratios in between",
         ("figure4", "other_frequencies"),
-        period_shrinks_everywhere,
+        period_shrinks,
     ),
     Statement(
         "Figure 4",

@@ -135,20 +135,11 @@ def spread(values: xr.DataArray, dim: str) -> xr.DataArray:
     return values.max(dim) / values.min(dim)
 
 
-def largest_fall(dataset: xr.Dataset, dim: str) -> float:
-    """Largest relative fall of s from one value of a dimension to the next one above.
+def largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
+    """Largest relative rise (sense 1) or fall (-1) of s from one value of a dimension to the next one above.
 
-    Falls within the estimated errors of the two values do not count; 0 if s falls nowhere.
+    Changes within the estimated errors of the two values do not count; 0 if there is no other one.
     """
-    return _largest_change(dataset, dim, -1)
-
-
-def largest_rise(dataset: xr.Dataset, dim: str) -> float:
-    """Largest relative rise of s; see `largest_fall`."""
-    return _largest_change(dataset, dim, 1)
-
-
-def _largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
     ordered = dataset.sortby(dim)
     before, after = (ordered.isel({dim: part}).drop_vars(dim) for part in (slice(-1), slice(1, None)))
     change = (sense * (after.s - before.s) - before.s_error - after.s_error) / before.s
