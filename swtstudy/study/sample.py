@@ -19,7 +19,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
 from swtstudy.points.values import NOTHING, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
-from swtstudy.vocabulary.files import plain_float, read_table
+from swtstudy.vocabulary.files import plain_float, read_table, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -34,9 +34,7 @@ def read_points(path: Path, report: Report) -> dict[str, list[object]] | None:
     try:
         names, rows = read_table(path, LONGEST_AXIS)
     except (OSError, ValueError) as error:
-        report(
-            POINTS_KEY, f"{literal(str(path))} ({getattr(error, 'strerror', None) or error})", ALLOWED_POINTS
-        )
+        report(POINTS_KEY, f"{literal(str(path))} ({reason_of(error)})", ALLOWED_POINTS)
         return None
     if not rows:
         report(POINTS_KEY, f"{literal(str(path))} without points", ALLOWED_POINTS)
