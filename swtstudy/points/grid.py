@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -97,11 +96,6 @@ class Grid:
         from swtstudy.mechanics.load.load import Loop
 
         return tuple(load for load in self.values("load") if isinstance(load, Loop))
-
-    @property
-    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
-        """The parameters that differ from body to body."""
-        return {}
 
     def row(self, name: str) -> Parameter:
         """The row of a parameter, with its unit."""

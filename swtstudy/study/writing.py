@@ -130,7 +130,7 @@ def as_html(study: Study) -> str:
     rows = [_row(grid, *each) for each in along]
     rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
     rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
-    rows += [_row(grid, "of each body", name, two) for name, two in grid.of_bodies.items()]
+    rows += [_row(grid, "of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
     return (
         f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
         f"{escape(_cost(study))}{html_table(rows)}</div>"

@@ -114,11 +114,6 @@ class PhysicalGrid(ContactDetails, Grid):
         """The rows of the parameters, with their units."""
         return rows(self.labels)
 
-    @property
-    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
-        """See `Grid.of_bodies`."""
-        return self.pairs
-
     def row(self, name: str) -> Parameter:
         """See `Grid.row`."""
         return self.rows[name]
