@@ -241,9 +241,7 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
         return {}
     blocks = np.split(points.table, block_ends(points.table)[:-1])
     every = [Margins.of(points_from(block, points.definitions)) for block in blocks]
-    radius, width, shift, ratio = (
-        np.concatenate([getattr(each, name) for each in every])[points.index] for name in vars(every[0])
-    )
+    radius, width, shift, ratio = vars(Margins.joined(every).take(points.index)).values()
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
             "bulk_shift": np.where(shift <= width, shift, np.nan),
