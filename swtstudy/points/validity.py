@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
-from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -268,9 +268,9 @@ def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str,
             words.append(f"{dim} = {int(number)}")
             continue
         value: Any = dataset[dim].values[number]
-        unit = dataset[dim].attrs.get("units", "1")
-        named = coordinate_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
-        words.append(f"{dim} = {named}" + (f" {unit}" if unit not in ("1", "rad", "") else ""))
+        attributes = dataset[dim].attrs
+        named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
+        words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
     return f" at {', '.join(words)}" if words else ""
 
 

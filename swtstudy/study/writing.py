@@ -11,7 +11,7 @@ from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import html_table, listed, plain_words
+from swtstudy.vocabulary.wording import html_table, listed, plain_words, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -158,10 +158,9 @@ def _row(
 ) -> tuple[str, str, str, str]:
     """Kind, name, values and meaning of a parameter."""
     row = grid.row(name)
-    unit = f" {row.units}" if row.units not in ("1", "rad") else ""
     return (
         kind,
         name,
-        listed([*map(plain_words, values)], _LISTED) + unit,
+        listed([*map(plain_words, values)], _LISTED) + unit_words(row.units),
         row.described + (f"; figure: {role}" if role else ""),
     )

@@ -23,6 +23,7 @@ from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -209,8 +210,7 @@ def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
     for name, value in values.items():
         if isinstance(value, str | Definition) or (name not in _SAID and grid.dimension(name) is None):
             continue
-        unit = grid.row(name).units
-        words.append(f"{name} = {as_number(value):g}{'' if unit in ('1', '') else f' {unit}'}")
+        words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")
     return ", ".join(words)
 
 
