@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
+from swtstudy.points.values import index_at
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.
@@ -259,13 +260,12 @@ def _where(out: NDArray[np.bool_]) -> str:
 
 def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str, ...] = ()) -> str:
     """At which point values in the shape of s are largest, but for some dimensions."""
-    index = np.unravel_index(int(np.nan_to_num(values, nan=-np.inf).argmax()), values.shape)
     words = []
-    for dim, number in zip(map(str, dataset.s.dims), index, strict=True):
+    for dim, number in index_at(dataset.s, int(np.nan_to_num(values, nan=-np.inf).argmax())).items():
         if dim in besides:
             continue
         if dim not in dataset.coords:
-            words.append(f"{dim} = {int(number)}")
+            words.append(f"{dim} = {number}")
             continue
         value: Any = dataset[dim].values[number]
         attributes = dataset[dim].attrs

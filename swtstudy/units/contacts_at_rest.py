@@ -16,7 +16,7 @@ from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.rules import check_largest
 from swtstudy.points.shapes import largest_depths, largest_reach
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
 from swtstudy.units.rows import MEAN_LOADS, SCALES
 from swtstudy.vocabulary.choices import family_of
@@ -169,9 +169,8 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
         wrong &= values.values != 0.0  # the profile has none of it
     if not wrong.any() or not row.scale:
         return True
-    first = np.unravel_index(int(wrong.argmax()), wrong.shape)
-    at = dict(zip(map(str, values.dims), first, strict=True))
-    here = _at(grid, at)
+    at = index_at(values, int(wrong.argmax()))
+    first, here = tuple(at.values()), _at(grid, at)
     own, unit = as_number(here[source]), grid.row(source).units
     number = float(values.values[first])
     words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here and name != source})
