@@ -20,7 +20,7 @@ from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
 from swtstudy.points.values import NOTHING, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, is_whole, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -170,26 +170,19 @@ def _designed(
 
 
 def _read_design(raw: Mapping[str, Any], report: Report) -> Design | None:
-    name, size, seed = raw["design"], raw.get("size"), raw.get("seed", 0)
-    good_size, good_seed = _whole(size, 1, LONGEST_AXIS), _whole(seed, 0, LARGEST_SEED)
+    name, seed = raw["design"], raw.get("seed", 0)
+    size: Any = raw.get("size")
+    balanced = name in BALANCED
+    good_size = is_whole(size, 1, LONGEST_AXIS) and not (balanced and size & (size - 1))
+    good_seed = is_whole(seed, 0, LARGEST_SEED)
     if name not in DESIGNS:
         report("sample.design", literal(name), nearest(str(name), DESIGNS))
-    balanced = name in BALANCED
-    if good_size is None or (balanced and good_size & (good_size - 1)):
+    if not good_size:
         allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
         report("sample.size", "nothing" if size is None else literal(size), allowed)
-        good_size = None
-    if good_seed is None:
+    if not good_seed:
         report("sample.seed", literal(seed), f"a whole number from 0 to {LARGEST_SEED}")
-    if name not in DESIGNS or good_size is None or good_seed is None:
-        return None
-    return Design(name, good_size, good_seed)
-
-
-def _whole(raw: object, least: int, largest: int) -> int | None:
-    """A whole number in a range; None for anything else."""
-    whole = isinstance(raw, int) and not isinstance(raw, bool) and least <= raw <= largest
-    return raw if whole else None  # type: ignore[return-value]
+    return Design(name, size, seed) if name in DESIGNS and good_size and good_seed else None
 
 
 def _given(

@@ -16,7 +16,15 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal, plain_number
+from swtstudy.vocabulary.mistakes import (
+    Mistake,
+    Report,
+    StudyError,
+    is_number,
+    is_whole,
+    literal,
+    plain_number,
+)
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
@@ -324,17 +332,13 @@ def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
     return _whole(name, time, values, given)
 
 
-def _is_count(value: object, most: float) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= most
-
-
 #: What is sound for each key, and in words.
 _SOUND = {
     "absolute": (lambda value: isinstance(value, bool), "true or false"),
     "time": (lambda value: isinstance(value, str) and value.strip(), "the header of the column of the time"),
-    "recorded_cycles": (lambda value: _is_count(value, np.inf), "a whole number of cycles, 1 or more"),
+    "recorded_cycles": (lambda value: is_whole(value, 1), "a whole number of cycles, 1 or more"),
     "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
-    "harmonics": (lambda value: _is_count(value, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
+    "harmonics": (lambda value: is_whole(value, 1, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
 }
 
 

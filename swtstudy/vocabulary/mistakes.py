@@ -139,6 +139,11 @@ def is_number(value: object) -> TypeGuard[Real | Decimal]:
     return isinstance(value, Real | Decimal) and not isinstance(value, bool) and not is_time
 
 
+def is_whole(value: object, least: int, largest: float = math.inf) -> TypeGuard[int]:
+    """Return whether a value is a whole number in a range, and not a truth value."""
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= largest
+
+
 def plain_number(value: object) -> float:
     """A number as a float; NaN, which is in no range, for anything else."""
     value = plain(value)
