@@ -120,6 +120,13 @@ def read_columns(
     return np.stack(columns, axis=1)
 
 
+def read_as_given(path: Path, names: Sequence[str], given: Mapping[str, Any]) -> FloatArray:
+    """The columns of a table in the form that is given; a StudyError with every mistake in that."""
+    check_form(given, names, report := Report())
+    report.refuse()
+    return read_columns(path, names, (), form_of(given))
+
+
 def _header(text: str, form: Form) -> tuple[int, list[str]]:
     """The first line that is not empty: its number, and its cells."""
     for number, line in enumerate(io.StringIO(text), start=1):
