@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from typing import Literal, get_args
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
@@ -23,7 +24,8 @@ LINE_KINDS = ("lines", "life")
 #: Kinds of surfaces over x and vertical.
 SURFACES = ("contour", "heatmap")
 #: Kinds of figures: lines, a surface over x and vertical, or those of a sample.
-KINDS = (*LINE_KINDS, *SURFACES, *SAMPLE_KINDS)
+Kind = Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
