@@ -48,14 +48,6 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
-def _kinds() -> dict[str, type[Definition]]:
-    """The classes of definitions, by parameter; imported where they are needed."""
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-    from swtstudy.mechanics.load.load_path import LoadPath
-
-    return {each.parameter: each for each in (LoadPath, TabulatedProfile)}
-
-
 def definitions_text(definitions: Iterable[Definition]) -> str:
     """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
@@ -68,10 +60,14 @@ def definitions_text(definitions: Iterable[Definition]) -> str:
 
 def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name."""
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.mechanics.load.load_path import LoadPath
+
+    kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}
     for raw in _json(text, list):
         try:
-            defined = _kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
+            defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
