@@ -217,9 +217,9 @@ class PhysicalContact(InUnits):
             A ValueError, as of `swt`, or if the constants are none.
         """
         require_swt(self.grid)
-        one, two = constants_of_both(constants)
-        bodies = bodies_of(s, self.moduli.alike and one == two, body)
-        return cycles_from((one, two), swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
+        both = constants_of_both(constants)
+        bodies = bodies_of(s, self.moduli.alike and both[0] == both[1], body)
+        return cycles_from(both, swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
 
     def solve(
         self,
