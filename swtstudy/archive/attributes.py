@@ -18,7 +18,7 @@ from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
-from swtstudy.vocabulary.quantities import every_variable, is_item
+from swtstudy.vocabulary.quantities import EVERY_VARIABLE, is_item
 from swtstudy.vocabulary.version import __version__
 
 
@@ -94,7 +94,7 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        if reference(y) is None and y.strip() not in (*VARIABLES, *every_variable(), *others):
+        if reference(y) is None and y.strip() not in (*VARIABLES, *EVERY_VARIABLE, *others):
             raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 

@@ -32,11 +32,11 @@ from swtstudy.vocabulary.mistakes import (
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import (
     DISTANCE,
+    EVERY_VARIABLE,
     NONLOCAL,
     NOTHING,
     Request,
     attributes_of,
-    every_variable,
     item_of,
 )
 
@@ -93,7 +93,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         yield from _unread(CONTACT, attributes[CONTACT], read_contact)
     expected = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    expected |= {name: attributes_of(name)["units"] for name in every_variable()}
+    expected |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
     dataset = without_units(dataset) if real else dataset
     for name, units in expected.items():
         found = dataset[name].attrs.get("units", units) if name in dataset else units

@@ -298,9 +298,8 @@ def error_of(name: str) -> str:
     return f"{name}_error"
 
 
-def every_variable() -> tuple[str, ...]:
-    """Names of all data variables that may be asked."""
-    return tuple(variable for row in QUANTITIES.values() for variable in row.variables)
+#: Names of all data variables that may be asked.
+EVERY_VARIABLE = tuple(variable for row in QUANTITIES.values() for variable in row.variables)
 
 
 def attributes_of(variable: str) -> dict[str, Any]:
