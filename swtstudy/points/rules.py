@@ -10,7 +10,7 @@ from swtstudy.points.values import values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -120,7 +120,7 @@ def check_loops(grid: Grid, report: Report) -> None:
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
     sized = [load for load in grid.loops if load.mean_normal is not None]
-    for load in sized[: not {"normal_amplitude", "normal_force_amplitude"} & {*given}]:
+    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
         found = f"{literal(load.name)} with a mean normal load of {load.mean_normal:g}, without units"
         allowed = (
             f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{load.mean_normal:g} or the like"

@@ -14,6 +14,7 @@ from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
 from swtstudy.points.values import index_at
+from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.
@@ -171,11 +172,7 @@ def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
         return f": there is a tangential force while the normal force is 0 or pulls{place}"
     name = "tangential_force_amplitude"
     harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
-    still = all(
-        not np.any(dataset[each].values)
-        for each in ("normal_amplitude", "normal_force_amplitude")
-        if each in dataset.coords
-    )
+    still = all(not np.any(dataset[each].values) for each in NORMAL_AMPLITUDES if each in dataset.coords)
     if not (harmonic and still and name in dataset.coords):
         return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
     index = np.unravel_index(int(ratio.argmax()), ratio.shape)

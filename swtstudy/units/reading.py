@@ -27,7 +27,7 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -213,7 +213,7 @@ def _check_given(
         check_forces(named, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
-        force = next(force for force, other in PAIRS.items() if other == name)
+        force = FORCE_OF[name]
         needed = own[name].default is None or name in scaling
         if name in everything or force in everything or not needed or (name in scaling and mixed):
             continue
