@@ -20,7 +20,7 @@ from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
 from swtstudy.points.values import NOTHING, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
-from swtstudy.vocabulary.mistakes import Report, is_whole, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, is_whole, literal, more_like_it, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -224,8 +224,7 @@ def _column(
             wrong.append(f"{literal(raw)} ({error}) at [{index}]")
     if not wrong:
         return tuple(good)
-    more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
-    report(key, wrong[0] + more, row.allowed)
+    report(key, wrong[0] + more_like_it(len(wrong)), row.allowed)
     return None
 
 

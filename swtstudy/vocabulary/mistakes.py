@@ -113,6 +113,17 @@ def literal(value: object, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+def more_like_it(count: int) -> str:
+    """Say behind the first of some mistakes how many others there are.
+
+    Examples
+    --------
+    >>> more_like_it(1), more_like_it(3)
+    ('', '; 2 more like it')
+    """
+    return f"; {count - 1} more like it" if count > 1 else ""
+
+
 #: What is allowed where a text is none that can be stored.
 STORABLE = "a text that an archive can hold, without a null character"
 
