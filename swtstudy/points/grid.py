@@ -21,7 +21,7 @@ from swtstudy.points.canonical import (
     code_of,
     control_code,
 )
-from swtstudy.points.values import Value, read_value
+from swtstudy.points.values import Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
@@ -212,7 +212,7 @@ def complete(
     given = {*fixed, *axes, *samples}
     given |= replaced_by(given)
     loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
-    scaling = {name for value in loads if isinstance(value, Definition) for name in value.scaled_by}
+    scaling = amplitudes_of(loads)
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
             default = LOOP_AMPLITUDE if name in scaling else parameter.default

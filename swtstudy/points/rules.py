@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import values_taken
+from swtstudy.points.values import amplitudes_of, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
@@ -88,7 +88,7 @@ def check_amplitudes(given: Iterable[str], good: Mapping[str, Sequence[Any]], re
     names |= replaced_by(names)
     if any(is_plane(profile) for profile in values_taken("profile", good)):
         names |= {*PAIRS.values()}  # forces alone have a meaning: check_forces asks for them
-    scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
+    scaling = amplitudes_of(loads)
     for name in (each for each in PARAMETERS if each in scaling and each not in names):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
         report.of(name, "nothing", allowed)

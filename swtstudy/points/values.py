@@ -9,7 +9,7 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from numbers import Rational
 from typing import TYPE_CHECKING, Any
@@ -147,6 +147,11 @@ _FRACTION_TOLERANCE = 1e-9
 def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
     """The values that a parameter has in a study: those that are given, or its default."""
     return good.get(name, (PARAMETERS[name].default,))
+
+
+def amplitudes_of(loads: Iterable[object]) -> set[str]:
+    """Names of the amplitudes that scale those of some loads that are loops."""
+    return {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
 
 
 def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:
