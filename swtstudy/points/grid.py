@@ -75,9 +75,14 @@ class Grid:
         return math.prod(self.shape)
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters that it has values of."""
+        return (*self.fixed, *self.axes, *self.samples)
+
+    @property
     def control(self) -> Control:
         """The control: what is prescribed."""
-        return Control.given((*self.fixed, *self.axes, *self.samples))
+        return Control.given(self.names)
 
     @property
     def definitions(self) -> dict[int, Definition]:
@@ -87,7 +92,7 @@ class Grid:
     @property
     def given(self) -> tuple[Definition, ...]:
         """The user's definitions as they were given: several may be the same but for their names."""
-        values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
+        values = (value for name in self.names for value in self.values(name))
         return tuple(dict.fromkeys(value for value in values if isinstance(value, Definition)))
 
     @property
