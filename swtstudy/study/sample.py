@@ -123,13 +123,10 @@ def read_sample(
     for name in ("size", "seed", "ranges"):
         if name in raw:
             report(f"sample.{name}", f"{literal(raw[name])} beside {forms[0]}", "only with a design")
-    if forms[0] == "points":
-        points, key = raw["points"], "sample.points"
-    else:
-        points, key = (
-            (read_points(folder / raw["file"], report) if isinstance(raw["file"], str) else None),
-            POINTS_KEY,
-        )
+    points, key = raw.get("points"), "sample.points"
+    if forms[0] == "file":
+        file, key = raw["file"], POINTS_KEY
+        points = read_points(folder / file, report) if isinstance(file, str) else None
     if not isinstance(points, Mapping):
         return None, []
     return _given(points, key, report, known, rows), [name for name in points if name in rows]
