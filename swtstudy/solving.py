@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.points.canonical import points_from
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
@@ -78,24 +77,25 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     from swtstudy.mechanics.points import Solution
     from swtstudy.mechanics.quantities import quantities_of
     from swtstudy.points.labelled import arrays_of, label, margins
-    from swtstudy.points.unique import block_ends, columns_at, unique_points, wanted
+    from swtstudy.points.unique import columns_at, unique_points, wanted
     from swtstudy.vocabulary.quantities import columns_of
 
     unique = unique_points(grid)
-    blocks = np.split(unique.table, block_ends(unique.table)[:-1])
-    batches = [points_from(block, unique.definitions) for block in blocks]
+    batches = unique.batches
     solution = Solution.joined([solve_points(batch, rtol) for batch in batches])
     arrays = arrays_of(solution.take(unique.index), unique.mirrored) | margins(unique, grid)
     items, of = wanted(grid, asked, unique)
     known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
-    ends = block_ends(unique.table).tolist()
-    for batch, begin, end in zip(batches, [0, *ends[:-1]], ends, strict=True):
-        for one in np.unique(of[begin:end], axis=0) if items else ():
-            rows = np.flatnonzero((of[begin:end] == one).all(axis=1))
+    begin = 0
+    for batch in batches if items else ():
+        of_batch = of[begin : begin + len(batch)]
+        for one in np.unique(of_batch, axis=0):
+            rows = np.flatnonzero((of_batch == one).all(axis=1))
             own = [items[index] for index in np.flatnonzero(one)]
             found = quantities_of(batch.take(rows), own, solution.take(begin + rows))
             for name, values in found.items():
                 known[name][begin + rows] = values
+        begin += len(batch)
     columns = columns_at(grid, asked, unique, known.__getitem__)
     dataset = label(grid, arrays, asked, columns)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)

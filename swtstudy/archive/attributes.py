@@ -18,7 +18,7 @@ from swtstudy.points.records import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
-from swtstudy.vocabulary.quantities import every_variable, is_item
+from swtstudy.vocabulary.quantities import EVERY_VARIABLE, is_item
 from swtstudy.vocabulary.version import __version__
 
 
@@ -48,14 +48,6 @@ def read_failures(text: object) -> list[Failure]:
     return failures
 
 
-def _kinds() -> dict[str, type[Definition]]:
-    """The classes of definitions, by parameter; imported where they are needed."""
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-    from swtstudy.mechanics.load.load_path import LoadPath
-
-    return {each.parameter: each for each in (LoadPath, TabulatedProfile)}
-
-
 def definitions_text(definitions: Iterable[Definition]) -> str:
     """Write the user's definitions as an attribute; see `read_definitions`."""
     return json.dumps(
@@ -68,10 +60,14 @@ def definitions_text(definitions: Iterable[Definition]) -> str:
 
 def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name."""
+    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.mechanics.load.load_path import LoadPath
+
+    kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}
     for raw in _json(text, list):
         try:
-            defined = _kinds()[raw["parameter"]].of_content(raw["name"], raw["content"])
+            defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
@@ -98,7 +94,7 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
-        if reference(y) is None and y.strip() not in (*VARIABLES, *every_variable(), *others):
+        if reference(y) is None and y.strip() not in (*VARIABLES, *EVERY_VARIABLE, *others):
             raise ValueError(f"{literal(y)} is not a quantity")
     return layout
 

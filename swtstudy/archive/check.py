@@ -17,6 +17,7 @@ from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
+from swtstudy.points.values import index_at
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
 from swtstudy.vocabulary.mistakes import (
@@ -31,11 +32,11 @@ from swtstudy.vocabulary.mistakes import (
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import (
     DISTANCE,
+    EVERY_VARIABLE,
     NONLOCAL,
     NOTHING,
     Request,
     attributes_of,
-    every_variable,
     item_of,
 )
 
@@ -92,7 +93,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         yield from _unread(CONTACT, attributes[CONTACT], read_contact)
     expected = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    expected |= {name: attributes_of(name)["units"] for name in every_variable()}
+    expected |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
     dataset = without_units(dataset) if real else dataset
     for name, units in expected.items():
         found = dataset[name].attrs.get("units", units) if name in dataset else units
@@ -168,7 +169,7 @@ def _words(value: object) -> str:
 
 def _first(dataset: xr.Dataset, name: str, wrong: NDArray[np.bool_]) -> str:
     """The first wrong value, where it is, and how many more there are."""
-    index = dict(zip(dataset.s.dims, np.unravel_index(int(wrong.argmax()), wrong.shape), strict=True))
+    index = index_at(dataset.s, int(wrong.argmax()))
     place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
     where = f" at {place}" if place else ""
     more = f" and {int(wrong.sum()) - 1} more" if wrong.sum() > 1 else ""

@@ -19,9 +19,9 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
-from swtstudy.vocabulary.wording import listed, number_words, numbers_words, value_words
+from swtstudy.vocabulary.wording import listed, number_words, numbers_words, unit_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
@@ -174,8 +174,7 @@ def _counted_words(dataset: xr.Dataset) -> str:
 
 def _unit(coordinate: xr.DataArray) -> str:
     """The unit that a coordinate has in a study with units."""
-    units, own = coordinate.attrs.get("units", ""), AXES[str(coordinate.name)].units
-    return f" {units}" if units not in ("", "1", own) else ""
+    return unit_words(coordinate.attrs.get("units", ""))
 
 
 def _axis_words(name: str, values: np.ndarray) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -62,10 +62,12 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
     records = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    _refuse_other_versions(paths, parts)
+    runs = [(run, path) for path, part in zip(paths, parts, strict=True) for run in part.trimmed().runs]
+    _refuse_several("solver versions", {run.solver_version: path for run, path in reversed(runs)})
     _refuse_other_contacts(paths, datasets)
     grids = [grid_of(dataset) for dataset in datasets]
-    _refuse_other_controls(paths, grids)
+    controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
+    _refuse_several("prescribed loads", controls)
     grid = _union(grids)
     _refuse_conflicts(paths, records, sources, grid.definitions)
     points = unique_points(grid)
@@ -106,21 +108,11 @@ def _names(paths: Sequence[Path]) -> str:
     return ", ".join(map(str, paths))
 
 
-def _refuse_other_versions(paths: Sequence[Path], parts: list[Records]) -> None:
-    versions: dict[str, Path] = {}
-    for path, part in zip(paths, parts, strict=True):
-        for run in part.trimmed().runs:
-            versions.setdefault(run.solver_version, path)
-    if len(versions) > 1:
-        words = ", ".join(f"{version} in {path}" for version, path in sorted(versions.items()))
-        raise ConflictError(f"results of different solver versions cannot be merged: {words}")
-
-
-def _refuse_other_controls(paths: Sequence[Path], grids: list[Grid]) -> None:
-    controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
-    if len(controls) > 1:
-        words = ", ".join(f"{control} in {path}" for control, path in sorted(controls.items()))
-        raise ConflictError(f"results of different prescribed loads cannot be merged: {words}")
+def _refuse_several(what: str, where: Mapping[str, Path]) -> None:
+    """Refuse results with several of these, each of which is in one of the archives."""
+    if len(where) > 1:
+        words = ", ".join(f"{each} in {path}" for each, path in sorted(where.items()))
+        raise ConflictError(f"results of different {what} cannot be merged: {words}")
 
 
 def _refuse_conflicts(

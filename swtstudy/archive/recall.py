@@ -80,9 +80,8 @@ def grid_of(dataset: xr.Dataset) -> Grid:
 def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     """A grid of contacts that can be."""
     report = Report()
-    lacking = [name for name in ("young_modulus", "poisson_ratio", "friction") if name not in grid.pairs]
-    for name in lacking:
-        if not grid.values(name):
+    for name in ("young_modulus", "poisson_ratio", "friction"):
+        if name not in grid.pairs and not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
     if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):
         report.of(MEAN_LOADS, *wrong)

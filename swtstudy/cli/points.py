@@ -194,10 +194,12 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
     """A point, or a profile where its shape alone is given."""
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.profile import draw_profile
-    from swtstudy.study.loops_and_profiles import table_from
+    from swtstudy.study.loops_and_profiles import profile_from
 
-    if Path(str(values.get("profile"))).suffix == ".csv":
-        values = {**values, "profile": table_from(Path(str(values["profile"])), smoothing)}
+    path = Path(str(values.get("profile")))
+    if path.suffix == ".csv":
+        table = {"file": path.name, "smoothing": smoothing}
+        values = {**values, "profile": profile_from(path.stem, table, path.parent)}
     return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
 
 

@@ -4,33 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.contacts.measured import InUnits, Measured, as_html, as_text, headline, require_swt
+from swtstudy.contacts.measured import InUnits, as_html, as_text, require_swt
 from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
-from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid, spanned
-from swtstudy.units.at_rest import Contact, Moduli
+from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block, checked_blocks
-from swtstudy.units.bodies import (
-    bodies_of,
-    checked_body,
-    constants_of_both,
-    cycles_from,
-    stresses_of_both,
-    swt_from,
-)
+from swtstudy.units.bodies import bodies_of, constants_of_both, cycles_from, stresses_of_both, swt_from
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.loads import mean_of_bulk
 from swtstudy.units.reading import completed
 from swtstudy.units.rows import length_of
-from swtstudy.vocabulary.choices import SWT, family_of, is_profile
+from swtstudy.vocabulary.choices import family_of, is_profile
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
@@ -132,48 +124,6 @@ class PhysicalContact(InUnits):
         profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 
-    @cached_property
-    def _one(self) -> Contact:
-        """The contact at rest; a StudyError if there are several."""
-        several = [name for name in self.grid.dims if name != "body"]
-        if several:
-            raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
-        return self.grid.at_rest.contacts.item()
-
-    def parameters(self, body: int | str = 1) -> dict[str, Any]:
-        """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
-
-        Parameters
-        ----------
-        body
-            1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
-            the tractions do not depend on these, and the stress beneath them on those of the body alone.
-        """
-        contact, grid = self._one, self._with_bodies((float(self._body(body)),))
-        control, shape = grid.control, family_of(contact.profile).shape
-        names = ("frequency_ratio", "load", "criterion")
-        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
-        own["profile"] = contact.pure_profile
-        for column, values in grid.numbers.items():
-            if PARAMETERS[column].part != "shape" or column in shape:
-                own[control.given_for(column)] = float(values.squeeze())
-        # What scales a loop is 1 unless it is given.
-        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
-        if own["criterion"] == SWT:
-            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
-        else:
-            needed = (*needed, "normal_sensitivity")
-        return {
-            name: own[name]
-            for name, row in PARAMETERS.items()
-            if name in own and (name in needed or not row.goes_without_saying(own[name]))
-        }
-
-    def _with_bodies(self, bodies: tuple[float, ...]) -> PhysicalGrid:
-        axes = {name: values for name, values in self.grid.axes.items() if name != "body"}
-        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
-        return replace(self.grid, fixed=fixed, axes={**axes, "body": bodies})
-
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
         """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
 
@@ -267,9 +217,9 @@ class PhysicalContact(InUnits):
             A ValueError, as of `swt`, or if the constants are none.
         """
         require_swt(self.grid)
-        one, two = constants_of_both(constants)
-        bodies = bodies_of(s, self.moduli.alike and one == two, body)
-        return cycles_from((one, two), swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
+        both = constants_of_both(constants)
+        bodies = bodies_of(s, self.moduli.alike and both[0] == both[1], body)
+        return cycles_from(both, swt_from(s, self.swt_scale, self.moduli, bodies), bodies, counted)
 
     def solve(
         self,
@@ -385,18 +335,3 @@ class PhysicalContact(InUnits):
         self._one  # noqa: B018 – one contact only, or an error
         grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
         return optimum(grid, over, minimise, float(rtol), seed, asked)
-
-    def _body(self, body: int | str) -> int:
-        """The label of a body, 1 or 2, from that or its name."""
-        return checked_body(body, names=self.grid.body_names)
-
-    def _measured(self, body: int | str) -> Measured:
-        """The scales of one body of one contact."""
-        return Measured(self._one, self._body(body) - 1, self.grid.labels, str(self.criterion))
-
-    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
-        body = self._body(body)
-        grid = replace(self._with_bodies((float(body),)), materials=(), shear_materials=(), blocks=())
-        asked = Request((YIELD,) if grid.yield_strengths else ())
-        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
-        return headline(self, body, at_rest), validity

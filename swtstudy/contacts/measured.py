@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,13 +12,19 @@ import numpy as np
 from swtstudy.figures.quantity_words import Label
 from swtstudy.points.labelled import ATTRIBUTES, margins
 from swtstudy.points.unique import unique_points
+from swtstudy.points.validity import validity_lines
+from swtstudy.solving import solve_grid
 from swtstudy.units.at_rest import Contact
+from swtstudy.units.bodies import checked_body
+from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, rows
 from swtstudy.units.variables import KINDS
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, family_of
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import YIELD, Request
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
 if TYPE_CHECKING:
@@ -28,7 +34,6 @@ if TYPE_CHECKING:
     from swtstudy.contacts.contact import PhysicalContact
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
-    from swtstudy.units.grid import PhysicalGrid
 
 #: What a contact is at rest, and what everything else is measured in.
 _AT_REST = {
@@ -57,9 +62,8 @@ def as_text(contact: PhysicalContact) -> str:
     )
 
 
-def headline(contact: PhysicalContact, body: int, at_rest: bool = False) -> str:
+def headline(grid: PhysicalGrid, body: int, at_rest: bool = False) -> str:
     """List what is given of one contact with symbols and units: of one of its bodies, or of it at rest."""
-    grid = contact.grid
     words = {}
     for name, values in {"profile": grid.values("profile"), **_given(grid)}.items():
         if grid.row(name).part == "bulk" and body != grid.bulk_stress_body + 1:
@@ -235,20 +239,69 @@ def require_swt(grid: PhysicalGrid) -> None:
         raise StudyError([Mistake("criterion", ", ".join(names), allowed)])
 
 
-class InUnits(ABC):
-    """Fields and inspection of one contact in lengths, forces and stresses."""
+class InUnits:
+    """One contact: its parameters without units, and its fields and inspection in lengths and stresses."""
 
-    @abstractmethod
+    grid: PhysicalGrid
+
+    @cached_property
+    def _one(self) -> Contact:
+        """The contact at rest; a StudyError if there are several."""
+        several = [name for name in self.grid.dims if name != "body"]
+        if several:
+            raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
+        return self.grid.at_rest.contacts.item()
+
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
-        """The non-dimensional parameters of one contact."""
+        """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
 
-    @abstractmethod
+        Parameters
+        ----------
+        body
+            1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
+            the tractions do not depend on these, and the stress beneath them on those of the body alone.
+        """
+        contact, grid = self._one, self._grid_of(self._body(body))
+        control, shape = grid.control, family_of(contact.profile).shape
+        names = ("frequency_ratio", "load", "criterion")
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
+        own["profile"] = contact.pure_profile
+        for column, values in grid.numbers.items():
+            if PARAMETERS[column].part != "shape" or column in shape:
+                own[control.given_for(column)] = float(values.squeeze())
+        # What scales a loop is 1 unless it is given.
+        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
+        if own["criterion"] == SWT:
+            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
+        else:
+            needed = (*needed, "normal_sensitivity")
+        return {
+            name: own[name]
+            for name, row in PARAMETERS.items()
+            if name in own and (name in needed or not row.goes_without_saying(own[name]))
+        }
+
+    def _grid_of(self, body: int) -> PhysicalGrid:
+        """The grid of one body."""
+        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
+        return replace(self.grid, fixed=fixed, axes={**self.grid.axes, "body": (float(body),)})
+
+    def _body(self, body: int | str) -> int:
+        """The label of a body, 1 or 2, from that or its name."""
+        return checked_body(body, names=self.grid.body_names)
+
     def _measured(self, body: int | str) -> Measured:
         """The scales of one body of one contact."""
+        criterion = str(self.grid.values("criterion")[0])
+        return Measured(self._one, self._body(body) - 1, self.grid.labels, criterion)
 
-    @abstractmethod
     def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
         """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
+        body = self._body(body)
+        grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
+        asked = Request((YIELD,) if grid.yield_strengths else ())
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        return headline(self.grid, body, at_rest), validity
 
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""

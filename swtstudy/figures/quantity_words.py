@@ -13,7 +13,7 @@ from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import SWT, SYMBOLS, family_of
-from swtstudy.vocabulary.quantities import QUANTITIES, attributes_of, every_variable
+from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.wording import as_text, place_words
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
         return f"$s = {SYMBOLS[criterion]}$" if criterion in SYMBOLS else "$s$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
-    known = {**ATTRIBUTES, **{name: attributes_of(name) for name in every_variable()}}
+    known = {**ATTRIBUTES, **{name: attributes_of(name) for name in EVERY_VARIABLE}}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     if not kept and symbol and _is_unfamiliar(str(values.name)):

@@ -20,13 +20,13 @@ from swtstudy.mechanics.indenter import roughness
 from swtstudy.mechanics.load.bimodal import alike, load_of
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.roots import parabola
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.points import FloatArray, Points, Rows
 from swtstudy.mechanics.stress.work import SAMPLES
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP
 
 
 @dataclass(frozen=True)
-class Margins:
+class Margins(Rows):
     """Margins of n points, each of shape (n,).
 
     Attributes
@@ -58,9 +58,7 @@ class Margins:
             level = roughness(some.profile, some.shape, deepest)
             for each in np.unique(level):
                 rows = np.flatnonzero(level == each)
-                own = _of_alike(points.take(index[rows]), load.take(rows))
-                for name, values in vars(own).items():
-                    getattr(found, name)[index[rows]] = values
+                found.write(index[rows], _of_alike(points.take(index[rows]), load.take(rows)))
         return found
 
 

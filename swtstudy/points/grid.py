@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -22,7 +21,7 @@ from swtstudy.points.canonical import (
     code_of,
     control_code,
 )
-from swtstudy.points.values import Value, read_value
+from swtstudy.points.values import Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
@@ -76,9 +75,14 @@ class Grid:
         return math.prod(self.shape)
 
     @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parameters that it has values of."""
+        return (*self.fixed, *self.axes, *self.samples)
+
+    @property
     def control(self) -> Control:
         """The control: what is prescribed."""
-        return Control.given((*self.fixed, *self.axes, *self.samples))
+        return Control.given(self.names)
 
     @property
     def definitions(self) -> dict[int, Definition]:
@@ -88,7 +92,7 @@ class Grid:
     @property
     def given(self) -> tuple[Definition, ...]:
         """The user's definitions as they were given: several may be the same but for their names."""
-        values = (value for name in (*self.fixed, *self.axes, *self.samples) for value in self.values(name))
+        values = (value for name in self.names for value in self.values(name))
         return tuple(dict.fromkeys(value for value in values if isinstance(value, Definition)))
 
     @property
@@ -97,11 +101,6 @@ class Grid:
         from swtstudy.mechanics.load.load import Loop
 
         return tuple(load for load in self.values("load") if isinstance(load, Loop))
-
-    @property
-    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
-        """The parameters that differ from body to body."""
-        return {}
 
     def row(self, name: str) -> Parameter:
         """The row of a parameter, with its unit."""
@@ -218,7 +217,7 @@ def complete(
     given = {*fixed, *axes, *samples}
     given |= replaced_by(given)
     loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
-    scaling = {name for value in loads if isinstance(value, Definition) for name in value.scaled_by}
+    scaling = amplitudes_of(loads)
     for name, parameter in PARAMETERS.items():
         if name not in given and parameter.default is not None:
             default = LOOP_AMPLITUDE if name in scaling else parameter.default

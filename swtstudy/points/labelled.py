@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES, Solution
 from swtstudy.points import requested
-from swtstudy.points.canonical import points_from
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.records import STATES
-from swtstudy.points.unique import UniquePoints, block_ends
+from swtstudy.points.unique import UniquePoints
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, with_values_of
@@ -239,11 +238,8 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
     names = grid.margins
     if not names:
         return {}
-    blocks = np.split(points.table, block_ends(points.table)[:-1])
-    every = [Margins.of(points_from(block, points.definitions)) for block in blocks]
-    radius, width, shift, ratio = (
-        np.concatenate([getattr(each, name) for each in every])[points.index] for name in vars(every[0])
-    )
+    every = Margins.joined([Margins.of(batch) for batch in points.batches])
+    radius, width, shift, ratio = vars(every.take(points.index)).values()
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
             "bulk_shift": np.where(shift <= width, shift, np.nan),

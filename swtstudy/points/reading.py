@@ -102,17 +102,18 @@ def read_grid(
     good_fixed, good_axes = read_values(fixed, axes, report, others, samples, known)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
-    check_amplitudes((*fixed, *axes, *samples), good, report)
+    given = {*fixed, *axes, *samples}
+    check_amplitudes(given, good, report)
     check_shapes_given(fixed, {**axes, **samples}, good, report)
-    check_forces((*fixed, *axes, *samples), good, report)
-    check_criteria((*fixed, *axes, *samples), good, report)
+    check_forces(given, good, report)
+    check_criteria(given, good, report)
     if report or len(good_samples) < len(samples):
         return None, report
     grid = complete(good_fixed, good_axes, good_samples)
-    check_sizes(grid, (*fixed, *axes, *samples), report)
+    check_sizes(grid, given, report)
     check_loops(grid, report)
-    given = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
-    largest = {name: max(map(as_number, values), default=0.0) for name, values in given.items()}
+    values = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
+    largest = {name: max(map(as_number, each), default=0.0) for name, each in values.items()}
     check_largest(grid, largest, report)
     check_shapes(grid, report)
     return (None if report else grid), report

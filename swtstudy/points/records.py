@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -124,8 +124,7 @@ class Records(Rows):
     def fill(self, rows: IntArray, part: Records) -> Records:
         """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
         runs, index = _with_runs(self.runs, part.runs)
-        for item in fields(Solution):
-            getattr(self.solution, item.name)[rows] = getattr(part.solution, item.name)
+        self.solution.write(rows, part.solution)
         for name in {**self.quantities, **part.quantities}:
             values = self.quantities.setdefault(name, np.full(len(self), np.nan))
             values[rows] = part.quantities.get(name, np.nan)

@@ -6,11 +6,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import values_taken
+from swtstudy.points.values import amplitudes_of, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -88,7 +88,7 @@ def check_amplitudes(given: Iterable[str], good: Mapping[str, Sequence[Any]], re
     names |= replaced_by(names)
     if any(is_plane(profile) for profile in values_taken("profile", good)):
         names |= {*PAIRS.values()}  # forces alone have a meaning: check_forces asks for them
-    scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
+    scaling = amplitudes_of(loads)
     for name in (each for each in PARAMETERS if each in scaling and each not in names):
         allowed = "a value: it scales the loops, and is the amplitude of the harmonic load"
         report.of(name, "nothing", allowed)
@@ -120,7 +120,7 @@ def check_loops(grid: Grid, report: Report) -> None:
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
     sized = [load for load in grid.loops if load.mean_normal is not None]
-    for load in sized[: not {"normal_amplitude", "normal_force_amplitude"} & {*given}]:
+    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
         found = f"{literal(load.name)} with a mean normal load of {load.mean_normal:g}, without units"
         allowed = (
             f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{load.mean_normal:g} or the like"

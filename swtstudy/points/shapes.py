@@ -12,7 +12,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.values import as_number, values_taken
 from swtstudy.vocabulary.choices import families_with, family_of
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal
+from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -78,8 +78,7 @@ def check_shapes(grid: Grid, report: Report) -> None:
 
             shape, depth = first
             found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
-            more = f"; {refused - 1} more like it" if refused > 1 else ""
-            report.of(names, found + more, check_shape(profile, shape, depth) or "")
+            report.of(names, found + more_like_it(refused), check_shape(profile, shape, depth) or "")
 
 
 def _check_table(grid: Grid, profile: Any, report: Report) -> None:

@@ -11,8 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray
-from swtstudy.points.canonical import COST, LOAD_COLUMNS, ROW, SHARED_COLUMNS, Definitions, Table, group_rows
+from swtstudy.mechanics.points import FloatArray, IntArray, Points
+from swtstudy.points.canonical import (
+    COST,
+    LOAD_COLUMNS,
+    ROW,
+    SHARED_COLUMNS,
+    Definitions,
+    Table,
+    group_rows,
+    points_from,
+)
 from swtstudy.points.grid import Grid
 from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of
 
@@ -43,6 +52,12 @@ class UniquePoints:
     index: IntArray
     mirrored: NDArray[np.bool_]
     definitions: Definitions
+
+    @property
+    def batches(self) -> list[Points]:
+        """The batches that are solved one by one, in the order of the table; see `block_ends`."""
+        blocks = np.split(self.table, block_ends(self.table)[:-1])
+        return [points_from(block, self.definitions) for block in blocks]
 
 
 def unique_points(grid: Grid) -> UniquePoints:

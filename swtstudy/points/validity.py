@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.requested import has_units
-from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
+from swtstudy.points.values import index_at
+from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
+from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -170,11 +172,7 @@ def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
         return f": there is a tangential force while the normal force is 0 or pulls{place}"
     name = "tangential_force_amplitude"
     harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
-    still = all(
-        not np.any(dataset[each].values)
-        for each in ("normal_amplitude", "normal_force_amplitude")
-        if each in dataset.coords
-    )
+    still = all(not np.any(dataset[each].values) for each in NORMAL_AMPLITUDES if each in dataset.coords)
     if not (harmonic and still and name in dataset.coords):
         return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
     index = np.unravel_index(int(ratio.argmax()), ratio.shape)
@@ -259,18 +257,17 @@ def _where(out: NDArray[np.bool_]) -> str:
 
 def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str, ...] = ()) -> str:
     """At which point values in the shape of s are largest, but for some dimensions."""
-    index = np.unravel_index(int(np.nan_to_num(values, nan=-np.inf).argmax()), values.shape)
     words = []
-    for dim, number in zip(map(str, dataset.s.dims), index, strict=True):
+    for dim, number in index_at(dataset.s, int(np.nan_to_num(values, nan=-np.inf).argmax())).items():
         if dim in besides:
             continue
         if dim not in dataset.coords:
-            words.append(f"{dim} = {int(number)}")
+            words.append(f"{dim} = {number}")
             continue
         value: Any = dataset[dim].values[number]
-        unit = dataset[dim].attrs.get("units", "1")
-        named = coordinate_words(dim, value if isinstance(value, str) else float(value), dataset[dim].attrs)
-        words.append(f"{dim} = {named}" + (f" {unit}" if unit not in ("1", "rad", "") else ""))
+        attributes = dataset[dim].attrs
+        named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
+        words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
     return f" at {', '.join(words)}" if words else ""
 
 

@@ -9,10 +9,10 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from numbers import Rational
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Bounds the depth of the parser's recursion and the size of its exact integers.
 LONGEST_EXPRESSION = 80
@@ -144,6 +147,11 @@ _FRACTION_TOLERANCE = 1e-9
 def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
     """The values that a parameter has in a study: those that are given, or its default."""
     return good.get(name, (PARAMETERS[name].default,))
+
+
+def amplitudes_of(loads: Iterable[object]) -> set[str]:
+    """Names of the amplitudes that scale those of some loads that are loops."""
+    return {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
 
 
 def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:
@@ -284,3 +292,9 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = AXIS_TOLERA
     allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
     nearest = int(distance.argmin())
     return nearest if distance[nearest] <= allowed[nearest] else None
+
+
+def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:
+    """Index along each dimension of a place among the flattened values."""
+    index = np.unravel_index(flat, values.shape) if values.ndim else ()
+    return dict(zip(map(str, values.dims), map(int, index), strict=True))

@@ -15,6 +15,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.requested import CONTACT, has_units
+from swtstudy.points.values import index_at
 from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
 from swtstudy.units.blocks import REPETITIONS, sequence_words
@@ -177,12 +178,6 @@ def _lives(dataset: xr.Dataset) -> Iterator[str]:
 def _alone(values: xr.DataArray) -> str:
     """That one of several points has a value."""
     return f" at one of {values.size} points; the others have none" if values.size > 1 else ""
-
-
-def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:
-    """Index along each dimension of a place among the flattened values."""
-    index = np.unravel_index(flat, values.shape) if values.ndim else ()
-    return dict(zip(map(str, values.dims), map(int, index), strict=True))
 
 
 def worst_place(dataset: xr.Dataset) -> dict[str, int]:

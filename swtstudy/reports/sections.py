@@ -14,7 +14,8 @@ from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
 from swtstudy.points.requested import CONTACT, has_units
-from swtstudy.reports.findings import along, extreme_points, index_at, levers, measured, parameters_of
+from swtstudy.points.values import index_at
+from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
 from swtstudy.reports.values import (
     place_html,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text
+from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
 if TYPE_CHECKING:
@@ -105,8 +105,9 @@ def read_columns(
     try:
         text = io.StringIO(read_text(path, LARGEST_TABLE), newline=None).read()  # lines end as \n, \r\n or \r
     except (OSError, ValueError) as error:
-        found = getattr(error, "strerror", None) or str(error)
-        raise StudyError([Mistake("", found, "a CSV file in UTF-8 that can be read", source)]) from None
+        raise StudyError(
+            [Mistake("", reason_of(error), "a CSV file in UTF-8 that can be read", source)]
+        ) from None
     try:
         line, header = _header(text, form)
     except csv.Error as error:
@@ -117,6 +118,13 @@ def read_columns(
     table = _cells(text, line, len(header), form, source)
     columns = [_numbers(table[header.index(form.header(name))], form, name, source) for name in names]
     return np.stack(columns, axis=1)
+
+
+def read_as_given(path: Path, names: Sequence[str], given: Mapping[str, Any]) -> FloatArray:
+    """The columns of a table in the form that is given; a StudyError with every mistake in that."""
+    check_form(given, names, report := Report())
+    report.refuse()
+    return read_columns(path, names, (), form_of(given))
 
 
 def _header(text: str, form: Form) -> tuple[int, list[str]]:

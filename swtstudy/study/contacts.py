@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.units.blocks import Block, wrong_rounds
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
-from swtstudy.vocabulary.quantities import every_variable
+from swtstudy.vocabulary.quantities import EVERY_VARIABLE
 
 if TYPE_CHECKING:
     from swtstudy.units.grid import ContactDetails
@@ -102,7 +102,7 @@ def every_name() -> set[str]:
     """Names of all data variables that a study with units may have."""
     from swtstudy.units.variables import NAMES
 
-    return {*NAMES, *every_variable()}
+    return {*NAMES, *EVERY_VARIABLE}
 
 
 def rows_of(contacts: ContactDetails | None) -> Mapping[str, Parameter]:

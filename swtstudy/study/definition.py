@@ -15,7 +15,7 @@ from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import (
     STORABLE,
     Mistake,
@@ -32,6 +32,8 @@ from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quanti
 if TYPE_CHECKING:
     from swtstudy.study.sample import Sample
     from swtstudy.vocabulary.parameter import Parameter
+
+_READABLE = "a readable study file (TOML)"
 
 
 def require_study(study: object) -> None:
@@ -114,8 +116,7 @@ class Study:
                 allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
             raise StudyError([Mistake("", "no such file", allowed, source)]) from None
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise StudyError([Mistake("", reason, "a readable study file (TOML)", source)]) from None
+            raise StudyError([Mistake("", reason_of(error), _READABLE, source)]) from None
         return cls.from_text(text, source, file.parent)
 
     @classmethod
@@ -150,8 +151,7 @@ def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
     try:
         return parse_toml(read_text(path))
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StudyError([Mistake("", reason, "a readable study file (TOML)", str(path))]) from None
+        raise StudyError([Mistake("", reason_of(error), _READABLE, str(path))]) from None
 
 
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from swtstudy.vocabulary.parameter import Parameter
 
 #: Sobol sequence, Latin hypercube, independent random points, and the points for Sobol indices.
 DesignName = Literal["sobol", "latin_hypercube", "random", "saltelli"]
-DESIGNS: tuple[DesignName, ...] = ("sobol", "latin_hypercube", "random", "saltelli")
+DESIGNS: tuple[DesignName, ...] = get_args(DesignName)
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")

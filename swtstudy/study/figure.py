@@ -7,12 +7,13 @@ import re
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from typing import Literal, get_args
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, Request, every_variable
+from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -23,7 +24,8 @@ LINE_KINDS = ("lines", "life")
 #: Kinds of surfaces over x and vertical.
 SURFACES = ("contour", "heatmap")
 #: Kinds of figures: lines, a surface over x and vertical, or those of a sample.
-KINDS = (*LINE_KINDS, *SURFACES, *SAMPLE_KINDS)
+Kind = Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
@@ -290,7 +292,7 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         if name in COUNTED:
             found = f"{literal(y)}, which has several values at a point"
             report("figure.y", found, "cycles, which is made of it")
-        elif name in every_variable() and name not in known:
+        elif name in EVERY_VARIABLE and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
         elif name not in known:

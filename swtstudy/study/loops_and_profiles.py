@@ -10,7 +10,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.study.columns import read_as_given
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 from swtstudy.study.trace import read_trace
 from swtstudy.vocabulary.choices import AXISYMMETRIC
@@ -123,13 +123,7 @@ _RADII = np.linspace(0.0, 1e3, 9)
 _ANY_PROFILE = TabulatedProfile("any", _RADII, _RADII**2)
 
 
-def table_from(path: Path, smoothing: float = 0.0) -> TabulatedProfile:
-    """The profile in a CSV file, of the name of the file."""
-    radius, height = read_columns(path, PROFILE_COLUMNS).T
-    return TabulatedProfile(path.stem, radius, height, smoothing)
-
-
-def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProfile:
+def profile_from(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProfile:
     """A profile from its table."""
     geometry, smoothing = table.get("geometry", AXISYMMETRIC), table.get("smoothing")
     if table.get("two_sided") is True:
@@ -140,9 +134,7 @@ def _profile(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProf
     smoothing = 0.0 if smoothing is None else smoothing
     if "file" not in table:
         return TabulatedProfile(name, table["radius"], table["height"], smoothing, geometry)
-    check_form(table, PROFILE_COLUMNS, report := Report())
-    report.refuse()
-    radius, height = read_columns(folder / table["file"], PROFILE_COLUMNS, (), form_of(table)).T
+    radius, height = read_as_given(folder / table["file"], PROFILE_COLUMNS, table).T
     return TabulatedProfile(name, radius, height, smoothing, geometry)
 
 
@@ -160,7 +152,7 @@ def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> di
             report(key, words, "radius and height, or file")
             continue
         try:
-            found[name] = _profile(name, table, folder)
+            found[name] = profile_from(name, table, folder)
         except StudyError as error:
             for each in error.mistakes:
                 report(key, f"{each.found}{place_of(each)}", each.allowed)

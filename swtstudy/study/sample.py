@@ -19,8 +19,8 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
 from swtstudy.points.values import NOTHING, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
-from swtstudy.vocabulary.files import plain_float, read_table
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.files import plain_float, read_table, reason_of
+from swtstudy.vocabulary.mistakes import Report, is_whole, literal, more_like_it, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -34,9 +34,7 @@ def read_points(path: Path, report: Report) -> dict[str, list[object]] | None:
     try:
         names, rows = read_table(path, LONGEST_AXIS)
     except (OSError, ValueError) as error:
-        report(
-            POINTS_KEY, f"{literal(str(path))} ({getattr(error, 'strerror', None) or error})", ALLOWED_POINTS
-        )
+        report(POINTS_KEY, f"{literal(str(path))} ({reason_of(error)})", ALLOWED_POINTS)
         return None
     if not rows:
         report(POINTS_KEY, f"{literal(str(path))} without points", ALLOWED_POINTS)
@@ -125,13 +123,10 @@ def read_sample(
     for name in ("size", "seed", "ranges"):
         if name in raw:
             report(f"sample.{name}", f"{literal(raw[name])} beside {forms[0]}", "only with a design")
-    if forms[0] == "points":
-        points, key = raw["points"], "sample.points"
-    else:
-        points, key = (
-            (read_points(folder / raw["file"], report) if isinstance(raw["file"], str) else None),
-            POINTS_KEY,
-        )
+    points, key = raw.get("points"), "sample.points"
+    if forms[0] == "file":
+        file, key = raw["file"], POINTS_KEY
+        points = read_points(folder / file, report) if isinstance(file, str) else None
     if not isinstance(points, Mapping):
         return None, []
     return _given(points, key, report, known, rows), [name for name in points if name in rows]
@@ -172,26 +167,19 @@ def _designed(
 
 
 def _read_design(raw: Mapping[str, Any], report: Report) -> Design | None:
-    name, size, seed = raw["design"], raw.get("size"), raw.get("seed", 0)
-    good_size, good_seed = _whole(size, 1, LONGEST_AXIS), _whole(seed, 0, LARGEST_SEED)
+    name, seed = raw["design"], raw.get("seed", 0)
+    size: Any = raw.get("size")
+    balanced = name in BALANCED
+    good_size = is_whole(size, 1, LONGEST_AXIS) and not (balanced and size & (size - 1))
+    good_seed = is_whole(seed, 0, LARGEST_SEED)
     if name not in DESIGNS:
         report("sample.design", literal(name), nearest(str(name), DESIGNS))
-    balanced = name in BALANCED
-    if good_size is None or (balanced and good_size & (good_size - 1)):
+    if not good_size:
         allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
         report("sample.size", "nothing" if size is None else literal(size), allowed)
-        good_size = None
-    if good_seed is None:
+    if not good_seed:
         report("sample.seed", literal(seed), f"a whole number from 0 to {LARGEST_SEED}")
-    if name not in DESIGNS or good_size is None or good_seed is None:
-        return None
-    return Design(name, good_size, good_seed)
-
-
-def _whole(raw: object, least: int, largest: int) -> int | None:
-    """A whole number in a range; None for anything else."""
-    whole = isinstance(raw, int) and not isinstance(raw, bool) and least <= raw <= largest
-    return raw if whole else None  # type: ignore[return-value]
+    return Design(name, size, seed) if name in DESIGNS and good_size and good_seed else None
 
 
 def _given(
@@ -233,8 +221,7 @@ def _column(
             wrong.append(f"{literal(raw)} ({error}) at [{index}]")
     if not wrong:
         return tuple(good)
-    more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
-    report(key, wrong[0] + more, row.allowed)
+    report(key, wrong[0] + more_like_it(len(wrong)), row.allowed)
     return None
 
 

@@ -16,24 +16,21 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal, plain_number
+from swtstudy.vocabulary.mistakes import (
+    Mistake,
+    Report,
+    StudyError,
+    is_number,
+    is_whole,
+    literal,
+    plain_number,
+)
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
 #: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
 #: count seven times as much.
 LEAST_EIGENVALUE = 0.01
-
-
-def period_of(time: FloatArray, recorded_cycles: int) -> float:
-    """Period of a record that holds a number of cycles, each sample once: the first is not the last again."""
-    return float((time[-1] - time[0]) * len(time) / (len(time) - 1) / recorded_cycles)
-
-
-def whole_cycles(time: FloatArray, period: float) -> int:
-    """Number of whole cycles in a record."""
-    step = (time[-1] - time[0]) / (len(time) - 1)
-    return int((time[-1] - time[0] + step * (1.0 + ROUNDING)) / period)
 
 
 def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
@@ -335,21 +332,13 @@ def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
     return _whole(name, time, values, given)
 
 
-def _is_text(value: object) -> bool:
-    return isinstance(value, str) and bool(value.strip())
-
-
-def _is_count(value: object, most: float) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= most
-
-
 #: What is sound for each key, and in words.
 _SOUND = {
     "absolute": (lambda value: isinstance(value, bool), "true or false"),
-    "time": (_is_text, "the header of the column of the time"),
-    "recorded_cycles": (lambda value: _is_count(value, np.inf), "a whole number of cycles, 1 or more"),
+    "time": (lambda value: isinstance(value, str) and value.strip(), "the header of the column of the time"),
+    "recorded_cycles": (lambda value: is_whole(value, 1), "a whole number of cycles, 1 or more"),
     "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
-    "harmonics": (lambda value: _is_count(value, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
+    "harmonics": (lambda value: is_whole(value, 1, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
 }
 
 
@@ -372,17 +361,19 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
     """The signal with its period and number of cycles."""
     if len(values) < 2:
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least")])
+    length = time[-1] - time[0]
+    step = length / (len(time) - 1)
     if given.get("period") is not None:
         period = plain_number(given["period"])
-        count = whole_cycles(time, period)
+        count = int((length + step * (1.0 + ROUNDING)) / period)
     else:
         count = int(given.get("recorded_cycles") or 1)  # type: ignore[call-overload]
-        period = period_of(time, count)
-    samples = period * (len(time) - 1) / (time[-1] - time[0])
+        # Each sample is there once: the first is not the last again.
+        period = float(length * len(time) / (len(time) - 1) / count)
+    samples = period * (len(time) - 1) / length
     highest = int(given.get("harmonics") or 0)  # type: ignore[call-overload]
     key = "period" if given.get("period") is not None else "recorded_cycles"
     if count < 1:
-        length = time[-1] - time[0]
         raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])

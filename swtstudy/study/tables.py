@@ -7,13 +7,14 @@ their own table.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES
+from swtstudy.study.design import DESIGNS, DesignName
+from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, Kind
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     DEFAULT_RTOL,
@@ -38,6 +39,11 @@ File = Annotated[str | None, Allowed("the path of a CSV file")]
 Flag = Annotated[bool, Allowed("true or false")]
 Text = Annotated[str | None, Allowed("a text")]
 _BLOCK = Allowed("[[blocks]] with load and rounds")
+
+
+def _quoted(names: Sequence[str]) -> str:
+    *others, last = (f'"{name}"' for name in names)
+    return f"{', '.join(others)} or {last}"
 
 
 def _key(description: str, default: Any = ..., **limits: Any) -> Any:
@@ -83,10 +89,9 @@ class SampleTable(Table):
 
     allowed = "a table with design, size and ranges, or with file"
 
-    design: Annotated[
-        Literal["sobol", "latin_hypercube", "random", "saltelli"] | None,
-        Allowed('"sobol", "latin_hypercube", "random" or "saltelli"'),
-    ] = _key("How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).", None)
+    design: Annotated[DesignName | None, Allowed(_quoted(DESIGNS))] = _key(
+        "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).", None
+    )
     size: Annotated[int | None, Allowed("a whole number")] = _key(
         "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).", None
     )
@@ -100,17 +105,10 @@ class SampleTable(Table):
     )
 
 
-_QUOTED = [f'"{kind}"' for kind in KINDS]
-if TYPE_CHECKING:
-    _Kind = str
-else:
-    _Kind = Literal[KINDS]
-
-
 class FigureTable(Table):
     """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    kind: Annotated[_Kind, Allowed(f"{', '.join(_QUOTED[:-1])} or {_QUOTED[-1]}")] = _key(
+    kind: Annotated[Kind, Allowed(_quoted(KINDS))] = _key(
         "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
         "scatter or histogram of a sample.",
         "lines",

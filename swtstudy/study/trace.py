@@ -10,9 +10,9 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.study.columns import read_as_given
 from swtstudy.vocabulary.choices import AXISYMMETRIC
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
@@ -61,9 +61,7 @@ def read_trace(
         A ValueError with what is wrong.
     """
     own, given = Path(path), {"columns": columns, "separator": separator, "decimal": decimal}
-    check_form(given, COLUMNS, report := Report())
-    report.refuse()
-    position, height = read_columns(own, COLUMNS, (), form_of(given)).T
+    position, height = read_as_given(own, COLUMNS, given).T
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
     radius, mean, noise = folded(position, height, level)

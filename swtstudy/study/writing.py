@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import html_table, listed, plain_words
+from swtstudy.vocabulary.wording import html_table, listed, plain_words, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -38,63 +39,67 @@ def to_toml(
     lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
     if asked.names:
         lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
-    single, several = ((), asked.distances) if asked.is_axis else (asked.distances, ())
-    tables, fixed = _of_contacts(grid)
+    tables, of_contacts = _of_contacts(grid)
     blocks = getattr(grid, "blocks", ())
-    single_values = {name: value for name, value in grid.fixed.items() if not (blocks and name == "load")}
-    axes = {name: values for name, values in grid.axes.items() if not (blocks and name == "load")}
-    lines += [
-        *tables,
-        "",
-        "[fixed]",
-        *(f"{name} = {_literal(value)}" for name, value in single_values.items()),
-    ]
-    lines += fixed
-    lines += [f"{DISTANCE} = {value!r}" for value in single]
-    lines += ["", "[axes]"]
-    lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in axes.items()]
-    lines += [f"{DISTANCE} = {[*several]}"] * bool(several)
+    fixed = {name: _literal(value) for name, value in grid.fixed.items()} | of_contacts
+    axes = _lists(grid.axes)
+    if blocks:  # which have the loads
+        fixed.pop("load", None)
+        axes.pop("load", None)
+    if asked.distances and asked.is_axis:
+        axes[DISTANCE] = repr([*asked.distances])
+    elif asked.distances:
+        fixed[DISTANCE] = repr(asked.distances[0])
+    lines += [*tables, *_table("[fixed]", fixed), *_table("[axes]", axes)]
     if grid.samples:
-        lines += ["", "[sample.points]"]
-        lines += [f"{name} = [{', '.join(map(_literal, values))}]" for name, values in grid.samples.items()]
+        lines += _table("[sample.points]", _lists(grid.samples))
     for defined in grid.given:
-        lines += ["", f"[{defined.parameter}s.{quoted(defined.name)}]"]
-        lines += [f"{key} = {json.dumps(value)}" for key, value in defined.content().items()]
+        content = {key: json.dumps(value) for key, value in defined.content().items()}
+        lines += _table(f"[{defined.parameter}s.{quoted(defined.name)}]", content)
     for block in blocks:
-        lines += ["", "[[blocks]]", f"load = {quoted(block.load)}", f"rounds = {block.rounds!r}"]
+        lines += _table("[[blocks]]", {"load": quoted(block.load), "rounds": repr(block.rounds)})
     if figure is not None:
-        lines += ["", "[figure]", f"kind = {quoted(figure.kind)}"]
-        lines += (f"{role} = {quoted(name)}" for role, name in figure.roles())
-        lines.append(f"y = [{', '.join(map(quoted, figure.y))}]")
-        if figure.title:
-            lines.append(f"title = {quoted(figure.title)}")
-        lines += [f"{mark} = true" for mark in ("regimes", "validity") if getattr(figure, mark)]
-        if figure.caption:
-            lines.append(f"caption = {quoted(figure.caption)}")
+        lines += _table("[figure]", _of_figure(figure))
     return "\n".join(lines) + "\n"
 
 
-def _of_contacts(grid: Grid) -> tuple[list[str], list[str]]:
+def _table(head: str, entries: Mapping[str, str]) -> list[str]:
+    return ["", head, *(f"{key} = {value}" for key, value in entries.items())]
+
+
+def _lists(values: Mapping[str, Sequence[Value]]) -> dict[str, str]:
+    return {name: f"[{', '.join(map(_literal, each))}]" for name, each in values.items()}
+
+
+def _of_figure(figure: FigureLayout) -> dict[str, str]:
+    """The entries of the table of a figure."""
+    entries = {"kind": quoted(figure.kind)} | {role: quoted(name) for role, name in figure.roles()}
+    entries["y"] = f"[{', '.join(map(quoted, figure.y))}]"
+    if figure.title:
+        entries["title"] = quoted(figure.title)
+    entries |= {mark: "true" for mark in ("regimes", "validity") if getattr(figure, mark)}
+    return entries | ({"caption": quoted(figure.caption)} if figure.caption else {})
+
+
+def _of_contacts(grid: Grid) -> tuple[list[str], dict[str, str]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
     from swtstudy.units.grid import PhysicalGrid
     from swtstudy.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
 
     if not isinstance(grid, PhysicalGrid):
-        return [], []
-    tables = ["", "[units]", *(f"{kind} = {quoted(label)}" for kind, label in vars(grid.units).items())]
+        return [], {}
+    tables = _table("[units]", {kind: quoted(label) for kind, label in vars(grid.units).items()})
     pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
-    material = [f"{one[0]} = {[one[1], other[1]]}" for one, other in pairs]
-    material += [
-        f"{key} = {[getattr(each, name) for each in grid.shear_materials]}"
-        for key, name in SHEAR_CONSTANTS.items()
-        if grid.shear_materials
-    ]
-    material += [f"{STRENGTH} = {[*grid.yield_strengths]}"] * bool(grid.yield_strengths)
-    material += [f"{LIMIT} = {[*grid.findley_limits]}"] * bool(grid.findley_limits)
-    tables += ["", "[material]", *material] if material else []
-    fixed = [f"{name} = {[*two]}" for name, two in grid.pairs.items()]
-    fixed += [f"bodies = [{', '.join(map(quoted, grid.body_names))}]"] * bool(grid.body_names)
-    return tables, [*fixed, f"similar = {grid.similar!r}"]
+    of_both = {one[0]: [one[1], other[1]] for one, other in pairs}
+    for key, name in SHEAR_CONSTANTS.items():
+        of_both[key] = [getattr(each, name) for each in grid.shear_materials]
+    of_both |= {STRENGTH: [*grid.yield_strengths], LIMIT: [*grid.findley_limits]}
+    material = {key: repr(both) for key, both in of_both.items() if both}
+    tables += _table("[material]", material) if material else []
+    fixed = {name: repr([*two]) for name, two in grid.pairs.items()}
+    if grid.body_names:
+        fixed["bodies"] = f"[{', '.join(map(quoted, grid.body_names))}]"
+    return tables, fixed | {"similar": repr(grid.similar)}
 
 
 def _literal(value: Value) -> str:
@@ -130,7 +135,7 @@ def as_html(study: Study) -> str:
     rows = [_row(grid, *each) for each in along]
     rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
     rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
-    rows += [_row(grid, "of each body", name, two) for name, two in grid.of_bodies.items()]
+    rows += [_row(grid, "of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
     return (
         f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
         f"{escape(_cost(study))}{html_table(rows)}</div>"
@@ -158,10 +163,9 @@ def _row(
 ) -> tuple[str, str, str, str]:
     """Kind, name, values and meaning of a parameter."""
     row = grid.row(name)
-    unit = f" {row.units}" if row.units not in ("1", "rad") else ""
     return (
         kind,
         name,
-        listed([*map(plain_words, values)], _LISTED) + unit,
+        listed([*map(plain_words, values)], _LISTED) + unit_words(row.units),
         row.described + (f"; figure: {role}" if role else ""),
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.points.values import index_at
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number
 from swtstudy.vocabulary.wording import number_words, numbers_words
 
@@ -127,8 +128,7 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
         return f"{rounds}: no crack"
     ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
     words = f"{rounds}, repeated {' to '.join(ends)} times to a crack"
-    worst = np.unravel_index(np.nanargmin(times.values), times.shape)
-    share = dataset[SHARE].isel(dict(zip(times.dims, worst, strict=True)))
+    share = dataset[SHARE].isel(index_at(times, int(np.nanargmin(times.values))))
     if not share.ndim:
         return words
     most = share[int(share.values.argmax())]

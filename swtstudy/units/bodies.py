@@ -92,19 +92,12 @@ def bodies_of(s: ArrayLike | xr.DataArray, alike: bool, body: object) -> NDArray
 
 
 def cycles_from(
-    constants: FatigueConstants | Sequence[FatigueConstants],
+    both: tuple[FatigueConstants, FatigueConstants],
     swt: Values,
     bodies: NDArray[np.intp],
     counted: xr.Dataset | None = None,
 ) -> Values:
-    """Rounds to a crack of each value with the constants of its body, see `FatigueConstants.rounds`.
-
-    Raises
-    ------
-    StudyError
-        If the constants are neither those of both bodies nor a pair.
-    """
-    both = constants_of_both(constants)
+    """Rounds to a crack of each value with the constants of its body, see `FatigueConstants.rounds`."""
     if counted is None:
         one, two = (each.cycles(np.asarray(swt)) for each in both)
     else:

@@ -16,13 +16,14 @@ from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.rules import check_largest
 from swtstudy.points.shapes import largest_depths, largest_reach
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
 from swtstudy.units.rows import MEAN_LOADS, SCALES
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, StudyError
+from swtstudy.vocabulary.mistakes import Report, StudyError, more_like_it
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -145,7 +146,7 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
     wrong = grid.at_rest.wrong
     if wrong:
         error, own = wrong[0]
-        more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
+        more = more_like_it(len(wrong))
         for mistake in error.mistakes:
             there = _words(grid, {name: value for name, value in own.items() if name != mistake.key})
             report.of(mistake.key, f"{mistake.found} at {there}{more}", mistake.allowed)
@@ -168,13 +169,12 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
         wrong &= values.values != 0.0  # the profile has none of it
     if not wrong.any() or not row.scale:
         return True
-    first = np.unravel_index(int(wrong.argmax()), wrong.shape)
-    at = dict(zip(map(str, values.dims), first, strict=True))
-    here = _at(grid, at)
+    at = index_at(values, int(wrong.argmax()))
+    first, here = tuple(at.values()), _at(grid, at)
     own, unit = as_number(here[source]), grid.row(source).units
     number = float(values.values[first])
     words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here and name != source})
-    more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
+    more = more_like_it(int(wrong.sum()))
     scale = AXES[source].scale or row.scale
     found = f"{own:g} {unit}".strip()
     if not np.isfinite(number):
@@ -209,8 +209,7 @@ def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
     for name, value in values.items():
         if isinstance(value, str | Definition) or (name not in _SAID and grid.dimension(name) is None):
             continue
-        unit = grid.row(name).units
-        words.append(f"{name} = {as_number(value):g}{'' if unit in ('1', '') else f' {unit}'}")
+        words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")
     return ", ".join(words)
 
 
@@ -234,7 +233,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     amplitude = grid.control.given_for("normal_amplitude")
     words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
     words += f", {amplitude} = {as_number(here[amplitude]):g} {grid.row(amplitude).units}".rstrip()
-    more = f"; {int(wrong.sum()) - 1} more like it" if wrong.sum() > 1 else ""
+    more = more_like_it(int(wrong.sum()))
     why = check_shape(numbers["pure"][first], {n: float(v[first]) for n, v in shape.items()}, depth[first])
     report.of(names or ("profile",), words + more, f"{why} (in a_H and δ0)")
 

@@ -82,7 +82,7 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def of_loads(self) -> str | None:
         """The mean that each load gives, "depth" or "normal_force"; None where it is given by itself."""
-        return mean_of_loads({*self.fixed, *self.axes, *self.samples}, super().values("load"))
+        return mean_of_loads(self.names, super().values("load"))
 
     def values(self, name: str) -> tuple[Value, ...]:
         """See `Grid.values`."""
@@ -97,7 +97,7 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def labels(self) -> Units:
         """Labels of the units, which may be per length."""
-        return labels_of(self.units, self.values("profile"), {*self.fixed, *self.axes, *self.samples})
+        return labels_of(self.units, self.values("profile"), self.names)
 
     @property
     def plane(self) -> bool:
@@ -113,11 +113,6 @@ class PhysicalGrid(ContactDetails, Grid):
     def rows(self) -> dict[str, Parameter]:
         """The rows of the parameters, with their units."""
         return rows(self.labels)
-
-    @property
-    def of_bodies(self) -> Mapping[str, tuple[float, float]]:
-        """See `Grid.of_bodies`."""
-        return self.pairs
 
     def row(self, name: str) -> Parameter:
         """See `Grid.row`."""

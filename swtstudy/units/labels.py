@@ -78,12 +78,10 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
 SMALLEST, LARGEST = 1e-100, 1e100
 
 
-def wrong_size(
-    name: str, value: object, allowed: str, sign: float = 1.0, zero: bool = False
-) -> list[Mistake]:
+def wrong_size(name: str, value: object, allowed: str, sign: float = 1.0) -> list[Mistake]:
     """The mistake of a value that is no number of this sign, or of no size that can be computed with."""
     number = sign * plain_number(value)
-    if SMALLEST <= number <= LARGEST or (zero and number == 0.0):
+    if SMALLEST <= number <= LARGEST:
         return []
     if number > 0.0:
         allowed += f", in magnitude from {SMALLEST:g} to {LARGEST:g}"

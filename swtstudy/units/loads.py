@@ -17,7 +17,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.rows import MEAN_LOADS
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.mistakes import Report
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES
 
 #: A load that stands for one that is wrong.
 ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]], 1.0)
@@ -44,7 +44,7 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
     found: dict[str, float] = {}
     if not are_measured(loads):
         return found
-    if not {"normal_amplitude", "normal_force_amplitude"} & {*given}:
+    if NORMAL_AMPLITUDES.isdisjoint(given):
         found["normal_force_amplitude"] = LOOP_AMPLITUDE
     if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
         kind = "" if "normal_amplitude" in given else "force_"
@@ -100,5 +100,5 @@ def check_lengths(profiles: Iterable[object], given: Collection[str], report: Re
 
 def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
     """A constant normal load of plane contacts, unless something is said of it."""
-    silent = not {"normal_amplitude", "normal_force_amplitude"} & {*given}
+    silent = NORMAL_AMPLITUDES.isdisjoint(given)
     return {"normal_force_amplitude": 0.0} if silent and any(map(is_plane, profiles)) else {}

@@ -17,7 +17,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.labels import KNOWN, Units, wrong_size
 from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, plain_number
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
@@ -299,8 +299,7 @@ def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[st
     try:
         materials = parse_toml(read_text(folder / file))
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        report("material.file", f"{literal(file)} ({reason})", _FILE)
+        report("material.file", f"{literal(file)} ({reason_of(error)})", _FILE)
         return []
     known = [name for name, table in materials.items() if isinstance(table, dict)]
     wrong = {str(name or ""): name for name in names if str(name or "") not in known}

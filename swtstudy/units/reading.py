@@ -13,7 +13,7 @@ from swtstudy.mechanics.load.load import Loop
 from swtstudy.points.reading import NOTHING_KNOWN, Known, Range, read_values
 from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
 from swtstudy.points.shapes import check_shapes_given
-from swtstudy.points.values import Value, as_number, read_value, values_taken
+from swtstudy.points.values import Value, amplitudes_of, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS, labels_or
@@ -27,7 +27,7 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PAIRS, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -103,7 +103,7 @@ def completed(
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
-    scaling = {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
+    scaling = amplitudes_of(loads)
     fixed = fixed | still_load(profiles, given | scaling)
     fixed = fixed | measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
@@ -200,7 +200,7 @@ def _check_given(
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report.of("body", literal(list(good["body"])), "1 or 2")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
-    scaling = {name for load in loops for name in load.scaled_by}
+    scaling = amplitudes_of(loops)
     sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
     if "bulk_stress_ratio" in everything and not sized:
         report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
@@ -213,7 +213,7 @@ def _check_given(
         check_forces(named, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
-        force = next(force for force, other in PAIRS.items() if other == name)
+        force = FORCE_OF[name]
         needed = own[name].default is None or name in scaling
         if name in everything or force in everything or not needed or (name in scaling and mixed):
             continue

@@ -57,11 +57,6 @@ SCALES: dict[str, Scale] = {
 }
 
 
-def may_vanish(row: Parameter) -> bool:
-    """Return whether a parameter may be 0 in a real contact: nothing else is measured in it."""
-    return not row.open_lower and all(scale.made_of != row.name for scale in SCALES.values())
-
-
 def number_of(name: str, value: Any, contact: Contact) -> Any:
     """The non-dimensional parameter from its length; what is no length stays as it is."""
     if not PARAMETERS[name].scale:
@@ -148,7 +143,9 @@ def _row(row: Parameter, units: Units) -> Parameter:
     kind = kind_of(row.name)
     if kind is None:
         return replace(row, default=default)
-    vanishes = bool(row.scale) and may_vanish(row) and row.part != "quantity"
+    # Nothing else can be measured in what may be 0.
+    is_measure = any(scale.made_of == row.name for scale in SCALES.values())
+    vanishes = row.scale and not row.open_lower and not is_measure and row.part != "quantity"
     lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
     label = units.label(kind)
     size = f"{kind} in {label}" if label else kind

@@ -53,6 +53,11 @@ def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
         raise ValueError("bytes that are not UTF-8") from None
 
 
+def reason_of(error: Exception) -> str:
+    """Say why a file cannot be read, without its name."""
+    return getattr(error, "strerror", None) or str(error)
+
+
 def parse_toml(text: str) -> dict[str, Any]:
     """The tables in a TOML text.
 

@@ -113,6 +113,17 @@ def literal(value: object, longest: int = 60) -> str:
     return text if len(text) <= longest else text[: longest - 1] + "…"
 
 
+def more_like_it(count: int) -> str:
+    """Say behind the first of some mistakes how many others there are.
+
+    Examples
+    --------
+    >>> more_like_it(1), more_like_it(3)
+    ('', '; 2 more like it')
+    """
+    return f"; {count - 1} more like it" if count > 1 else ""
+
+
 #: What is allowed where a text is none that can be stored.
 STORABLE = "a text that an archive can hold, without a null character"
 
@@ -137,6 +148,11 @@ def is_number(value: object) -> TypeGuard[Real | Decimal]:
     # NumPy.
     is_time = getattr(getattr(value, "dtype", None), "kind", "") == "m"
     return isinstance(value, Real | Decimal) and not isinstance(value, bool) and not is_time
+
+
+def is_whole(value: object, least: int, largest: float = math.inf) -> TypeGuard[int]:
+    """Return whether a value is a whole number in a range, and not a truth value."""
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= largest
 
 
 def plain_number(value: object) -> float:

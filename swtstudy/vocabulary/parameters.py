@@ -227,6 +227,10 @@ LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reverse
 PAIRS: dict[str, str] = {
     name: parameter.instead_of for name, parameter in PARAMETERS.items() if parameter.instead_of
 }
+#: The one of two that is a force, by the one whose place it takes.
+FORCE_OF = {other: force for force, other in PAIRS.items()}
+#: The two of the normal load.
+NORMAL_AMPLITUDES = frozenset({"normal_amplitude", "normal_force_amplitude"})
 
 
 def replaced_by(names: Iterable[str]) -> set[str]:
@@ -268,7 +272,7 @@ class Control:
     def given_for(self, name: str) -> str:
         """The parameter that is given in the place of one; that one itself where no force is."""
         forces = {"normal_amplitude": self.normal_force, "tangential_amplitude": self.tangential_force}
-        return next(force for force, other in PAIRS.items() if other == name) if forces.get(name) else name
+        return FORCE_OF[name] if forces.get(name) else name
 
 
 #: What the paper prescribes.

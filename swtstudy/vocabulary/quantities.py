@@ -43,8 +43,6 @@ class Quantity:
         `swtstudy.mechanics.line.counted.FewCycles`, that has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
-    units
-        CF units.
     dims
         Dimensions of its own beside those of the points: of `swtstudy.vocabulary.parameters.QUANTITY_AXES`,
         with `DISTANCE` among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`,
@@ -59,7 +57,6 @@ class Quantity:
     comment: str
     function: str
     has_error: bool = False
-    units: str = "1"
     dims: tuple[str, ...] = ()
     is_place: bool = False
 
@@ -301,9 +298,8 @@ def error_of(name: str) -> str:
     return f"{name}_error"
 
 
-def every_variable() -> tuple[str, ...]:
-    """Names of all data variables that may be asked."""
-    return tuple(variable for row in QUANTITIES.values() for variable in row.variables)
+#: Names of all data variables that may be asked.
+EVERY_VARIABLE = tuple(variable for row in QUANTITIES.values() for variable in row.variables)
 
 
 def attributes_of(variable: str) -> dict[str, Any]:
@@ -312,8 +308,8 @@ def attributes_of(variable: str) -> dict[str, Any]:
     if row is None:
         row = QUANTITIES[variable.removesuffix(error_of(""))]
         words = {"long_name": f"error of {row.name.replace('_', ' ')}", "comment": "absolute, estimated"}
-        return {**words, "units": row.units, "symbol": rf"\Delta {row.symbol}"}
-    attributes = {"long_name": row.meaning, "comment": row.comment, "units": row.units, "symbol": row.symbol}
+        return {**words, "units": "1", "symbol": rf"\Delta {row.symbol}"}
+    attributes = {"long_name": row.meaning, "comment": row.comment, "units": "1", "symbol": row.symbol}
     return attributes | ({"ancillary_variables": error_of(variable)} if row.has_error else {})
 
 

@@ -206,9 +206,19 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     """
     alone = AXES[name].kind == "name" or "flag_meanings" in attributes
     symbol = "" if alone else f"{parameter_words(name, attributes)} = "
-    units = attributes.get("units", "1")
-    units = "" if units in ("1", "rad", "") else f" {units}"
+    units = unit_words(attributes.get("units", "1"))
     return symbol + as_text(coordinate_words(name, value, attributes) + units)
+
+
+def unit_words(unit: str) -> str:
+    """A unit as it stands behind a number; nothing of those that go without saying.
+
+    Examples
+    --------
+    >>> unit_words("mm"), unit_words("rad"), unit_words("1")
+    (' mm', '', '')
+    """
+    return "" if unit in ("1", "rad", "") else f" {unit}"
 
 
 def pi_words(multiple: Fraction) -> str:
