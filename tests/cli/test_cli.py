@@ -526,7 +526,8 @@ def test_python_m(tmp_path):
 @pytest.fixture
 def suite(small_text, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("swtstudy.study.shipped.shipped_folder", lambda: tmp_path / "studies")
+    for module in ("study.shipped", "runner.run"):
+        monkeypatch.setattr(f"swtstudy.{module}.shipped_folder", lambda: tmp_path / "studies")
     (tmp_path / "studies").mkdir()
     for name, text in (("one", small_text.split("[figure]")[0]), ("two", small_text)):
         (tmp_path / "studies" / f"{name}.toml").write_text(text)
