@@ -20,7 +20,7 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, rows
 from swtstudy.units.variables import KINDS
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, family_of
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -269,8 +269,13 @@ class InUnits:
         for column, values in grid.numbers.items():
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
+        if is_plane(contact.profile) and "normal_amplitude" in own:
+            # That of a loop along which the normal load rests, by default: in the plane it is a force.
+            own["normal_force_amplitude"] = own.pop("normal_amplitude")
         # What scales a loop is 1 unless it is given.
         needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
+        if is_plane(contact.profile):
+            needed = (*needed, "normal_force_amplitude")
         if own["criterion"] == SWT:
             own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -65,7 +66,7 @@ def draw_load(
     if signal is not None and signal.is_absolute:
         loads = _at_begin(loads, signal.mean_cycle)  # a polygon begins at another vertex than its record
     phase = np.linspace(0.0, 1.0, len(loads))
-    forces = study.grid.control == Control(True, True)
+    forces = _control(study) == Control(True, True)
     with styled(style, width):
         sheet = Sheet(1, 3 if forces else 2, width)
         figure = sheet.figure()
@@ -87,9 +88,16 @@ def _first(study: Study, name: str, otherwise: float) -> float:
     return as_number(values[0]) if values else otherwise
 
 
+def _control(study: Study) -> Control:
+    """Which loads are drawn as forces; one that rests is what its mean is given as."""
+    grid, control = study.grid, study.grid.control
+    moves = any(map(as_number, grid.values(control.given_for("normal_amplitude"))))
+    return control if moves or not grid.values("normal_force") else replace(control, normal_force=True)
+
+
 def _units(study: Study) -> tuple[str, str, str]:
     """Units of both loads and of the bulk stress as words of a figure; empty where there are none."""
-    given = study.grid.control.given_for
+    given = _control(study).given_for
     names = (given("normal_amplitude"), given("tangential_amplitude"), "bulk_stress_amplitude")
     labels = (study.grid.row(name).units for name in names)
     one, two, three = ("" if label in ("", "1") else f" ({as_text(label)})" for label in labels)
@@ -121,7 +129,7 @@ def _loads(study: Study, loop: Loop) -> FloatArray:
 
 def _mean(study: Study, loop: Loop) -> float:
     """The mean normal load that a study has with a loop; 1 where nothing has units."""
-    kind = "normal_force" if study.grid.control.normal_force else "depth"
+    kind = "normal_force" if _control(study).normal_force else "depth"
     values = study.grid.values(kind)
     along = len(values) > 1 and study.grid.dimension(kind) == "load"
     at = list(study.grid.values("load")).index(loop) if along else 0
@@ -176,4 +184,4 @@ def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray)
 
 def _slope(study: Study) -> float:
     """Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0."""
-    return _first(study, "friction", 1.0) if study.grid.values("young_modulus") else 1.0
+    return _first(study, "friction", 1.0) if any(_units(study)) else 1.0

@@ -148,3 +148,21 @@ def test_an_amplitude_of_a_loop_is_asked_for() -> None:
         physical(**given)
     own = physical(**given, normal_force_amplitude=1.0).parameters()
     assert own["normal_force_amplitude"] == pytest.approx(1.0 / 150.0)
+
+
+def test_a_cylinder_at_rest_under_a_loop_is_inspected() -> None:
+    """Its normal load has no amplitude: what scales the loop is that of a force there."""
+    loop = swtstudy.LoadPath("stroke", [[0.0, -300.0], [0.0, 300.0]])
+    contact = swtstudy.physical(
+        young_modulus=210e3,
+        poisson_ratio=0.3,
+        radius=40.0,
+        friction=0.6,
+        profile="cylinder",
+        normal_force=1000.0,
+        tangential_force_amplitude=1.0,
+        load=loop,
+    )
+    alone = swtstudy.solve(**contact.parameters())
+    np.testing.assert_allclose(alone.s, contact.solve().s[0], rtol=1e-9)
+    assert contact.inspect_point(1).dissipation > 0.0

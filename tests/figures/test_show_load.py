@@ -109,3 +109,34 @@ def test_a_depth_and_a_force_have_units_each() -> None:
     text = text[: text.index("file = ")] + "vertices = [[0, -20], [0, 20]]\n"
     path = draw_load(Study.from_text(text), "rig").axes[1]
     assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (mm)", "tangential load (N)")
+
+
+IN_UNITS = """
+title = "A sphere"
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[fixed]
+poisson_ratio = 0.3
+radius = 40
+friction = 0.4
+load = "a"
+"""
+
+
+@pytest.mark.parametrize("modulus", ["210e3", "[210e3, 206e3]"])
+def test_friction_limits_the_load_on_bodies_of_two_moduli(modulus: str) -> None:
+    loop = "[loads.a]\nabsolute = true\nvertices = [[300, -80], [320, 80]]\n"
+    figure = draw_load(Study.from_text(f"{IN_UNITS}young_modulus = {modulus}\n{loop}"), "a")
+    assert figure.axes[2].get_title(loc="left") == "friction, at most 0.67"  # 80/(0.4 · 300)
+
+
+def test_a_normal_force_at_rest_is_drawn_as_what_it_is() -> None:
+    given = "young_modulus = 210e3\nnormal_force = 200\ntangential_force_amplitude = 1\n"
+    loop = "[loads.a]\nvertices = [[0, -60], [0, 60]]\n"
+    figure = draw_load(Study.from_text(IN_UNITS + given + loop), "a")
+    course, path, margin = figure.axes
+    assert path.get_xlabel() == "normal load (N)"
+    np.testing.assert_allclose(course.lines[0].get_ydata(), 200.0)
+    assert margin.get_title(loc="left") == "friction, at most 0.75"  # 60/(0.4 · 200)
