@@ -47,12 +47,13 @@ def of_rounding(
     size = np.sqrt(swt) if is_product else swt
     # Two bounds of one thing.
     rounding = np.minimum(_rounding(scene, r), _share_within_rounding(scene, r) * size)
-    rounding = rounding + _of_tables(scene, accuracy.check)
+    # Both factors of swt are rounded; tables have their error once.
+    rounding = (2.0 if is_product else 1.0) * rounding + _of_tables(scene, accuracy.check)
     if scene.profile.has_singular_edge:
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
         rounding *= r[:, 0] - flat >= flat * reach_of_edge(scene.profile)
-    of_both = np.asarray(2.0 * rounding * size if is_product else rounding)
+    of_both = np.asarray(rounding * size if is_product else rounding)
     if scene.bulk is None:
         return of_both
     look = Look.at(scene, r, accuracy.search.nodes, accuracy.search.digits)
