@@ -269,13 +269,12 @@ class InUnits:
         for column, values in grid.numbers.items():
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
-        if is_plane(contact.profile) and "normal_amplitude" in own:
-            # That of a loop along which the normal load rests, by default: in the plane it is a force.
-            own["normal_force_amplitude"] = own.pop("normal_amplitude")
         # What scales a loop is 1 unless it is given.
         needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
         if is_plane(contact.profile):
+            # In the plane it is always a force, also where the normal load rests along a loop.
             needed = (*needed, "normal_force_amplitude")
+            own.setdefault("normal_force_amplitude", own.pop("normal_amplitude", 0.0))
         if own["criterion"] == SWT:
             own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
         else:

@@ -47,7 +47,7 @@ def _table(reach: float) -> FloatArray:
 
 
 def _hermite(value: FloatArray, slope: FloatArray) -> FloatArray:
-    """Coefficients of t⁰ to t³ tith the values and slopes at both ends of each cell, shape (4, cells)."""
+    """Coefficients of t⁰ to t³ from the values and slopes at both ends of each cell, shape (4, cells)."""
     chord = np.diff(value) / STEP
     left, right = slope[:-1], slope[1:]
     cubic, square = (left + right - 2.0 * chord) / STEP**2, (3.0 * chord - 2.0 * left - right) / STEP

@@ -47,18 +47,19 @@ def of_rounding(
     size = np.sqrt(swt) if is_product else swt
     # Two bounds of one thing.
     rounding = np.minimum(_rounding(scene, r), _share_within_rounding(scene, r) * size)
-    # Both factors of swt are rounded; tables have their error once.
-    rounding = (2.0 if is_product else 1.0) * rounding + _of_tables(scene, accuracy.check)
+    of_stress = rounding + _of_tables(scene, accuracy.check)
+    # Both factors of a product are rounded.
+    of_both = np.asarray((of_stress + rounding) * size if is_product else of_stress)
     if scene.profile.has_singular_edge:
         # Nearer, the limit counts.
         flat = scene.profile.flat_radius
-        rounding *= r[:, 0] - flat >= flat * reach_of_edge(scene.profile)
-    of_both = np.asarray(rounding * size if is_product else rounding)
+        beyond = r[:, 0] - flat >= flat * reach_of_edge(scene.profile)
+        of_both, of_stress = of_both * beyond, of_stress * beyond
     if scene.bulk is None:
         return of_both
     look = Look.at(scene, r, accuracy.search.nodes, accuracy.search.digits)
     planes = scene.planes(look.history, np.sign(position)[:, None, None])
-    return np.maximum(of_both, _of_tension(planes, double_angle, rounding))
+    return np.maximum(of_both, _of_tension(planes, double_angle, of_stress))
 
 
 def _of_tension(planes: PlaneHistory, double_angle: FloatArray, rounding: FloatArray) -> FloatArray:
