@@ -19,7 +19,7 @@ from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
+from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes, on_planes
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -333,7 +333,7 @@ def _summits(
         return some.criterion.of_maxima(*(lifted(curve, within).max(axis=-1) for curve in of_swt))
 
     angles = 2.0 * np.pi / PLANES * np.arange(PLANES)
-    table = np.array([height(planes, np.full(len(inside), angle), inside) for angle in angles])
+    table = on_planes(planes, PLANES)
     peak = (table >= np.roll(table, 1, axis=0)) & (table > np.roll(table, -1, axis=0))
     peak &= table >= (1.0 - 2.0 * SHARE) * table.max(axis=0)
     # A place without tension keeps one.

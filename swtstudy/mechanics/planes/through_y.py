@@ -94,7 +94,7 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
         the point's largest; 2θ in rad.
     """
     blocks = range(0, history.stress.shape[1], BLOCK)
-    table = np.concatenate([_on_planes(history.take(slice(k, k + BLOCK)), count) for k in blocks], axis=1)
+    table = np.concatenate([on_planes(history.take(slice(k, k + BLOCK)), count) for k in blocks], axis=1)
     step, best, swt = 2.0 * np.pi / count, table.argmax(axis=0), table.max(axis=0)
     angle = best * step
     at = np.nonzero(swt >= IMPROVED_SHARE * swt.max(axis=1, keepdims=True))
@@ -109,7 +109,7 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
     return swt, angle
 
 
-def _on_planes(history: PlaneHistory, count: int) -> FloatArray:
+def on_planes(history: PlaneHistory, count: int) -> FloatArray:
     """swt at n × X positions on each of ``count`` planes, shape (count, n, X)."""
     # Extremes over the first axis are the fastest.
     stress, swing = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.swing))
