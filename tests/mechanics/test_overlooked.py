@@ -1,7 +1,7 @@
 """Maxima that a search along the line once overlooked: small motions make narrow rings.
 
 The values are those of `swtstudy.paper.audit.point`: plain loops over 400 positions of each piece and 64
-planes; two of the last ones are up to 2e-5 higher, by both ways through the solver, with and without a bulk
+planes; some of the last ones are up to 2e-5 higher, by both ways through the solver, with and without a bulk
 stress.
 """
 
@@ -310,6 +310,53 @@ CASES = [
         {"normal_amplitude": 0.66, "phase": 2.443460952792061, "tangential_amplitude": 5.0 / 6.0},
         "1",
         0.12087874317,
+    ),
+    # Two planes 0.03 rad of 2θ apart have a summit each, which a climb on one of them does not see.
+    (
+        {
+            "normal_amplitude": 0.6003234556424178,
+            "tangential_amplitude": 0.49686414190682876,
+            "phase": 0.46069256441518197,
+            "poisson_ratio": 0.48974939340991197,
+            "friction": 0.46697344897671633,
+        },
+        "3/2",
+        0.25281330325,
+    ),
+    # A peak in the layer that a stretch of 4e-5 rad makes in one of 0.26 rad: 1.3e-5 above the dense look.
+    (
+        {
+            "normal_force_amplitude": 0.1902069223118294,
+            "tangential_force_amplitude": 0.12170318721347158,
+            "phase": 0.7364701381659569,
+            "poisson_ratio": 0.13952672745281475,
+            "friction": 0.21373241188266423,
+        },
+        "3",
+        0.0406007172,
+    ),
+    # Low peaks between instants of a long stretch beside short ones.
+    (
+        {
+            "normal_amplitude": 0.046123700261580344,
+            "tangential_amplitude": 0.3418128478879935,
+            "phase": 0.0012310987768624116,
+            "poisson_ratio": 0.45502800497545737,
+            "friction": 0.6114174528401171,
+        },
+        "1",
+        0.21316591685,
+    ),
+    (
+        {
+            "normal_force_amplitude": 0.028317816826730444,
+            "tangential_force_amplitude": 0.43851689335975186,
+            "phase": 4.107616163437143e-06,
+            "poisson_ratio": 0.4797764508372735,
+            "friction": 0.895224763040125,
+        },
+        "1",
+        0.42548626366,
     ),
 ]
 

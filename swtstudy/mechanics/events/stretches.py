@@ -149,6 +149,38 @@ def stretches(cycle: Cycle, at: FloatArray) -> Stretches:
     return Stretches(low, high)
 
 
+def split_at_layers(cycle: Cycle, at: FloatArray, thin: float) -> Cycle:
+    """The same cycle with its intervals cut where thin layers of the `stretches` at one spring end.
+
+    What happens in a short stretch makes a layer in a long one beside it, too.
+
+    Parameters
+    ----------
+    cycle
+        n cycles.
+    at
+        Shape (n,): G of the springs.
+    thin
+        Largest layer that counts, as a share of the angle of a stretch, whose square goes like the time.
+    """
+    parts = stretches(cycle, at[:, None])
+    row, number = np.nonzero(parts.real[:, 0])
+    low, high = parts.low[row, 0, number], parts.high[row, 0, number]
+    length = high - low
+    first = np.append(True, np.diff(row) > 0)
+    last = np.append(first[1:], True)
+    before, after = np.roll(length, 1), np.roll(length, -1)
+    # The cycle is closed.
+    before[first], after[last] = length[last], length[first]
+    thickest = (0.5 * np.pi * thin) ** 2 * length
+    begins, ends = before < thickest, after < thickest
+    owner = np.append(row[begins], row[ends])
+    if not owner.size:
+        return cycle
+    cuts = np.append((low + before)[begins], (high - after)[ends])
+    return split_at(cycle, filled_rows(owner, cuts, len(at), PERIOD))
+
+
 def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
     """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.mechanics.events.stretches import split_at_layers
 from swtstudy.mechanics.events.zoom import TimeBrackets
-from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
+from swtstudy.mechanics.line.first_look import CLOSE_SHARE, SHARE, THIN, Seen, high_positions
 from swtstudy.mechanics.line.look import Extremes, Look, Resolution, lifted
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
@@ -138,6 +139,42 @@ def refine(
     """
     look = Look.at(scene, position, resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
+    return _refined(scene, look, planes, side, double_angle, resolution)
+
+
+def refine_beside(
+    scene: Scene, r: FloatArray, side: FloatArray, double_angle: FloatArray, resolution: Resolution
+) -> tuple[FloatArray, FloatArray]:
+    """`refine` at one place of each point, all of shape (n,), where summits of other planes or instants hide.
+
+    Layers of the cycle have instants of their own (without: 1.4e-4 at a point of
+    tests/mechanics/test_overlooked.py), and planes beside are tried (without: 9e-5 at another).
+    """
+    at = scene.coordinate.of(r[:, None])[:, 0]
+    scene = replace(scene, cycle=split_at_layers(scene.cycle, at, THIN))
+    look = Look.at(scene, r[:, None], resolution.nodes, resolution.digits)
+    planes = scene.planes(look.history, side[:, None, None])
+    own = np.arange(len(r))
+    starts = (double_angle + BESIDE[:, None]).ravel()
+    row, angle, swt = _distinct(
+        planes.take(own, 0 * own), look.inside[:, 0], np.tile(own, len(BESIDE)), starts
+    )
+    high = swt >= (1.0 - CLOSE_SHARE) * largest_of_rows(row, swt)[row]
+    row, start = row[high], angle[high, None]
+    found = _refined(scene.take(row), look.take(row), planes.take(row), side[row], start, resolution)
+    best = np.lexsort((-found[0][:, 0], row))[np.unique(row, return_index=True)[1]]
+    return found[0][best, 0], found[1][best, 0]
+
+
+def _refined(
+    scene: Scene,
+    look: Look,
+    planes: PlaneHistory,
+    side: FloatArray,
+    double_angle: FloatArray,
+    resolution: Resolution,
+) -> tuple[FloatArray, FloatArray]:
+    """swt and 2θ by ever closer samples around the extremes that a look shows."""
     # Not the best plane near by on these nodes: there the summit of a narrow peak may be none.
     best = double_angle
     extremes = Extremes.of(planes.criterion.curves(*planes.on_plane(best)), look.inside)
@@ -305,6 +342,7 @@ class Climb(Rows):
             seen=value,
             remaining=value,
             rounds=twins.rounds + 1,
+            settled=np.zeros(len(twins.point), dtype=bool),
         )
 
 
@@ -328,10 +366,6 @@ def _summits(
         Shape (k,): numbers of the places, ascending, 2θ of the planes in rad and swt there.
     """
 
-    def height(some: PlaneHistory, angle: FloatArray, within: NDArray[np.bool_]) -> FloatArray:
-        of_swt = some.criterion.curves(*some.on_plane(angle))
-        return some.criterion.of_maxima(*(lifted(curve, within).max(axis=-1) for curve in of_swt))
-
     angles = 2.0 * np.pi / PLANES * np.arange(PLANES)
     table = on_planes(planes, PLANES)
     peak = (table >= np.roll(table, 1, axis=0)) & (table > np.roll(table, -1, axis=0))
@@ -339,10 +373,18 @@ def _summits(
     # A place without tension keeps one.
     peak[table.argmax(axis=0), np.arange(len(inside))] = True
     row, plane = np.nonzero(peak.T)
-    reached = climb_over_planes(planes.take(row), angles[plane] + BESIDE[:, None], ANGLE_ROUNDS).ravel()
-    reached = np.concatenate([reached, climb_over_planes(planes, double_angle, ANGLE_ROUNDS)])
-    row = np.concatenate([np.tile(row, len(BESIDE)), np.arange(len(inside))])
-    swt = height(planes.take(row), reached, inside[row])
+    starts = np.append(angles[plane] + BESIDE[:, None], double_angle)
+    return _distinct(planes, inside, np.append(np.tile(row, len(BESIDE)), np.arange(len(inside))), starts)
+
+
+def _distinct(
+    planes: PlaneHistory, inside: NDArray[np.bool_], row: NDArray[np.intp], start: FloatArray
+) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    """`_summits` to which starts lead, 2θ of k planes at the places number ``row``."""
+    some, within = planes.take(row), inside[row]
+    reached = climb_over_planes(some, start, ANGLE_ROUNDS)
+    of_swt = some.criterion.curves(*some.on_plane(reached))
+    swt = some.criterion.of_maxima(*(lifted(curve, within).max(axis=-1) for curve in of_swt))
     order = np.lexsort((-swt, row))
     row, reached, swt = row[order], reached[order], swt[order]
     # Of starts that lead to one summit the highest counts.

@@ -265,7 +265,8 @@ class Accuracy:
         digits = -np.log10(rtol)
         # Four digits by the first zoom, and so many more by each further one.
         zooms = max(int(np.ceil((digits - 1.0) / DIGITS_PER_ZOOM)), 1)
-        return cls(Resolution(4, zooms, digits + 1.0), Resolution(5, zooms + 1, digits + 2.5), rtol)
+        # Half as many instants more in the check; 5: 1e-5 at a point of tests/mechanics/test_overlooked.py.
+        return cls(Resolution(4, zooms, digits + 1.0), Resolution(6, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
         """The same with twice the instants, closer looks at the extremes, more digits and more rounds."""

@@ -17,7 +17,7 @@ from swtstudy.mechanics.line.first_look import joined_pieces, resolved
 from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounding import of_rounding
-from swtstudy.mechanics.line.rounds import CHANGE_SHARE, climb_to_tops, looked_at_once_more
+from swtstudy.mechanics.line.rounds import CHANGE_SHARE, tops
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -86,10 +86,8 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
     """The maxima of the points to which climbs belong, in their order."""
-    climb = climb_to_tops(split, positions, climb, accuracy, SHARES)
-    # What is still on its way counts for what was seen of it.
-    climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), SHARES[-1])
-    position, value, angle = looked_at_once_more(split, positions, climb, accuracy)
+    found = tops(split, positions, climb, accuracy, SHARES)
+    climb, value = found.climb, found.value
     order = np.lexsort((-value, climb.point))
     best = order[np.unique(climb.point[order], return_index=True)[1]]
     # A climb that is not over may change by all that its last round has changed, once more.
@@ -99,7 +97,7 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
     error = np.abs(value[best] - climb.top[best]) + remaining[best]
     # Nothing finer than this was looked at.
     error = np.maximum(error, accuracy.tolerance * value[best])
-    return Maximum(value[best], error, position[best], angle[best])
+    return Maximum(value[best], error, found.position[best], found.angle[best])
 
 
 #: Relative accuracy of swt there.
@@ -133,9 +131,8 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(CANDIDATE_TOLERANCE)
     positions, seen = resolved(scene, Pieces.of(split), least)
     climb = Climb.start(split, positions, seen, accuracy.search, least)
-    climb = climb_to_tops(split, positions, climb, accuracy)
-    position, swt, angle = looked_at_once_more(split, positions, climb, accuracy)
-    found = Candidates(climb.point, position, angle, swt)
+    top = tops(split, positions, climb, accuracy)
+    found = Candidates(top.climb.point, top.position, top.angle, top.value)
     return _apart(found, SAME_MAXIMUM * scene.largest_radius)
 
 

@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, SAME_PLANE, SHRINKING, Climb, refine
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, SAME_PLANE, SHRINKING, Climb, refine, refine_beside
 from swtstudy.mechanics.line.first_look import SHARE
 from swtstudy.mechanics.line.look import SETTLED, Accuracy
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.roots import polynomial_maximum, powers_from_values, vertex_near
 from swtstudy.mechanics.planes.through_y import apart
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Distances at which each round looks, in widths. All over 1.5: 4e-7, the same time.
@@ -135,13 +135,51 @@ def climb_to_tops(
     return climb
 
 
-def looked_at_once_more(
-    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Signed x, swt and 2θ of the critical plane at the tops of climbs, (m,) each, in the closer check."""
-    r = positions.take(climb.place).around(climb.centre[:, None])
-    swt, angle = refine(scene.take(climb.point), r, climb.side, climb.angle[:, None], accuracy.check)
-    return climb.side * r[:, 0], swt[:, 0], angle[:, 0]
+@dataclass(frozen=True)
+class Tops(Rows):
+    """What a closer look finds where m climbs have ended.
+
+    Attributes
+    ----------
+    climb
+        The climbs.
+    position, value, angle
+        Shape (m,): signed x in a_H, swt, and 2θ of the best plane, rad.
+    """
+
+    climb: Climb
+    position: FloatArray
+    value: FloatArray
+    angle: FloatArray
+
+
+def tops(
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float] = ()
+) -> Tops:
+    """Climb, and look once more; from where that is higher, on instants or a plane unseen so far, climb on.
+
+    For ``shares`` see `climb_to_tops`.
+    """
+    found = _looked_at_once_more(scene, positions, climb, accuracy, shares)
+    higher = found.value > (1.0 + accuracy.tolerance) * found.climb.top
+    if not higher.any():
+        return found
+    some = found.take(higher)
+    again = found.climb.twins(np.flatnonzero(higher), some.climb.centre, some.value, some.angle)
+    more = _looked_at_once_more(scene, positions, again, accuracy, shares)
+    return Tops.joined([found.take(~higher), more])
+
+
+def _looked_at_once_more(
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float]
+) -> Tops:
+    climb = climb_to_tops(scene, positions, climb, accuracy, shares)
+    if shares:
+        # What is still on its way counts for what was seen of it.
+        climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), shares[-1])
+    r = positions.take(climb.place).around(climb.centre[:, None])[:, 0]
+    swt, angle = refine_beside(scene.take(climb.point), r, climb.side, climb.angle, accuracy.check)
+    return Tops(climb, climb.side * r, swt, angle)
 
 
 def _climb_round(scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> tuple[Climb, Climb]:
